@@ -1,0 +1,69 @@
+"""At what urine pressure does a kidney stone pass a ureter, and how large may it be?
+
+A Python implementation of the stone–ureter interaction model of Liu et al. 2022
+(doi 10.1016/j.jmbbm.2022.105432), with its errata corrected openly. Research use only.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from stonepass.errors import BadInput, Outcome, StonepassError
+    from stonepass.materials.protocol import Material
+    from stonepass.model.case import Case, Load, Method, Stone, Ureter
+    from stonepass.model.critical import Answer, critical_pressure, solve
+    from stonepass.model.seated import SeatedState, seat
+    from stonepass.model.size import SizeAnswer, critical_size
+
+__version__ = "0.1.0"
+
+# Every public name and the module it lives in; nothing is imported before it is used.
+_HOME = {
+    "Answer": "model.critical",
+    "BadInput": "errors",
+    "Case": "model.case",
+    "Load": "model.case",
+    "Material": "materials.protocol",
+    "Method": "model.case",
+    "Outcome": "errors",
+    "SeatedState": "model.seated",
+    "SizeAnswer": "model.size",
+    "Stone": "model.case",
+    "StonepassError": "errors",
+    "Ureter": "model.case",
+    "critical_pressure": "model.critical",
+    "critical_size": "model.size",
+    "seat": "model.seated",
+    "solve": "model.critical",
+}
+
+__all__ = [
+    "Answer",
+    "BadInput",
+    "Case",
+    "Load",
+    "Material",
+    "Method",
+    "Outcome",
+    "SeatedState",
+    "SizeAnswer",
+    "Stone",
+    "StonepassError",
+    "Ureter",
+    "critical_pressure",
+    "critical_size",
+    "seat",
+    "solve",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'stonepass' has no attribute '{name}'")
+    return getattr(import_module(f"stonepass.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

@@ -1,0 +1,87 @@
+"""What can go wrong: errors for a wrong request, outcomes for physics without an answer."""
+
+from __future__ import annotations
+
+import enum
+from difflib import get_close_matches
+from typing import Any, NoReturn
+
+__all__ = [
+    "BadInput",
+    "MissingPart",
+    "Outcome",
+    "SolverFault",
+    "StonepassError",
+    "UnstableLaw",
+    "refuse_unknown",
+    "require",
+]
+
+
+class StonepassError(Exception):
+    """Root of every error this package raises on purpose."""
+
+
+class BadInput(StonepassError, ValueError):
+    """The request is wrong: one sentence says what, which value, what is allowed, what to do."""
+
+    def __init__(self, argument: str, value: Any, allowed: str, remedy: str = "") -> None:
+        super().__init__(argument, value, allowed, remedy)
+        self.argument, self.value, self.allowed, self.remedy = argument, value, allowed, remedy
+
+    def __str__(self) -> str:
+        shown = self.value if isinstance(self.value, str) else repr(self.value)
+        shown = " ".join(shown.split())
+        if len(shown) > 80:
+            shown = shown[:77] + "..."
+        tail = f"; {self.remedy}" if self.remedy else ""
+        return f"{self.argument} is {shown or 'empty'}, but must be {self.allowed}{tail}."
+
+
+class UnstableLaw(BadInput):
+    """The material law lets some strain lower the energy, so it describes no solid."""
+
+    def __str__(self) -> str:
+        tail = f"; {self.remedy}" if self.remedy else ""
+        return f"{self.argument} '{self.value}' is not stable: {self.allowed}{tail}."
+
+
+class MissingPart(StonepassError):
+    """A part of the installation that the request needs is not there."""
+
+
+class SolverFault(StonepassError):
+    """We are wrong: a converged state that cannot be, never to be passed on as a result."""
+
+
+class Outcome(enum.Enum):
+    """How a question ended; the value is the sentence a person reads."""
+
+    MOVES = "The stone moves once the urine pressure above it reaches the critical pressure."
+    LOOSE = "The stone is no larger than the lumen: it is not stuck, no pressure is needed."
+    CLEARS = "Urine passes the stone before the stone moves."
+    BEYOND_CLOSURE = (
+        "Drive and resistance do not balance before the paper's closure ends (contact angle 90°): "
+        "this model has no answer; the direct push-through model is the way on."
+    )
+    NO_SOLUTION = "The finite elements found no equilibrium."
+    BELOW_RANGE = "Every stuck stone needs more than the pressure limit."
+    BEYOND_RANGE = "The pressure limit is not reached within the strain range of the material."
+
+    @property
+    def answered(self) -> bool:
+        """Whether the outcome is an answer (exit code 0) rather than the lack of one."""
+        return self in (Outcome.MOVES, Outcome.LOOSE, Outcome.CLEARS)
+
+
+def require(condition: bool, argument: str, value: Any, allowed: str, remedy: str = "") -> None:
+    """Raise `BadInput` unless `condition` holds; a NaN comparison is False and so refused."""
+    if not condition:
+        raise BadInput(argument, value, allowed, remedy)
+
+
+def refuse_unknown(argument: str, value: str, known: list[str]) -> NoReturn:
+    """Raise `BadInput` for a name that is not among `known`, naming the nearest one."""
+    near = get_close_matches(value, known, n=1, cutoff=0.4)
+    remedy = f"did you mean '{near[0]}'?" if near else ""
+    raise BadInput(argument, value, "one of " + ", ".join(known), remedy.rstrip("?"))

@@ -1,0 +1,80 @@
+"""A structured mesh of the tube's meridian whose nodes can be moved without a new set-up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import netgen.meshing as nm
+import ngsolve as ng
+import numpy as np
+from jaxtyping import Float
+from scipy.optimize import brentq
+
+__all__ = ["BOUNDARIES", "Layout", "graded", "place", "structured_mesh"]
+
+# closed: inner wall that touches the profile; open: inner wall beyond the contact edge.
+BOUNDARIES = ("closed", "open", "outer", "middle", "end")
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the grid lines lie: `radial` R/R_a, `axial` Z/R_a, `closed` columns in contact."""
+
+    radial: Float[np.ndarray, rows + 1]
+    axial: Float[np.ndarray, columns + 1]
+    closed: int
+
+    @property
+    def rows(self) -> int:
+        """Number of element rows through the wall."""
+        return len(self.radial) - 1
+
+    @property
+    def columns(self) -> int:
+        """Number of element columns along the tube."""
+        return len(self.axial) - 1
+
+
+def structured_mesh(layout: Layout) -> ng.Mesh:
+    """Build quadrilaterals on `layout`, with the boundaries `BOUNDARIES`."""
+    mesh = nm.Mesh(dim=2)
+    wall = mesh.AddRegion("wall", dim=2)
+    side = {name: mesh.AddRegion(name, dim=1) for name in BOUNDARIES}
+    rows, columns = layout.rows, layout.columns
+    node = [
+        [mesh.Add(nm.MeshPoint(nm.Pnt(r, z, 0.0))) for z in layout.axial] for r in layout.radial
+    ]
+    for i in range(rows):
+        for j in range(columns):
+            corners = [node[i][j], node[i + 1][j], node[i + 1][j + 1], node[i][j + 1]]
+            mesh.Add(nm.Element2D(wall, corners))
+    for j in range(columns):
+        inner = "closed" if j < layout.closed else "open"
+        mesh.Add(nm.Element1D([node[0][j], node[0][j + 1]], index=side[inner]))
+        mesh.Add(nm.Element1D([node[rows][j], node[rows][j + 1]], index=side["outer"]))
+    for i in range(rows):
+        mesh.Add(nm.Element1D([node[i][0], node[i + 1][0]], index=side["middle"]))
+        mesh.Add(nm.Element1D([node[i][columns], node[i + 1][columns]], index=side["end"]))
+    return ng.Mesh(mesh)
+
+
+def place(mesh: ng.Mesh, layout: Layout) -> None:
+    """Move the nodes of a mesh to another layout of the same rows and columns."""
+    radial, axial = np.meshgrid(layout.radial, layout.axial, indexing="ij")
+    mesh.ngmesh.Coordinates()[:] = np.column_stack([radial.ravel(), axial.ravel()])
+
+
+def graded(count: int, first: float, total: float) -> Float[np.ndarray, " count+1"]:
+    """Points 0 … `total` whose intervals grow geometrically from `first`; even if that is large.
+
+    ``graded(2, 1.0, 3.0)`` is 0, 1, 3: the intervals 1 and 2 have the ratio 2.
+    """
+    if first * count >= total:
+        return np.linspace(0.0, total, count + 1)
+
+    def excess(log_ratio: float) -> float:
+        return float(first * np.exp(log_ratio * np.arange(count)).sum() - total)
+
+    log_ratio = brentq(excess, 0.0, np.log(total / first) + 1.0, xtol=1e-14)
+    points = np.concatenate([[0.0], np.cumsum(first * np.exp(log_ratio * np.arange(count)))])
+    return points * (total / points[-1])

@@ -1,0 +1,173 @@
+"""Damped Newton iteration on a condensed system, optionally with one extra scalar unknown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import ngsolve as ng
+
+__all__ = ["Bordered", "Plain", "Report", "newton"]
+
+SMALLEST_STEP = 0.02
+SUFFICIENT_DECREASE = 0.05
+
+
+@dataclass(frozen=True)
+class Report:
+    """How an iteration went: `residual` is its last norm, `reason` empty where it converged."""
+
+    steps: int
+    residual: float
+    reason: str
+
+    @property
+    def converged(self) -> bool:
+        """Whether the tolerance was met."""
+        return not self.reason
+
+
+class System(Protocol):
+    """A nonlinear system with a current state that can be moved along a direction."""
+
+    def residual(self) -> float:
+        """Norm of the residual at the current state."""
+
+    def direction(self) -> None:
+        """Compute the Newton direction and remember the current state as its origin."""
+
+    def move(self, step: float) -> None:
+        """Go to origin + `step` × direction."""
+
+
+def newton(system: System, tolerance: float, most: int = 40) -> Report:
+    """Iterate until the residual norm is at most `tolerance`.
+
+    The step is halved until the norm falls by `SUFFICIENT_DECREASE` × step, down to
+    `SMALLEST_STEP`, which is taken as it is: with contact a step may have to climb. A state that
+    is not finite even there ends the iteration, as does a singular matrix.
+    """
+    norm = system.residual()
+    for count in range(most):
+        if norm <= tolerance:
+            return Report(count, norm, "")
+        try:
+            system.direction()
+        except ng.ngstd.NgException:
+            return Report(count, norm, "the tangent matrix is singular")
+        norm, last = _search(system, norm), norm
+        if not math.isfinite(norm):
+            return Report(count + 1, last, "the wall turned inside out during the iteration")
+    if norm <= tolerance:
+        return Report(most, norm, "")
+    return Report(most, norm, f"no convergence in {most} Newton steps")
+
+
+def _search(system: System, start: float) -> float:
+    step = 1.0
+    while True:
+        system.move(step)
+        norm = system.residual()
+        if norm <= start * (1.0 - SUFFICIENT_DECREASE * step):  # False for NaN
+            return norm
+        if step <= SMALLEST_STEP:
+            return norm
+        step = max(step / 2.0, SMALLEST_STEP)
+
+
+class Plain:
+    """The residual of a form in its free unknowns."""
+
+    def __init__(self, form: Any, state: Any, free: Any) -> None:
+        self.form, self.state = form, state
+        self._keep = ng.Projector(free, True)
+        self._coupling = free & state.space.FreeDofs(True)
+        self._force, self._change, self._origin = (state.vec.CreateVector() for _ in range(3))
+
+    def evaluate(self, into: Any) -> None:
+        """Write the residual vector at the current state into `into`."""
+        self.form.Apply(self.state.vec, into)
+        self._keep.Project(into)
+
+    def residual(self) -> float:
+        """Norm of the residual at the current state."""
+        self.evaluate(self._force)
+        return float(ng.Norm(self._force))
+
+    def direction(self) -> None:
+        """Linearise, factorise and solve."""
+        self._origin.data = self.state.vec
+        self.evaluate(self._force)
+        self.factorise()
+        self.solve(self._force, self._change)
+
+    def move(self, step: float) -> None:
+        """Go to origin − step × change."""
+        self.state.vec.data = self._origin - step * self._change
+
+    def factorise(self) -> None:
+        """Assemble the tangent at the current state and factorise its condensed part."""
+        self.form.AssembleLinearization(self.state.vec)
+        self._inverse = self.form.mat.Inverse(self._coupling, inverse="umfpack")
+
+    def solve(self, rhs: Any, into: Any) -> None:
+        """Solve tangent × into = rhs, element interiors included; overwrites `rhs`."""
+        form = self.form
+        rhs.data += form.harmonic_extension_trans * rhs
+        into.data = self._inverse * rhs
+        into.data += form.harmonic_extension * into
+        into.data += form.inner_solve * rhs
+
+
+class Bordered(Plain):
+    """A form with one scalar unknown more (`value`) and one condition more: state[index] = 0.
+
+    The scalar enters the form through `apply`, e.g. by moving mesh nodes. Its column of the
+    tangent is a difference quotient, its row picks one unknown, so each Newton step costs one
+    factorisation and two solves.
+    """
+
+    def __init__(
+        self,
+        form: Any,
+        state: Any,
+        free: Any,
+        *,
+        value: float,
+        apply: Callable[[float], None],
+        index: int,
+    ) -> None:
+        super().__init__(form, state, free)
+        self.value, self._apply, self._index = value, apply, index
+        self._column, self._shifted = (state.vec.CreateVector() for _ in range(2))
+        apply(value)
+
+    def residual(self) -> float:
+        """Norm of the residual and the condition together."""
+        return math.hypot(super().residual(), self.state.vec[self._index])
+
+    def direction(self) -> None:
+        """Solve the bordered system by block elimination."""
+        self._origin.data, self._origin_value = self.state.vec, self.value
+        increment = 1e-6 * abs(self.value)
+        self._apply(self.value + increment)
+        self.evaluate(self._shifted)
+        self._apply(self.value)
+        self.evaluate(self._force)
+        self._shifted.data = (1.0 / increment) * (self._shifted - self._force)
+        self.factorise()
+        self.solve(self._force, self._change)
+        self.solve(self._shifted, self._column)
+        at = self._index
+        self._rate = (self.state.vec[at] - self._change[at]) / self._column[at]
+
+    def move(self, step: float) -> None:
+        """Go to origin + step × direction; the scalar changes by at most 30 % at once."""
+        most = 0.3 * abs(self._origin_value)
+        if abs(step * self._rate) > most:
+            step = most / abs(self._rate)
+        self.value = self._origin_value + step * self._rate
+        self._apply(self.value)
+        self.state.vec.data = self._origin - step * self._change - step * self._rate * self._column

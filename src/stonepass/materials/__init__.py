@@ -1,0 +1,1 @@
+"""Material laws: strain energies of the wall, their published constants, their stability."""

@@ -1,0 +1,68 @@
+"""Published sets of constants, each with its source, its test and how far it was verified."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from stonepass.errors import refuse_unknown
+from stonepass.materials.fung import Fung
+from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.protocol import Material
+
+__all__ = ["CATALOGUE", "material"]
+
+_LIU = "Liu et al. 2022, doi 10.1016/j.jmbbm.2022.105432"
+_RASSOLI = f"{_LIU}, section 2.4.2, citing Rassoli et al. 2014 (Urology Journal)"
+_BIAXIAL = "planar biaxial tension of human cadaver ureter (Rassoli et al. 2014)"
+_TABLE_UNSEEN = "the parameter table of Rassoli et al. was not reachable"
+
+# Shear modulus of the ground matrix. The paper does not give one; this value is provisional
+# until it is calibrated against the paper's two headline sizes.
+G_PROVISIONAL = 1.0e4
+
+_ENTRIES = (
+    Material(
+        name="latex",
+        law=NeoHookean(C10=0.1465e6),
+        source=f"{_LIU}, section 2.4.1",
+        test="tension of the latex tubes of the paper's in-vitro series (its SI 3.1)",
+        verified="stated by the paper only; the test data are not published",
+        strain_range=(1.0, 1.5),
+    ),
+    Material(
+        name="ureter",
+        law=Fung(C=0.4056e6, a1111=0.7091, a2222=0.8892, a1122=0.1856, G=G_PROVISIONAL),
+        source=f"{_RASSOLI}; a2222 and a1122 read in exchanged order",
+        test=_BIAXIAL,
+        verified=f"constants stated by the paper; {_TABLE_UNSEEN}; the order is our reading: as "
+        "printed the law is unstable, exchanged it is definite and stiffer along the axis, as "
+        "measured ureters are; G is ours and provisional",
+        strain_range=(1.0, 1.3),
+    ),
+    Material(
+        name="ureter-printed",
+        law=Fung(C=0.4056e6, a1111=0.7091, a2222=0.1856, a1122=0.8892, G=G_PROVISIONAL),
+        source=f"{_RASSOLI}; in the printed order",
+        test=_BIAXIAL,
+        verified=f"constants stated by the paper; {_TABLE_UNSEEN}; indefinite, so refused",
+        strain_range=(1.0, 1.3),
+    ),
+    Material(
+        name="ureter-soft-cross",
+        law=Fung(C=0.4056e6, a1111=0.7091, a2222=0.1856, a1122=0.0892, G=G_PROVISIONAL),
+        source=f"{_RASSOLI}; a1122 read as 0.0892",
+        test=_BIAXIAL,
+        verified=f"our second reading (a slipped digit), for sensitivity; {_TABLE_UNSEEN}; softer "
+        "along the axis than around, against measured ureters",
+        strain_range=(1.0, 1.3),
+    ),
+)
+
+CATALOGUE = {entry.name: replace(entry, reference=entry.name) for entry in _ENTRIES}
+
+
+def material(name: str) -> Material:
+    """Look up a catalogue entry; an unknown name is refused, naming the nearest one."""
+    if name not in CATALOGUE:
+        refuse_unknown("material", name, list(CATALOGUE))
+    return CATALOGUE[name]

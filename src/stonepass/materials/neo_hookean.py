@@ -1,0 +1,48 @@
+"""The neo-Hookean law, U = C₁₀ (I₁ − 3) (paper, Eq. 19)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.errors import require
+
+__all__ = ["NeoHookean"]
+
+
+@dataclass(frozen=True)
+class NeoHookean:
+    """Isotropic rubber: shear modulus 2 C10.
+
+    Attributes
+    ----------
+    C10 : float
+        Pa, positive.
+    """
+
+    C10: float
+
+    def __post_init__(self) -> None:
+        require(0.0 < self.C10 < np.inf, "C10", self.C10, "a positive modulus")
+
+    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+        """Strain energy in J/m³; I₁ is the trace of C."""
+        return self.C10 * (C_rr + C_tt + C_zz - 3.0)
+
+    def without_ground_matrix(self) -> NeoHookean:
+        """Return itself: there is no fibre part to leave alone."""
+        return self
+
+    def inflation_pressure(
+        self, inner_ratio: Float[np.ndarray, ...], wall_ratio: float
+    ) -> Float[np.ndarray, ...]:
+        """Eq. 20 without P_out, in Pa.
+
+        With s = (r_a/R_a)² and t = s + η² − 1:  C₁₀ (η²/t − 1/s + ln s − ln(t/η²)).
+        """
+        s = inner_ratio**2
+        t = s + wall_ratio**2 - 1.0
+        return self.C10 * (wall_ratio**2 / t - 1.0 / s + np.log(s) - np.log(t / wall_ratio**2))

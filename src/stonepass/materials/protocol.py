@@ -1,0 +1,88 @@
+"""What a material law is: a strain energy written once, in plain arithmetic.
+
+The same formula serves NumPy (far field, tests) and the finite elements, so a law may use only
+``+ - * / **`` and the functions of the namespace ``xp`` that is handed to it:
+``exp log sqrt sin cos tan sinh cosh tanh arctan maximum minimum abs``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.errors import require
+
+__all__ = ["NAMESPACE", "ClosedForm", "Law", "Material"]
+
+NAMESPACE = (
+    "exp", "log", "sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "arctan",
+    "maximum", "minimum", "abs",
+)  # fmt: skip
+
+
+class Law(Protocol):
+    """A hyperelastic, incompressible wall, cylindrically orthotropic at most."""
+
+    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+        """Strain energy in J/m³ of reference volume.
+
+        C_rr, C_tt, C_zz and C_rz are components of the right Cauchy–Green tensor in the
+        cylindrical reference frame (radial, circumferential, axial); in axisymmetry without
+        torsion the other two vanish. `xp` is the array namespace to use.
+        """
+        ...
+
+    def without_ground_matrix(self) -> Law:
+        """Return the law the paper puts into the far field: fibres only, where it has any."""
+        ...
+
+
+@runtime_checkable
+class ClosedForm(Protocol):
+    """A law whose inflation pressure at unit axial stretch is known in closed form."""
+
+    def inflation_pressure(
+        self, inner_ratio: Float[np.ndarray, ...], wall_ratio: float
+    ) -> Float[np.ndarray, ...]:
+        """Transmural pressure in Pa at r_a/R_a = `inner_ratio`, R_b/R_a = `wall_ratio`."""
+        ...
+
+
+@dataclass(frozen=True)
+class Material:
+    """A law with constants, and where they come from.
+
+    Attributes
+    ----------
+    name : str
+        The word at the door (``--material NAME``).
+    law : Law
+        The strain energy with its constants in SI.
+    source, test, verified : str
+        Who published the constants, by which test, and how far we could verify them.
+    strain_range : (float, float)
+        Circumferential stretches the constants were used for; outside, answers carry a warning.
+    reference : str
+        How to find it again: a catalogue name, ``law.toml`` or ``file.py:name``; empty where it
+        was made in Python.
+    """
+
+    name: str
+    law: Law
+    source: str
+    test: str
+    verified: str
+    strain_range: tuple[float, float]
+    reference: str = ""
+
+    def __post_init__(self) -> None:
+        low, high = self.strain_range
+        require(
+            0.0 < low <= 1.0 < high <= 5.0,
+            "strain_range",
+            list(self.strain_range),
+            "two circumferential stretches [low, high] with 0 < low <= 1 < high <= 5",
+        )

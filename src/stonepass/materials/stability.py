@@ -1,0 +1,144 @@
+"""Is the law a solid at all: stress-free at rest, and no strain that lowers the energy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.errors import BadInput, UnstableLaw
+from stonepass.materials.derivatives import rest_gradient, rest_moduli
+from stonepass.materials.fung import Fung
+from stonepass.materials.protocol import Law, Material
+
+__all__ = ["RestState", "check", "rest_state"]
+
+MODULUS_RANGE = (1.0, 1e11)  # Pa: softer than any tissue, stiffer than steel
+
+
+@dataclass(frozen=True)
+class RestState:
+    """Small-strain behaviour of a law, moduli in Pa.
+
+    Attributes
+    ----------
+    hoop, axial : float
+        Uniaxial (free lateral strain) moduli along the circumference and the axis.
+    plane_hoop : float
+        Circumferential modulus with the axial strain held, w″(1).
+    shear : float
+        r–z shear modulus.
+    softest : float
+        Smallest eigenvalue of the (hoop, axial) matrix; negative means unstable.
+    softest_direction : (float, float)
+        Strains (hoop, axial), the larger one 1 in size, that this eigenvalue belongs to.
+    """
+
+    hoop: float
+    axial: float
+    plane_hoop: float
+    shear: float
+    softest: float
+    softest_direction: tuple[float, float]
+
+
+def rest_state(law: Law) -> RestState:
+    """Small-strain moduli of any law from its energy."""
+    matrix, shear = rest_moduli(law)
+    values, vectors = np.linalg.eigh(matrix)
+    direction = _normalised(vectors[:, 0])
+    determinant = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] ** 2
+    return RestState(
+        hoop=float(determinant / matrix[1, 1]),
+        axial=float(determinant / matrix[0, 0]),
+        plane_hoop=float(matrix[0, 0]),
+        shear=shear,
+        softest=float(values[0]),
+        softest_direction=direction,
+    )
+
+
+def check(material: Material) -> RestState:
+    """Return the rest state of a sound law.
+
+    Raises
+    ------
+    UnstableLaw
+        Some strain from rest lowers the energy, or the Fung form is not positive definite.
+    BadInput
+        The law is stressed at rest, not finite there, or absurdly soft or stiff.
+    """
+    law, name = material.law, f"material '{material.name}'"
+    _check_rest_stress(law, name)
+    state = rest_state(law)
+    if isinstance(law, Fung):
+        _check_fung_form(law, material.name)
+    if state.softest < 0.0:
+        hoop, axial = state.softest_direction
+        raise UnstableLaw(
+            "law",
+            material.name,
+            f"straining the circumference by {hoop:+.2f} % and the axis by {axial:+.2f} % "
+            f"from rest lowers the energy (modulus {state.softest / 1e6:.3g} MPa)",
+            "use other constants",
+        )
+    if state.shear < -1e-12 * state.plane_hoop:
+        raise UnstableLaw(
+            "law",
+            material.name,
+            f"r-z shear from rest lowers the energy (modulus {state.shear / 1e6:.3g} MPa)",
+            "use other constants",
+        )
+    low, high = MODULUS_RANGE
+    if not low <= state.plane_hoop <= high:
+        raise BadInput(
+            f"circumferential modulus of {name}",
+            f"{state.plane_hoop:.3g} Pa",
+            f"between {low:g} and {high:g} Pa",
+            "check the unit of its constants: energies are in J/m³ = Pa",
+        )
+    return state
+
+
+def _check_rest_stress(law: Law, name: str) -> None:
+    gradient = rest_gradient(law)
+    if not np.all(np.isfinite(gradient)):
+        raise BadInput(f"energy of {name} at rest", str(gradient), "finite with finite slopes")
+    moduli, shear = rest_moduli(law)
+    if not (np.all(np.isfinite(moduli)) and math.isfinite(shear)):
+        raise BadInput(f"stiffness of {name} at rest", str(moduli), "finite")
+    uneven = max(np.ptp(gradient[:3]), abs(gradient[3]))
+    scale = max(float(np.abs(moduli).max()), abs(shear))
+    if uneven > 1e-9 * scale:
+        raise BadInput(
+            f"stress of {name} at rest",
+            f"{2.0 * uneven / 1e3:.3g} kPa",
+            "zero apart from a pressure: dU/dC_rr = dU/dC_tt = dU/dC_zz, dU/dC_rz = 0 at C = 1",
+            "residual stress is not part of this model",
+        )
+
+
+def _check_fung_form(law: Fung, name: str) -> None:
+    form = np.array([[law.a1111, law.a1122], [law.a1122, law.a2222]])
+    values, vectors = np.linalg.eigh(form)
+    if values[0] > 0.0:
+        return
+    hoop, axial = _normalised(vectors[:, 0])
+    axial_modulus = law.C * (law.a2222 - law.a1122**2 / law.a1111)
+    raise UnstableLaw(
+        "law",
+        name,
+        f"its Fung form is indefinite, a1111 a2222 = {law.a1111 * law.a2222:.4g} is below "
+        f"a1122² = {law.a1122**2:.4g}: straining the circumference by {hoop:+.2f} % and the axis "
+        f"by {axial:+.2f} % lowers the fibre energy, and the axial modulus at zero hoop stress is "
+        f"{axial_modulus / 1e6:.2f} MPa",
+        "the constants were probably published in another order: exchange a1122 and a2222 "
+        "(catalogue: 'ureter')",
+    )
+
+
+def _normalised(vector: Float[np.ndarray, 2]) -> tuple[float, float]:
+    unit = vector / vector[np.argmax(np.abs(vector))]
+    return float(unit[0]), float(unit[1])

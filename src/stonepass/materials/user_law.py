@@ -1,0 +1,218 @@
+"""A user's own law: a Python function, or new constants for a known law in a TOML file."""
+
+from __future__ import annotations
+
+import runpy
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import autograd.numpy as anp
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from stonepass.errors import BadInput, refuse_unknown
+from stonepass.materials.fung import Fung
+from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.protocol import NAMESPACE, Law, Material
+from stonepass.units import pressure
+
+__all__ = ["UserLaw", "load_material", "looks_like_file"]
+
+# Stretches (circumferential, axial) on which a user's function is tried before any solve.
+_TRIAL = tuple((t, z) for t in (0.9, 1.0, 1.1, 1.3) for z in (0.95, 1.0, 1.05))
+_LAWS = ("neo-hookean", "fung")
+
+
+@dataclass(frozen=True)
+class UserLaw:
+    """A strain energy written by the user: ``energy(C_rr, C_tt, C_zz, C_rz, xp)`` in J/m³."""
+
+    function: Callable[..., Any]
+    label: str
+
+    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+        """Call the user's function; whatever it raises becomes one sentence."""
+        try:
+            value = self.function(C_rr, C_tt, C_zz, C_rz, xp)
+        except Exception as problem:
+            raise BadInput(
+                f"law '{self.label}'",
+                f"raising {type(problem).__name__}: {problem}",
+                "a function energy(C_rr, C_tt, C_zz, C_rz, xp) that returns J/m³",
+                "it may use + - * / ** and xp." + ", xp.".join(NAMESPACE),
+            ) from problem
+        if value is None:
+            raise BadInput(f"value of law '{self.label}'", "None", "an energy in J/m³")
+        return value
+
+    def without_ground_matrix(self) -> UserLaw:
+        """Return itself: a user's law is one piece."""
+        return self
+
+
+class _Constants(BaseModel):
+    """The TOML file of a known law."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    law: str
+    source: str = Field(min_length=1)
+    strain_range: tuple[float, float] = Field(strict=False)
+    name: str | None = None
+    test: str = "not stated"
+    C10: str | None = None
+    C: str | None = None
+    a1111: float | None = None
+    a2222: float | None = None
+    a1122: float | None = None
+    G: str | None = None
+
+
+def looks_like_file(text: str) -> bool:
+    """Whether a ``--material`` value names a file rather than a catalogue entry."""
+    return text.endswith(".toml") or ".py:" in text or text.endswith(".py")
+
+
+def load_material(text: str, folder: Path | None = None) -> Material:
+    """Read ``law.toml`` or ``file.py:name``; relative paths start at `folder`.
+
+    Raises
+    ------
+    BadInput
+        The file is missing or not readable, a key is unknown or missing, a constant has the
+        wrong unit, or the function raises or returns something that is not a finite energy.
+    """
+    if text.endswith(".toml"):
+        path = _existing(text, folder)
+        return _from_toml(path, str(path))
+    path_text, separator, name = text.rpartition(":")
+    if not separator or not path_text.endswith(".py") or not name.isidentifier():
+        raise BadInput("material", text, "written file.py:name, name being the energy function")
+    path = _existing(path_text, folder)
+    return _from_python(path, name, f"{path}:{name}")
+
+
+def _existing(text: str, folder: Path | None) -> Path:
+    path = Path(text) if folder is None else folder / text
+    if not path.is_file():
+        raise BadInput("material", text, "a file that exists", "check the path")
+    return path
+
+
+def _from_python(path: Path, name: str, text: str) -> Material:
+    try:
+        module = runpy.run_path(str(path))
+    except Exception as problem:
+        raise BadInput(
+            "material", text, f"Python that runs, not {type(problem).__name__}: {problem}"
+        ) from problem
+    function = module.get(name)
+    if not callable(function):
+        known = [key for key, value in module.items() if callable(value) and key[:1] != "_"]
+        refuse_unknown(f"function in {path.name}", name, known or ["energy"])
+    law = UserLaw(function, name)
+    _try_out(law)
+    interval = module.get("strain_range", (1.0, 1.5))
+    try:
+        low, high = (float(bound) for bound in interval)
+    except (TypeError, ValueError) as problem:
+        raise BadInput(
+            f"strain_range in {path.name}", interval, "two circumferential stretches"
+        ) from problem
+    return Material(
+        name=text,
+        reference=text,
+        law=law,
+        source=str(module.get("source", "not stated by the file")),
+        test="not stated by the file",
+        verified="a user's law: not verified",
+        strain_range=(low, high),
+    )
+
+
+def _try_out(law: UserLaw) -> None:
+    """Evaluate the law on arrays of plausible strains and refuse what is not a finite energy."""
+    t, z = (np.array(column) for column in zip(*_TRIAL, strict=True))
+    value = law.energy(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t, anp)
+    try:
+        energies = np.broadcast_to(np.asarray(value, dtype=float), t.shape)
+    except (TypeError, ValueError) as problem:
+        raise BadInput(
+            f"value of law '{law.label}'", value, "one energy in J/m³ per strain"
+        ) from problem
+    if not np.all(np.isfinite(energies)):
+        bad = int(np.flatnonzero(~np.isfinite(energies))[0])
+        raise BadInput(
+            f"value of law '{law.label}'",
+            f"{energies[bad]} at circumferential stretch {t[bad]:g}, axial stretch {z[bad]:g}",
+            "a finite energy in J/m³",
+        )
+    if np.ptp(energies) == 0.0:
+        raise BadInput(
+            f"value of law '{law.label}'", f"{energies[0]:g} at every strain", "strain-dependent"
+        )
+
+
+def _from_toml(path: Path, text: str) -> Material:
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+        raise BadInput("material", text, f"valid TOML ({problem})") from problem
+    for key in raw:
+        if key not in _Constants.model_fields:
+            refuse_unknown(f"key in {path.name}", key, list(_Constants.model_fields))
+    try:
+        constants = _Constants.model_validate(raw)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        key = ".".join(str(part) for part in first["loc"])
+        raise BadInput(
+            f"'{key}' in {path.name}",
+            "missing" if first["type"] == "missing" else first["input"],
+            first["msg"][:1].lower() + first["msg"][1:],
+        ) from problem
+    return Material(
+        name=constants.name or text,
+        reference=text,
+        law=_known_law(constants, path.name),
+        source=constants.source,
+        test=constants.test,
+        verified="a user's constants: not verified",
+        strain_range=constants.strain_range,
+    )
+
+
+def _known_law(constants: _Constants, file: str) -> Law:
+    wanted = {
+        "neo-hookean": ("C10",),
+        "fung": ("C", "a1111", "a2222", "a1122"),
+    }
+    if constants.law not in wanted:
+        refuse_unknown(f"law in {file}", constants.law, list(_LAWS))
+    given = constants.model_dump(include={"C10", "C", "a1111", "a2222", "a1122", "G"})
+    for key in wanted[constants.law]:
+        if given[key] is None:
+            raise BadInput(f"'{key}' in {file}", "missing", f"given for law '{constants.law}'")
+    stray = [
+        key
+        for key, value in given.items()
+        if value is not None and key not in (*wanted[constants.law], "G")
+    ]
+    if constants.law == "neo-hookean" and constants.G is not None:
+        stray.append("G")
+    if stray:
+        raise BadInput(f"'{stray[0]}' in {file}", "given", f"absent for law '{constants.law}'")
+    if constants.law == "neo-hookean":
+        return NeoHookean(C10=float(pressure(constants.C10, "C10")))
+    assert constants.a1111 is not None
+    assert constants.a2222 is not None
+    assert constants.a1122 is not None
+    return Fung(
+        C=float(pressure(constants.C, "C")),
+        a1111=constants.a1111,
+        a2222=constants.a2222,
+        a1122=constants.a1122,
+        G=0.0 if constants.G is None else float(pressure(constants.G, "G")),
+    )

@@ -1,0 +1,1 @@
+"""The physics: stone, ureter and load; far field, seated state, balance, critical state."""

@@ -1,0 +1,275 @@
+"""The values a question is made of: stone, ureter, load, method, and the case that joins them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from numbers import Real
+from pathlib import Path
+from typing import Any
+
+from stonepass.errors import BadInput, refuse_unknown, require
+from stonepass.materials.catalogue import material as catalogued
+from stonepass.materials.protocol import Material
+from stonepass.materials.user_law import load_material, looks_like_file
+from stonepass.units import Length, Pressure, length, pressure
+
+__all__ = ["Case", "Load", "Method", "Stone", "Ureter", "find_material"]
+
+SIZE_RATIO = (0.1, 3.0)
+WALL_RATIO = (1.02, 10.0)
+FRICTION = (0.0, 2.0)
+DIAMETER = (1e-5, 1.0)
+CONFINING = (0.0, 1e5)
+PRESTRETCH = (0.8, 1.6)
+HALF_LENGTH = (3.0, 100.0)
+_BY_RATIO = "give both diameters, or the ratio alone"
+
+
+def find_material(value: str | Material, folder: Path | None = None) -> Material:
+    """Turn a catalogue name, ``law.toml`` or ``file.py:name`` into a material."""
+    if isinstance(value, Material):
+        return value
+    if not isinstance(value, str):
+        raise BadInput("material", value, "a name, a file or a Material")
+    return load_material(value, folder) if looks_like_file(value) else catalogued(value)
+
+
+@dataclass(frozen=True, init=False)
+class Stone:
+    """A rigid sphere, by its diameter or by its size ratio ξ = R_s/R_a.
+
+    Parameters
+    ----------
+    diameter : str or Length, optional
+        Text with a unit, e.g. ``"4.2 mm"``; in metres once read.
+    friction : float
+        Coulomb coefficient μ_f between stone and wall, 0 to 2.
+    size_ratio : float, optional
+        ξ, where no length is known; 0.1 to 3.
+    """
+
+    diameter: Length | None
+    friction: float
+    size_ratio: float | None
+
+    def __init__(
+        self,
+        diameter: str | Length | None = None,
+        friction: float = 0.5,
+        size_ratio: float | None = None,
+    ) -> None:
+        _one_of("stone", diameter=diameter, size_ratio=size_ratio)
+        _set(self, "diameter", _diameter(diameter, "stone diameter"))
+        _set(self, "friction", _number(friction, "friction", *FRICTION))
+        ratio = None if size_ratio is None else _number(size_ratio, "size_ratio", *SIZE_RATIO)
+        _set(self, "size_ratio", ratio)
+
+
+@dataclass(frozen=True, init=False)
+class Ureter:
+    """A uniform tube without load, by its diameters or by its wall ratio η = R_b/R_a.
+
+    Parameters
+    ----------
+    inner_diameter, outer_diameter : str or Length, optional
+        Text with a unit, e.g. ``"3.5 mm"``; in metres once read.
+    material : str or Material
+        Catalogue name (human wall by default), ``law.toml``, ``file.py:name`` or a `Material`.
+    wall_ratio : float, optional
+        η, where no lengths are known (also beside `inner_diameter` alone); 1.02 to 10.
+    """
+
+    inner_diameter: Length | None
+    outer_diameter: Length | None
+    material: Material
+    wall_ratio: float
+
+    def __init__(
+        self,
+        inner_diameter: str | Length | None = None,
+        outer_diameter: str | Length | None = None,
+        material: str | Material = "ureter",
+        wall_ratio: float | None = None,
+    ) -> None:
+        inner = _diameter(inner_diameter, "inner diameter")
+        outer = _diameter(outer_diameter, "outer diameter")
+        if inner is not None and outer is not None:
+            require(
+                outer > inner,
+                "outer diameter",
+                outer_diameter,
+                f"larger than the inner diameter, {inner_diameter}",
+            )
+            ratio = outer / inner
+            if wall_ratio is not None and abs(wall_ratio - ratio) > 1e-9 * ratio:
+                raise BadInput("wall_ratio", wall_ratio, f"left out beside diameters ({ratio:.6g})")
+        elif outer is not None:
+            raise BadInput("inner diameter", "missing", "given with the outer one", _BY_RATIO)
+        elif wall_ratio is None:
+            what = "outer diameter" if inner is not None else "size of the ureter"
+            raise BadInput(what, "missing", "given", _BY_RATIO)
+        else:
+            ratio = wall_ratio
+        _set(self, "inner_diameter", inner)
+        _set(self, "outer_diameter", outer)
+        _set(self, "material", find_material(material))
+        _set(self, "wall_ratio", _number(ratio, "wall_ratio", *WALL_RATIO))
+
+
+@dataclass(frozen=True, init=False)
+class Load:
+    """What acts on the tube besides stone and urine.
+
+    Parameters
+    ----------
+    confining_pressure : str or Pressure
+        P_out on the outer wall, 0 to 100 kPa.
+    confinement : {"dead", "hydrostatic"}
+        Whether the radial resultant of P_out is kept as the tube widens (paper, Eq. 10) or the
+        pressure itself (a water bath).
+    prestretch : float
+        Axial stretch λ_z put on the tube before everything else; R_a, R_b are before it.
+    """
+
+    confining_pressure: Pressure
+    confinement: str
+    prestretch: float
+
+    def __init__(
+        self,
+        confining_pressure: str | Pressure = Pressure(0.0),
+        confinement: str = "dead",
+        prestretch: float = 1.0,
+    ) -> None:
+        p = pressure(confining_pressure, "confining pressure")
+        low, high = CONFINING
+        require(low <= p <= high, "confining pressure", confining_pressure, "0 kPa to 100 kPa")
+        _choice("confinement", confinement, ("dead", "hydrostatic"))
+        _set(self, "confining_pressure", p)
+        _set(self, "confinement", confinement)
+        _set(self, "prestretch", _number(prestretch, "prestretch", *PRESTRETCH))
+
+    @property
+    def hydrostatic(self) -> bool:
+        """Whether the confining pressure follows the deformed wall."""
+        return self.confinement == "hydrostatic"
+
+
+@dataclass(frozen=True)
+class Method:
+    """How the question is answered.
+
+    Parameters
+    ----------
+    model : {"paper"}
+        Seated contact pressure cut off at the contact angle, with the closure of Eq. 15.
+    seating : {"frictionless"}
+        How the stone came to its place.
+    half_length : float
+        L/R_a, half the length of the tube in inner radii, 3 to 100; its ends keep their place.
+    as_printed : bool
+        Take Eq. 5 with the sign printed in the paper (the wall behind the stone assists).
+    closure_start : {"inner-radius", "lumen"}
+        Where Eq. 15 starts: at R_a as in the paper, or at the lumen that load leaves open.
+    far_field_ground : bool
+        Whether the far field contains the ground matrix of the law (Eq. 22 does not).
+    """
+
+    model: str = "paper"
+    seating: str = "frictionless"
+    half_length: float = 10.0
+    as_printed: bool = False
+    closure_start: str = "inner-radius"
+    far_field_ground: bool = False
+
+    def __post_init__(self) -> None:
+        _choice("model", self.model, ("paper",))
+        _choice("seating", self.seating, ("frictionless",))
+        _choice("closure_start", self.closure_start, ("inner-radius", "lumen"))
+        _number(self.half_length, "half_length", *HALF_LENGTH)
+        for name in ("as_printed", "far_field_ground"):
+            value = getattr(self, name)
+            require(isinstance(value, bool), name, value, "true or false")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A stone in a ureter under a load, and the method: everything an answer depends on."""
+
+    stone: Stone
+    ureter: Ureter
+    load: Load = field(default_factory=Load)
+    method: Method = field(default_factory=Method)
+
+    def __post_init__(self) -> None:
+        if self.stone.diameter is not None and self.ureter.inner_diameter is None:
+            raise BadInput(
+                "inner diameter", "missing", "given where the stone has a diameter", _BY_RATIO
+            )
+        low, high = SIZE_RATIO
+        require(
+            low <= self.size_ratio <= high,
+            "size ratio (stone diameter over inner diameter)",
+            round(self.size_ratio, 6),
+            f"{low:g} to {high:g}",
+        )
+        require(
+            self.method.half_length >= 2.0 * self.size_ratio,
+            "half_length",
+            self.method.half_length,
+            f"at least twice the size ratio, {2.0 * self.size_ratio:.4g}",
+        )
+
+    @property
+    def size_ratio(self) -> float:
+        """ξ = R_s/R_a."""
+        if self.stone.size_ratio is not None:
+            return self.stone.size_ratio
+        assert self.stone.diameter is not None
+        assert self.ureter.inner_diameter is not None
+        return self.stone.diameter / self.ureter.inner_diameter
+
+    @property
+    def wall_ratio(self) -> float:
+        """η = R_b/R_a."""
+        return self.ureter.wall_ratio
+
+    def with_size_ratio(self, size_ratio: float) -> Case:
+        """Return the same case with another stone of the same friction."""
+        stone = Stone(size_ratio=size_ratio, friction=self.stone.friction)
+        return Case(stone, self.ureter, self.load, self.method)
+
+
+def _set(target: Any, name: str, value: Any) -> None:
+    object.__setattr__(target, name, value)
+
+
+def _one_of(what: str, **given: Any) -> None:
+    names = " or ".join(given)
+    count = sum(value is not None for value in given.values())
+    if count != 1:
+        state = "missing" if count == 0 else "given twice"
+        raise BadInput(f"size of the {what}", state, f"given once, as {names}")
+
+
+def _diameter(value: str | Length | None, name: str) -> Length | None:
+    if value is None:
+        return None
+    read = length(value, name)
+    low, high = DIAMETER
+    require(low <= read <= high, name, value, "0.01 mm to 1000 mm")
+    return read
+
+
+def _number(value: Any, name: str, low: float, high: float) -> float:
+    allowed = f"a number from {low:g} to {high:g}"
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise BadInput(name, value, allowed)
+    number = float(value)
+    require(low <= number <= high, name, number, allowed)
+    return number
+
+
+def _choice(name: str, value: Any, known: tuple[str, ...]) -> None:
+    if value not in known:
+        refuse_unknown(name, str(value), list(known))

@@ -1,0 +1,164 @@
+"""Case files: TOML text to a `Case` and back."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from stonepass.errors import BadInput, refuse_unknown
+from stonepass.materials.user_law import looks_like_file
+from stonepass.model.case import Case, Load, Method, Stone, Ureter, find_material
+from stonepass.units import format_length, format_pressure
+
+__all__ = ["read_case", "write_case"]
+
+LARGEST_FILE = 1_000_000  # bytes
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class _Stone(_Section):
+    diameter: str | None = None
+    friction: float = 0.5
+    size_ratio: float | None = None
+
+
+class _Ureter(_Section):
+    inner_diameter: str | None = None
+    outer_diameter: str | None = None
+    wall_ratio: float | None = None
+    material: str = "ureter"
+
+
+class _Load(_Section):
+    confining_pressure: str = "0 kPa"
+    confinement: str = "dead"
+    prestretch: float = 1.0
+
+
+class _Method(_Section):
+    model: str = "paper"
+    seating: str = "frictionless"
+    half_length: float = 10.0
+    as_printed: bool = False
+    closure_start: str = "inner-radius"
+    far_field_ground: bool = False
+
+
+class _CaseFile(_Section):
+    stone: _Stone
+    ureter: _Ureter
+    load: _Load = _Load()
+    method: _Method = _Method()
+
+
+def read_case(path: Path) -> Case:
+    """Read a case file; material files are looked for beside it.
+
+    Raises
+    ------
+    BadInput
+        Naming the file and the key: missing file, broken TOML, unknown key (with the nearest
+        known one), wrong type, or a value that a `Case` refuses.
+    """
+    parsed = _parse(path)
+    ureter = parsed.ureter.model_dump()
+    try:
+        ureter["material"] = find_material(parsed.ureter.material, path.parent)
+        return Case(
+            Stone(**parsed.stone.model_dump()),
+            Ureter(**ureter),
+            Load(**parsed.load.model_dump()),
+            Method(**parsed.method.model_dump()),
+        )
+    except BadInput as problem:
+        raise BadInput(
+            f"in {path.name}, {problem.argument}", problem.value, problem.allowed, problem.remedy
+        ) from problem
+
+
+def write_case(case: Case, path: Path) -> None:
+    """Write a case so that `read_case` gives it back."""
+    stone, ureter, load, method = case.stone, case.ureter, case.load, case.method
+    reference = ureter.material.reference
+    if not reference:
+        raise BadInput("material", ureter.material.name, "from the catalogue or a file to be saved")
+    if looks_like_file(reference):
+        reference = os.path.relpath(reference, path.resolve().parent)
+    document: dict[str, dict[str, Any]] = {
+        "stone": {
+            "diameter": None if stone.diameter is None else format_length(stone.diameter),
+            "size_ratio": stone.size_ratio,
+            "friction": stone.friction,
+        },
+        "ureter": {
+            "inner_diameter": _length(ureter.inner_diameter),
+            "outer_diameter": _length(ureter.outer_diameter),
+            "wall_ratio": None if ureter.outer_diameter is not None else ureter.wall_ratio,
+            "material": reference,
+        },
+        "load": {
+            "confining_pressure": format_pressure(load.confining_pressure),
+            "confinement": load.confinement,
+            "prestretch": load.prestretch,
+        },
+        "method": {name: getattr(method, name) for name in _Method.model_fields},
+    }
+    written = {
+        section: {key: value for key, value in keys.items() if value is not None}
+        for section, keys in document.items()
+    }
+    try:
+        path.write_text(tomli_w.dumps(written), encoding="utf-8")
+    except OSError as problem:
+        raise BadInput("case file", str(path), f"writable ({problem.strerror})") from problem
+
+
+def _length(value: float | None) -> str | None:
+    return None if value is None else format_length(value)
+
+
+def _parse(path: Path) -> _CaseFile:
+    if not path.is_file():
+        raise BadInput("case file", str(path), "a file that exists", "check the path")
+    if path.stat().st_size > LARGEST_FILE:
+        raise BadInput("case file", str(path), "smaller than 1 MB")
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as problem:
+        raise BadInput("case file", str(path), f"valid TOML ({problem})") from problem
+    _refuse_stray_keys(raw, path.name)
+    try:
+        return _CaseFile.model_validate(raw)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        key = ".".join(str(part) for part in first["loc"])
+        missing = first["type"] == "missing"
+        allowed = "given" if missing else first["msg"][:1].lower() + first["msg"][1:]
+        value = "missing" if missing else first["input"]
+        raise BadInput(f"in {path.name}, '{key}'", value, allowed) from problem
+
+
+def _refuse_stray_keys(raw: dict[str, Any], file: str) -> None:
+    sections: dict[str, type[_Section]] = {
+        "stone": _Stone,
+        "ureter": _Ureter,
+        "load": _Load,
+        "method": _Method,
+    }
+    for section, keys in raw.items():
+        if section not in sections:
+            refuse_unknown(f"in {file}, section", section, list(sections))
+        if not isinstance(keys, dict):
+            raise BadInput(f"in {file}, '{section}'", keys, f"a section, written [{section}]")
+        known = list(sections[section].model_fields)
+        for key in keys:
+            if key not in known:
+                refuse_unknown(f"in {file}, key of [{section}]", key, known)

@@ -1,0 +1,199 @@
+"""The critical state: where drive and resistance balance (paper, Eqs 4, 16, 17)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+from scipy.optimize import brentq
+
+from stonepass.errors import Outcome
+from stonepass.fe.tube import Resolution
+from stonepass.materials.stability import check
+from stonepass.model.balance import Resistance, drive, resistance
+from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.closure import linear_closure
+from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
+from stonepass.model.seated import NoSeat, SeatedState, seat
+
+__all__ = ["Answer", "critical_pressure", "solve"]
+
+SCAN_POINTS = 721
+
+Angles = Float[np.ndarray, "..."]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The critical pressure of one case, or why there is none.
+
+    Attributes
+    ----------
+    outcome : Outcome
+    message : str
+        Its sentence, with the cause where there is one.
+    pressure : float or None
+        Critical urine pressure P_ucr in Pa.
+    critical_angle : float or None
+        α_cr in rad, the contact angle at which the stone starts to move.
+    closure_end_pressure : float or None
+        P_u in Pa at which the closure ends (r_a = R_s), not a physical bound.
+    seated : SeatedState or None
+        The finite-element state behind it.
+    newton_steps, seconds : int, float
+        Work of the finite elements, also where they failed.
+    warnings : tuple of str
+        Where the answer leaves what its parts are known for.
+    """
+
+    case: Case
+    outcome: Outcome
+    message: str
+    pressure: float | None = None
+    critical_angle: float | None = None
+    closure_end_pressure: float | None = None
+    seated: SeatedState | None = None
+    newton_steps: int = 0
+    seconds: float = 0.0
+    warnings: tuple[str, ...] = ()
+
+
+def critical_pressure(
+    stone: Stone,
+    ureter: Ureter,
+    load: Load | None = None,
+    method: Method | None = None,
+) -> Answer:
+    """At what urine pressure does this stone move in this ureter?
+
+    Parameters
+    ----------
+    stone, ureter : Stone, Ureter
+    load : Load, optional
+        Confining pressure and pre-stretch; none by default.
+    method : Method, optional
+        Model, seating, half-length and switches; the paper's by default.
+
+    Examples
+    --------
+    >>> import stonepass as sp
+    >>> answer = sp.critical_pressure(sp.Stone(size_ratio=0.9), sp.Ureter(wall_ratio=1.5))
+    >>> answer.outcome.name, answer.pressure
+    ('LOOSE', 0.0)
+    """
+    return solve(Case(stone, ureter, load or Load(), method or Method()))
+
+
+def solve(case: Case, resolution: Resolution = Resolution()) -> Answer:
+    """Answer one case; every way it can end is an `Outcome` (model: section 6)."""
+    check(case.ureter.material)
+    lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+    if lumen is None:
+        reason = "the load closes the lumen, or no uniform tube of this law is in equilibrium"
+        return _unanswered(case, Outcome.NO_SOLUTION, reason)
+    if case.size_ratio <= lumen:
+        return Answer(case, Outcome.LOOSE, Outcome.LOOSE.value, pressure=0.0)
+    seated = seat(case, resolution)
+    if isinstance(seated, NoSeat):
+        return _unanswered(
+            case, Outcome.NO_SOLUTION, seated.reason, seated.newton_steps, seated.seconds
+        )
+    return _balance(case, seated)
+
+
+def _unanswered(
+    case: Case, outcome: Outcome, reason: str, steps: int = 0, seconds: float = 0.0
+) -> Answer:
+    message = f"{outcome.value[:-1]}: {reason}."
+    return Answer(case, outcome, message, newton_steps=steps, seconds=seconds)
+
+
+def _balance(case: Case, seated: SeatedState) -> Answer:
+    """Smallest α in [α₀, π/2] with F_re = F_dr: scan first, since it need not be the only one."""
+    forces, law = resistance(seated), far_field_law(case)
+    start = _closure_start(case)
+    if start is None:
+        reason = "the far field without the ground matrix has no lumen under this load"
+        return _unanswered(case, Outcome.NO_SOLUTION, reason)
+
+    def pressure(alpha: Angles) -> Angles:
+        radius = linear_closure(alpha, seated.contact_angle, case.size_ratio, start)
+        return urine_pressure(radius, case.wall_ratio, law, case.load)
+
+    def excess(alpha: Angles) -> Angles:
+        return forces.total(alpha) - drive(pressure(alpha), alpha)
+
+    first, last = seated.contact_angle, np.pi / 2
+    unbalanced = Answer(
+        case=case,
+        outcome=Outcome.BEYOND_CLOSURE,
+        message=Outcome.BEYOND_CLOSURE.value,
+        closure_end_pressure=float(pressure(np.array(last))),
+        seated=seated,
+        newton_steps=seated.solver.newton_steps,
+        seconds=seated.solver.seconds,
+        warnings=tuple(_range_warnings(case)),
+    )
+    found = _first_root(excess, first, last)
+    if found is None:
+        return unbalanced
+    moves = replace(
+        unbalanced,
+        outcome=Outcome.MOVES,
+        message=Outcome.MOVES.value,
+        pressure=float(pressure(np.array(found))),
+        critical_angle=found,
+    )
+    if found > first:
+        return moves
+    # Without load this is μ_f = 0, where nothing holds the stone: P_ucr = 0 and no warning.
+    at_edge = replace(moves, pressure=_at_contact_edge(forces, first))
+    if case.load == Load():
+        return at_edge
+    return replace(at_edge, warnings=(*at_edge.warnings, _EDGE_WARNING))
+
+
+_EDGE_WARNING = (
+    "the drive outweighs the resistance as soon as the stone is seated: the paper's closure starts "
+    "at the unloaded inner radius although the load has narrowed the lumen; the critical pressure "
+    "is taken from the seated contact angle, and closure_start = 'lumen' is the alternative"
+)
+
+
+def _at_contact_edge(forces: Resistance, alpha: float) -> float:
+    """P_u whose drive equals the resistance of the whole contact: F_re(α₀)/(π R_s² sin² α₀)."""
+    return max(float(forces.total(np.array(alpha))), 0.0) / float(np.sin(alpha)) ** 2
+
+
+def _first_root(excess: Callable[[Angles], Angles], first: float, last: float) -> float | None:
+    """Smallest root of `excess` in [first, last]; `first` itself where it starts at or below 0."""
+    grid = np.linspace(first, last, SCAN_POINTS)
+    values = excess(grid)
+    if not np.all(np.isfinite(values)):
+        raise FloatingPointError("the force balance is not finite")
+    if values[0] <= 1e-12 * np.abs(values).max():
+        return first
+    below = np.flatnonzero(values <= 0.0)
+    if below.size == 0:
+        return None
+    k = int(below[0])
+    return float(brentq(excess, grid[k - 1], grid[k], xtol=1e-14))
+
+
+def _closure_start(case: Case) -> float | None:
+    if case.method.closure_start == "inner-radius":
+        return 1.0
+    return lumen_ratio(case.wall_ratio, far_field_law(case), case.load)
+
+
+def _range_warnings(case: Case) -> list[str]:
+    material = case.ureter.material
+    low, high = material.strain_range
+    if case.size_ratio <= high:
+        return []
+    return [
+        f"the stone stretches the wall to {case.size_ratio:.3g} times its circumference, but the "
+        f"constants of material '{material.name}' were used for stretches {low:g} to {high:g} only"
+    ]

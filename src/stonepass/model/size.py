@@ -1,0 +1,155 @@
+"""The critical size: the largest stone whose critical pressure stays within a limit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from scipy.optimize import brentq
+
+from stonepass.errors import Outcome, require
+from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.critical import Answer, solve
+from stonepass.model.far_field import lumen_ratio
+from stonepass.units import Length, Pressure, pressure
+
+__all__ = ["SizeAnswer", "critical_size"]
+
+SIZE_TOLERANCE = 1e-6
+# Stones less than this fraction above the lumen are not told from the lumen itself.
+SMALLEST_OVERSIZE = 2e-4
+LIMIT = (1.0, 1e6)
+
+
+@dataclass(frozen=True)
+class SizeAnswer:
+    """The critical size at a pressure limit, or why there is none.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        MOVES where a size was found.
+    size_ratio : float or None
+        ξ_cr, critical stone size over inner diameter.
+    diameter : Length or None
+        Critical stone diameter in m, where the ureter has lengths.
+    limit : Pressure
+        The pressure limit in Pa.
+    at_size : Answer or None
+        The answer at the critical size; without one, at the size where the search ended.
+    """
+
+    case: Case
+    outcome: Outcome
+    message: str
+    limit: Pressure
+    size_ratio: float | None = None
+    diameter: Length | None = None
+    at_size: Answer | None = None
+    warnings: tuple[str, ...] = ()
+
+
+def critical_size(
+    ureter: Ureter,
+    limit: str | Pressure,
+    friction: float = 0.5,
+    load: Load | None = None,
+    method: Method | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> SizeAnswer:
+    """How large may a stone be that moves at `limit`?
+
+    P_ucr rises with ξ from 0 at the lumen, so ξ_cr is bracketed by the lumen and the end of the
+    material's strain range and found to 1e-6. `progress` is told every ξ that is tried.
+
+    Parameters
+    ----------
+    limit : str or Pressure
+        Bearable urine pressure, e.g. ``"12 kPa"``; 0.001 to 1000 kPa.
+    """
+    bound = pressure(limit, "limit")
+    require(LIMIT[0] <= bound <= LIMIT[1], "limit", limit, "0.001 kPa to 1000 kPa")
+    high = ureter.material.strain_range[1]
+    case = Case(
+        Stone(size_ratio=high, friction=friction), ureter, load or Load(), method or Method()
+    )
+    return _search(case, bound, progress or (lambda size_ratio: None))
+
+
+def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> SizeAnswer:
+    tried: dict[float, Answer] = {}
+
+    def excess(size_ratio: float) -> float:
+        progress(size_ratio)
+        answer = tried.setdefault(size_ratio, solve(case.with_size_ratio(size_ratio)))
+        if answer.pressure is not None:
+            return answer.pressure - limit
+        end = answer.closure_end_pressure
+        if end is not None and end >= limit:
+            return end - limit  # no balance below the closure's end: P_ucr is above the limit
+        raise _Unanswered(answer)
+
+    high = case.size_ratio
+    try:
+        top = excess(high)
+        if top < 0.0:
+            return _beyond_range(case, limit, tried[high])
+        lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+        assert lumen is not None, "solve() answers NO_SOLUTION where there is no lumen"
+        known = {lumen: -float(limit), high: top}
+        root = float(
+            brentq(
+                lambda x: known[x] if x in known else excess(x), lumen, high, xtol=SIZE_TOLERANCE
+            )
+        )
+    except _Unanswered as stop:
+        answer = stop.answer
+        where = f" (at size ratio {answer.case.size_ratio:.4g})"
+        return SizeAnswer(
+            case, answer.outcome, answer.message[:-1] + where + ".", limit, at_size=answer
+        )
+    return _found(case, limit, root, lumen, tried)
+
+
+def _found(
+    case: Case, limit: Pressure, root: float, lumen: float, tried: dict[float, Answer]
+) -> SizeAnswer:
+    if root <= lumen * (1.0 + SMALLEST_OVERSIZE):
+        message = (
+            f"{Outcome.BELOW_RANGE.value[:-1]}, {limit / 1e3:.4g} kPa, "
+            f"if it is more than {SMALLEST_OVERSIZE:.2%} larger than the lumen."
+        )
+        return SizeAnswer(case, Outcome.BELOW_RANGE, message, limit)
+    nearest = min(tried, key=lambda x: abs(x - root))
+    at_size = tried[nearest] if nearest == root else solve(case.with_size_ratio(root))
+    if at_size.outcome is not Outcome.MOVES:
+        message = f"{at_size.message[:-1]} (at size ratio {root:.4g}, where the limit is reached)."
+        return SizeAnswer(case, at_size.outcome, message, limit, at_size=at_size)
+    inner = case.ureter.inner_diameter
+    return SizeAnswer(
+        case=case,
+        outcome=Outcome.MOVES,
+        message=f"A stone of {root:.4g} times the inner diameter moves at the pressure limit.",
+        limit=limit,
+        size_ratio=root,
+        diameter=None if inner is None else Length(root * inner),
+        at_size=at_size,
+        warnings=at_size.warnings,
+    )
+
+
+def _beyond_range(case: Case, limit: Pressure, top: Answer) -> SizeAnswer:
+    assert top.pressure is not None
+    message = (
+        f"{Outcome.BEYOND_RANGE.value[:-1]}: at its end, size ratio {case.size_ratio:.4g}, the "
+        f"critical pressure is {top.pressure / 1e3:.4g} kPa, so the critical size lies above it."
+    )
+    return SizeAnswer(case, Outcome.BEYOND_RANGE, message, limit, at_size=top)
+
+
+class _Unanswered(Exception):
+    """Carries an answer without a pressure out of the root search."""
+
+    def __init__(self, answer: Answer) -> None:
+        super().__init__(answer)
+        self.answer = answer

@@ -1,0 +1,117 @@
+"""Units at the doors: text such as "4.5 mm" or "90 mmHg" to SI floats and back.
+
+Inside the package every number is an SI float. `Length` and `Pressure` are floats that remember
+what they are, so that a value which came through the door once may pass again, while a bare
+number, whose unit nobody stated, is refused.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import lru_cache
+from typing import Any, TypeVar
+
+from stonepass.errors import BadInput
+
+__all__ = ["Length", "Pressure", "format_length", "format_pressure", "length", "pressure"]
+
+PASCAL_PER = {"kPa": 1e3, "mmHg": 133.322387415, "cmH2O": 98.0665}
+METRE_PER_MM = 1e-3
+
+
+class Length(float):
+    """A length in metres."""
+
+
+class Pressure(float):
+    """A pressure, stress or modulus in pascals."""
+
+
+Q = TypeVar("Q", Length, Pressure)
+
+_EXAMPLES = {Length: "'4.2 mm'", Pressure: "'12 kPa', '90 mmHg' or '122 cmH2O'"}
+_WORDS = {Length: "a length", Pressure: "a pressure"}
+_SI = {Length: "meter", Pressure: "pascal"}
+_TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ%°/][^\s]*)\s*")
+# Pint knows "cmH2O" as centimetre_H2O; these spellings reach it under its own name.
+_SPELLINGS = {"cmH2O": "centimeter_H2O", "cmH₂O": "centimeter_H2O", "mmHg": "millimeter_Hg"}
+
+
+def length(value: Any, argument: str = "length") -> Length:
+    """Read a length, e.g. ``length("4.2 mm") == 0.0042``.
+
+    Raises
+    ------
+    BadInput
+        A bare number, a unit that is not a length, or a value that is not finite.
+    """
+    return _read(value, argument, Length)
+
+
+def pressure(value: Any, argument: str = "pressure") -> Pressure:
+    """Read a pressure or modulus, e.g. ``pressure("12 kPa") == 12000.0``.
+
+    Raises
+    ------
+    BadInput
+        A bare number, a unit that is not a pressure, or a value that is not finite.
+    """
+    return _read(value, argument, Pressure)
+
+
+def format_length(value: float) -> str:
+    """Write metres in millimetres for a person: ``format_length(0.0042) == '4.2 mm'``."""
+    return f"{value / METRE_PER_MM:.12g} mm"
+
+
+def format_pressure(value: float) -> str:
+    """Write pascals in kilopascals: ``format_pressure(12000.0) == '12 kPa'``."""
+    return f"{value / PASCAL_PER['kPa']:.12g} kPa"
+
+
+def _read(value: Any, argument: str, kind: type[Q]) -> Q:
+    if isinstance(value, kind):
+        return value
+    word, example = _WORDS[kind], _EXAMPLES[kind]
+    if not isinstance(value, str):
+        raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
+    match = _TEXT.fullmatch(value)
+    if match is None:
+        raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
+    number, unit = float(match[1]), match[2]
+    si = number * _factor(unit, argument, value, kind)
+    if not math.isfinite(si):
+        raise BadInput(argument, value, f"a finite {word.split()[-1]}")
+    # 15 digits: 4.2 mm is 0.0042 m, not 0.004200000000000001 m.
+    return kind(f"{si:.15g}")
+
+
+def _factor(unit: str, argument: str, value: str, kind: type[Q]) -> float:
+    scale = _si_factor(_SPELLINGS.get(unit, unit), _SI[kind])
+    if scale is None:
+        word, example = _WORDS[kind], _EXAMPLES[kind]
+        raise BadInput(argument, value, f"{word}", f"write it like {example}")
+    return scale
+
+
+@lru_cache(maxsize=64)
+def _si_factor(unit: str, si: str) -> float | None:
+    """SI units in one `unit`, or None where `unit` is unknown or of another dimension."""
+    registry = _registry()
+    try:
+        return float(registry.Quantity(1.0, unit).to(si).magnitude)
+    except Exception:  # pint raises a dozen kinds for text that is not this unit
+        return None
+
+
+@lru_cache(maxsize=1)
+def _registry() -> Any:
+    return _pint().UnitRegistry()
+
+
+def _pint() -> Any:
+    """Pint costs 0.3 s to import, so it is loaded with the first value that has a unit."""
+    import pint
+
+    return pint

@@ -18,7 +18,7 @@ from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
 from stonepass.model.seated import NoSeat, SeatedState, seat
 
-__all__ = ["Answer", "critical_pressure", "solve"]
+__all__ = ["Answer", "critical_pressure", "pressure_of_angle", "solve"]
 
 SCAN_POINTS = 721
 
@@ -103,6 +103,14 @@ def solve(case: Case, resolution: Resolution = Resolution()) -> Answer:
     return _balance(case, seated)
 
 
+def pressure_of_angle(seated: SeatedState, alpha: Angles) -> Angles:
+    """P_u(α) in Pa (Eq. 16): the far field at the radius the closure gives to the angle α."""
+    case, start = seated.case, _closure_start(seated.case)
+    assert start is not None, "a seated stone under a load that closes the far field"
+    radius = linear_closure(alpha, seated.contact_angle, case.size_ratio, start)
+    return urine_pressure(radius, case.wall_ratio, far_field_law(case), case.load)
+
+
 def _unanswered(
     case: Case, outcome: Outcome, reason: str, steps: int = 0, seconds: float = 0.0
 ) -> Answer:
@@ -112,15 +120,13 @@ def _unanswered(
 
 def _balance(case: Case, seated: SeatedState) -> Answer:
     """Smallest α in [α₀, π/2] with F_re = F_dr: scan first, since it need not be the only one."""
-    forces, law = resistance(seated), far_field_law(case)
-    start = _closure_start(case)
-    if start is None:
+    forces = resistance(seated)
+    if _closure_start(case) is None:
         reason = "the far field without the ground matrix has no lumen under this load"
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
 
     def pressure(alpha: Angles) -> Angles:
-        radius = linear_closure(alpha, seated.contact_angle, case.size_ratio, start)
-        return urine_pressure(radius, case.wall_ratio, law, case.load)
+        return pressure_of_angle(seated, alpha)
 
     def excess(alpha: Angles) -> Angles:
         return forces.total(alpha) - drive(pressure(alpha), alpha)

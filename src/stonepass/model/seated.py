@@ -44,7 +44,7 @@ class SeatedState:
         upstream half, θ from α₀ to π/2; the downstream half is its mirror image.
     wall : Field
         Deformed wall and Cauchy stress (Pa, tension positive) of the half Z ≥ 0, lengths in
-        inner radii.
+        inner radii; None where it was not kept (curves).
     solver : SolverReport
     """
 
@@ -52,7 +52,7 @@ class SeatedState:
     contact_angle: float
     theta: Float[np.ndarray, " n"]
     contact_pressure: Float[np.ndarray, " n"]
-    wall: Field
+    wall: Field | None
     solver: SolverReport
 
     @property

@@ -1,0 +1,1 @@
+"""Answers for people and programs: records (JSON, CSV), tables and figures."""

@@ -1,0 +1,1 @@
+"""Many cases: curves and, later, sweeps, populations and sensitivities."""

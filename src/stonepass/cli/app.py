@@ -1,0 +1,45 @@
+"""The application: the sub-commands and the version flag."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+import stonepass
+from stonepass.cli import curve, headline, material, pressure, size
+
+__all__ = ["app"]
+
+app = typer.Typer(
+    name="stonepass",
+    help="At what urine pressure does a stone pass a ureter, and how large may it be? "
+    "Research use only. Not a medical device.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+
+
+def _version(value: bool) -> None:
+    if value:
+        print(f"stonepass {stonepass.__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+app.command("pressure")(pressure.command)
+app.command("size")(size.command)
+app.command("curve")(curve.command)
+app.command("headline")(headline.command)
+app.add_typer(material.app, name="material")

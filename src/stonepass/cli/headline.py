@@ -1,0 +1,29 @@
+"""``stonepass headline``: the paper's two critical sizes, computed, beside the published ones."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+__all__ = ["command"]
+
+
+def command(
+    figure: Annotated[
+        Path, typer.Option("--figure", metavar="OUT.svg", help="Where to draw it (svg, png, pdf).")
+    ] = Path("headline.svg"),
+) -> int:
+    """Compute the paper's headline: critical sizes of the thin and the thick ureter at 12 kPa."""
+    from stonepass.cli.terminal import counting, show
+    from stonepass.paper.headline import headline
+    from stonepass.paper.headline_report import headline_figure, headline_table
+    from stonepass.report.record import DISCLAIMER
+    from stonepass.report.style import save
+
+    with counting("cases") as progress:
+        walls = headline(progress)
+    save(headline_figure(walls), figure)
+    show(headline_table(walls), f"Figure: {figure}", DISCLAIMER)
+    return 0 if all(wall.size.outcome.answered for wall in walls) else 1

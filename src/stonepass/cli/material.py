@@ -1,0 +1,88 @@
+"""``stonepass material``: list, show and check material laws."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+__all__ = ["app"]
+
+app = typer.Typer(
+    help="List, show and check material laws.", no_args_is_help=True, rich_markup_mode=None
+)
+
+Name = Annotated[
+    str, typer.Argument(metavar="NAME", help="Catalogue name, law.toml or file.py:function.")
+]
+
+
+@app.command("list")
+def list_materials() -> int:
+    """List the catalogue."""
+    from rich import box
+    from rich.table import Table
+
+    from stonepass.cli.terminal import show
+    from stonepass.materials.catalogue import CATALOGUE
+
+    table = Table(box=box.SIMPLE_HEAD)
+    for column in ("name", "law", "stretches", "verified"):
+        table.add_column(column)
+    for entry in CATALOGUE.values():
+        low, high = entry.strain_range
+        table.add_row(entry.name, type(entry.law).__name__, f"{low:g}–{high:g}", entry.verified.split(";")[0])
+    show(table)
+    return 0
+
+
+@app.command("show")
+def show_material(name: Name) -> int:
+    """Show a law's constants and where they come from."""
+    from dataclasses import asdict, is_dataclass
+
+    from stonepass.cli.terminal import show
+    from stonepass.model.case import find_material
+
+    entry = find_material(name)
+    law = entry.law
+    constants: dict[str, Any] = (
+        asdict(law) if is_dataclass(law) and not isinstance(law, type) else {}
+    )
+    low, high = entry.strain_range
+    rows = {
+        "law": type(law).__name__,
+        **{key: _constant(value) for key, value in constants.items() if key != "function"},
+        "stretches": f"{low:g} to {high:g} (circumferential)",
+        "source": entry.source,
+        "test": entry.test,
+        "verified": entry.verified,
+    }
+    width = max(map(len, rows))
+    show(entry.name, *(f"  {key:<{width}}  {value}" for key, value in rows.items()))
+    return 0
+
+
+@app.command("check")
+def check_material(name: Name) -> int:
+    """Check that a law describes a solid; exit code 2 and the reason where it does not."""
+    from stonepass.cli.terminal import show
+    from stonepass.materials.stability import check
+    from stonepass.model.case import find_material
+
+    entry = find_material(name)
+    state = check(entry)
+    show(
+        f"{entry.name}: stable at rest, no stress at rest.",
+        f"  circumferential modulus      {state.hoop / 1e6:.4g} MPa",
+        f"  axial modulus                {state.axial / 1e6:.4g} MPa",
+        f"  circumferential, axis held   {state.plane_hoop / 1e6:.4g} MPa",
+        f"  r-z shear modulus            {state.shear / 1e6:.4g} MPa",
+    )
+    return 0
+
+
+def _constant(value: object) -> str:
+    if isinstance(value, float) and abs(value) >= 100.0:
+        return f"{value / 1e6:g} MPa"
+    return f"{value:g}" if isinstance(value, float) else str(value)

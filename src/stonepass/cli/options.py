@@ -1,0 +1,206 @@
+"""The options that several sub-commands share, and the parts of a case they make."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+
+import typer
+
+from stonepass.errors import BadInput
+
+if TYPE_CHECKING:
+    from stonepass.model.case import Case, Load, Method, Ureter
+
+__all__ = ["Json", "Settings", "takes_settings"]
+
+Json = Annotated[bool, typer.Option("--json", help="JSON on stdout, and nothing else.")]
+
+_LOAD_OPTIONS = ("confining_pressure", "confinement", "prestretch")
+_METHOD_OPTIONS = (
+    "model",
+    "seating",
+    "half_length",
+    "as_printed",
+    "closure_start",
+    "far_field_ground",
+)
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the options say; None where one was not given, and then a case file may say it."""
+
+    case_file: Annotated[
+        Path | None,
+        typer.Argument(metavar="[CASE.toml]", help="Case file; options given beside it win."),
+    ] = None
+    stone: Annotated[
+        str | None, typer.Option("--stone", metavar="LENGTH", help="Stone diameter, e.g. 4.2mm.")
+    ] = None
+    inner: Annotated[
+        str | None, typer.Option("--inner", metavar="LENGTH", help="Inner diameter of the ureter.")
+    ] = None
+    outer: Annotated[
+        str | None, typer.Option("--outer", metavar="LENGTH", help="Outer diameter of the ureter.")
+    ] = None
+    xi: Annotated[
+        float | None, typer.Option("--xi", help="Size ratio: stone over inner diameter.")
+    ] = None
+    eta: Annotated[
+        float | None, typer.Option("--eta", help="Wall ratio: outer over inner diameter.")
+    ] = None
+    material: Annotated[
+        str | None,
+        typer.Option(
+            "--material",
+            metavar="NAME|FILE",
+            help="Catalogue name, law.toml or file.py:function.  [default: ureter]",
+        ),
+    ] = None
+    friction: Annotated[
+        float | None,
+        typer.Option("--friction", help="Coulomb friction coefficient.  [default: 0.5]"),
+    ] = None
+    seating: Annotated[
+        str | None, typer.Option("--seating", help="frictionless.  [default: frictionless]")
+    ] = None
+    confining_pressure: Annotated[
+        str | None,
+        typer.Option(
+            "--confining",
+            metavar="PRESSURE",
+            help="Confining pressure, e.g. 5.4kPa.  [default: 0kPa]",
+        ),
+    ] = None
+    confinement: Annotated[
+        str | None, typer.Option("--confinement", help="dead or hydrostatic.  [default: dead]")
+    ] = None
+    prestretch: Annotated[
+        float | None, typer.Option("--prestretch", help="Axial pre-stretch.  [default: 1]")
+    ] = None
+    half_length: Annotated[
+        float | None,
+        typer.Option("--half-length", help="Half the tube's length in inner radii.  [default: 10]"),
+    ] = None
+    model: Annotated[str | None, typer.Option("--model", help="paper.  [default: paper]")] = None
+    as_printed: Annotated[
+        bool | None,
+        typer.Option("--as-printed/--as-derived", help="Sign of Eq. 5.  [default: as derived]"),
+    ] = None
+    closure_start: Annotated[
+        str | None,
+        typer.Option(
+            "--closure-start",
+            help="Where Eq. 15 starts: inner-radius or lumen.  [default: inner-radius]",
+        ),
+    ] = None
+    far_field_ground: Annotated[
+        bool | None,
+        typer.Option(
+            "--far-field-ground/--far-field-fibres",
+            help="Ground matrix in the far field too.  [default: fibres only, Eq. 22]",
+        ),
+    ] = None
+
+    def case(self) -> Case:
+        """Build the whole case."""
+        from stonepass.model.case import Case, Stone
+
+        base = self._base
+        if self.stone is not None and self.xi is not None:
+            raise BadInput("--stone and --xi", "both given", "one of the two")
+        if self.stone is None and self.xi is None:
+            if base is None:
+                raise BadInput("size of the stone", "missing", "given as --stone or --xi")
+            stone = Stone(base.stone.diameter, self.friction_value(), base.stone.size_ratio)
+        else:
+            stone = Stone(self.stone, self.friction_value(), self.xi)
+        return Case(stone, self.ureter(), self.load(), self.method())
+
+    def ureter(self) -> Ureter:
+        """Build the ureter alone (critical size, curve)."""
+        from stonepass.model.case import Ureter
+
+        kept = None if self._base is None else self._base.ureter
+        material = self.material or ("ureter" if kept is None else kept.material)
+        if self.outer is not None and self.eta is not None:
+            raise BadInput("--outer and --eta", "both given", "one of the two")
+        if self.inner is not None or self.outer is not None or self.eta is not None:
+            return Ureter(self.inner, self.outer, material, self.eta)
+        if kept is None:
+            raise BadInput(
+                "size of the ureter", "missing", "given as --inner and --outer, or as --eta"
+            )
+        return Ureter(kept.inner_diameter, kept.outer_diameter, material, kept.wall_ratio)
+
+    def friction_value(self) -> float:
+        """Friction coefficient of the options, of the case file, or the default."""
+        if self.friction is not None:
+            return self.friction
+        return 0.5 if self._base is None else self._base.stone.friction
+
+    def load(self) -> Load:
+        """Build the load."""
+        from stonepass.model.case import Load
+
+        return Load(**self._merged(_LOAD_OPTIONS, "load"))
+
+    def method(self) -> Method:
+        """Build the method."""
+        from stonepass.model.case import Method
+
+        return Method(**self._merged(_METHOD_OPTIONS, "method"))
+
+    @property
+    def _base(self) -> Case | None:
+        return None if self.case_file is None else _read(self.case_file)
+
+    def _merged(self, names: tuple[str, ...], section: str) -> dict[str, Any]:
+        """Options that were given, else the file's values, else nothing (the defaults)."""
+        base = self._base
+        kept = {} if base is None else {n: getattr(getattr(base, section), n) for n in names}
+        given = {name: getattr(self, name) for name in names}
+        return kept | {name: value for name, value in given.items() if value is not None}
+
+
+@lru_cache(maxsize=1)
+def _read(path: Path) -> Case:
+    from stonepass.model.case_file import read_case
+
+    return read_case(path)
+
+
+def takes_settings(*left_out: str) -> Callable[[Callable[..., int]], Callable[..., int]]:
+    """Turn ``function(settings, own options…)`` into a command with all options in its signature.
+
+    `left_out` names fields of `Settings` that the command does not have.
+    """
+    hints = get_type_hints(Settings, include_extras=True)
+    shared = [field.name for field in fields(Settings) if field.name not in left_out]
+
+    def decorate(function: Callable[..., int]) -> Callable[..., int]:
+        own_hints = get_type_hints(function, include_extras=True)
+        own = [p for p in inspect.signature(function).parameters.values() if p.name != "settings"]
+        annotations = {name: hints[name] for name in shared}
+        annotations |= {p.name: own_hints[p.name] for p in own}
+
+        def command(**given: Any) -> int:
+            settings = Settings(**{name: given.pop(name) for name in shared})
+            return function(settings, **given)
+
+        command.__doc__ = function.__doc__
+        command.__annotations__ = annotations
+        keyword = inspect.Parameter.KEYWORD_ONLY
+        parameters = [
+            *(inspect.Parameter(n, keyword, default=None, annotation=hints[n]) for n in shared),
+            *(p.replace(kind=keyword, annotation=own_hints[p.name]) for p in own),
+        ]
+        command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        return command
+
+    return decorate

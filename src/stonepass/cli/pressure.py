@@ -1,0 +1,73 @@
+"""``stonepass pressure``: the critical pressure of one stone in one ureter."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stonepass.cli.options import Json, Settings, takes_settings
+from stonepass.errors import BadInput
+
+if TYPE_CHECKING:
+    from stonepass.model.critical import Answer
+
+__all__ = ["command"]
+
+
+@takes_settings()
+def command(
+    settings: Settings,
+    json: Json = False,
+    profile: Annotated[
+        Path | None,
+        typer.Option("--profile", metavar="OUT.csv", help="Write contact pressure over angle."),
+    ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", metavar="OUT.svg", help="Draw the case (svg, png or pdf)."),
+    ] = None,
+    save: Annotated[
+        Path | None,
+        typer.Option("--save", metavar="CASE.toml", help="Write the case for another time."),
+    ] = None,
+) -> int:
+    """Find the urine pressure at which a stone starts to move.
+
+    Give CASE.toml, or --stone with --inner and --outer, or --xi with --eta.
+    """
+    case = settings.case()
+    from stonepass.cli.terminal import print_json, show, warn, working
+    from stonepass.model.critical import solve
+    from stonepass.report.record import record
+
+    if save is not None:
+        from stonepass.model.case_file import write_case
+
+        write_case(case, save)
+    with working("solving the seated state"):
+        answer = solve(case)
+    _write(answer, profile, figure)
+    if json:
+        print_json(record(answer))
+    else:
+        from stonepass.report.table import pressure_table
+
+        show(pressure_table(answer), f"{answer.outcome.name}: {answer.message}")
+        warn(answer.warnings)
+    return 0 if answer.outcome.answered else 1
+
+
+def _write(answer: Answer, profile: Path | None, figure: Path | None) -> None:
+    if profile is not None:
+        if answer.seated is None:
+            raise BadInput("--profile", answer.outcome.name, "asked for where a stone is seated")
+        from stonepass.report.record import write_profile
+
+        write_profile(answer.seated, profile)
+    if figure is not None:
+        from stonepass.report.case_figure import case_figure
+        from stonepass.report.style import save
+
+        save(case_figure(answer), figure)

@@ -1,0 +1,67 @@
+"""Talking to a terminal: JSON, tables and warnings out, progress on stderr."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from rich.console import Console
+
+__all__ = ["counting", "print_json", "show", "warn", "working"]
+
+_OUT = Console(highlight=False, soft_wrap=False)
+_ERR = Console(stderr=True, highlight=False)
+PLAIN_INTERVAL = 2.0  # seconds between lines where stderr is not a terminal
+
+
+def print_json(record: Any) -> None:
+    """Write one JSON document to stdout; NaN would be a fault and raises."""
+    sys.stdout.write(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def show(*parts: Any) -> None:
+    """Print tables and sentences for a person."""
+    for part in parts:
+        _OUT.print(part, soft_wrap=isinstance(part, str))
+
+
+def warn(sentences: tuple[str, ...] | list[str]) -> None:
+    """Print warnings on stderr."""
+    for sentence in sentences:
+        _ERR.print(f"warning: {sentence}", style="yellow", soft_wrap=True)
+
+
+@contextmanager
+def working(what: str) -> Iterator[None]:
+    """Say what is being done, where stderr is a terminal."""
+    if _ERR.is_terminal:
+        with _ERR.status(what):
+            yield
+    else:
+        yield
+
+
+@contextmanager
+def counting(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Yield a function that is told (done, all): a bar on a terminal, else a line now and then."""
+    if _ERR.is_terminal:
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+        with Progress(*columns, console=_ERR, transient=True) as bar:
+            task = bar.add_task(what, total=None)
+            yield lambda done, total: bar.update(task, completed=done, total=total)
+        return
+    last = time.monotonic()
+
+    def line(done: int, total: int) -> None:
+        nonlocal last
+        if time.monotonic() - last >= PLAIN_INTERVAL:
+            last = time.monotonic()
+            print(f"{what}: {done} of {total}", file=sys.stderr, flush=True)
+
+    yield line

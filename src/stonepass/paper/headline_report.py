@@ -1,0 +1,78 @@
+"""The headline as a table and a figure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from matplotlib.figure import Figure
+from rich import box
+from rich.table import Table
+
+from stonepass.paper.headline import FRICTION, LIMIT, Wall
+from stonepass.report.curve_figure import draw_curve, frame_curve
+from stonepass.report.style import COLOURS, new_figure
+
+__all__ = ["headline_figure", "headline_table"]
+
+
+def headline_table(walls: Sequence[Wall]) -> Table:
+    """Critical pressures of both walls and, below, the critical sizes beside the published."""
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        title=f"Critical pressure (kPa), human ureter, friction {FRICTION:g}",
+        title_justify="left",
+    )
+    table.add_column("size ratio ξ", justify="right")
+    for wall in walls:
+        table.add_column(f"η = {wall.wall_ratio:.2f}", justify="right")
+    for row in zip(*(wall.curve for wall in walls), strict=True):
+        cells = [a.outcome.name if a.pressure is None else f"{a.pressure / 1e3:.2f}" for a in row]
+        table.add_row(f"{row[0].case.size_ratio:.2f}", *cells)
+    table.add_section()
+    table.add_row(f"ξ_cr at {LIMIT / 1e3:g} kPa", *(_ratio(w.size.size_ratio) for w in walls))
+    table.add_row("published", *(f"{wall.published:.2f}" for wall in walls))
+    table.add_row("deviation", *(_ratio(wall.deviation, sign="+") for wall in walls))
+    return table
+
+
+def headline_figure(walls: Sequence[Wall]) -> Figure:
+    """Draw P_ucr(ξ) of both walls, the 12 kPa limit and the published critical sizes."""
+    figure = new_figure(6.4, 4.4)
+    axes = figure.add_subplot()
+    limit = LIMIT / 1e3
+    names = ("thin wall", "thick wall")
+    for wall, name, colour in zip(walls, names, ("blue", "orange"), strict=True):
+        draw_curve(axes, wall.curve, COLOURS[colour], f"{name}, η = {wall.wall_ratio:.1f}")
+        if wall.size.size_ratio is not None:
+            axes.plot(wall.size.size_ratio, limit, "o", color=COLOURS[colour], markersize=7)
+            axes.annotate(
+                f"{wall.size.size_ratio:.3f}",
+                (wall.size.size_ratio, limit),
+                xytext=(6, -12),
+                textcoords="offset points",
+                color=COLOURS[colour],
+                fontweight="bold",
+            )
+        axes.plot(
+            wall.published,
+            limit,
+            "*",
+            color="white",
+            markeredgecolor=COLOURS["ink"],
+            markersize=11,
+            zorder=5,
+            label=r"published $\xi_{cr}$ (Liu et al. 2022)" if wall is walls[-1] else None,
+        )
+    axes.axhline(limit, color=COLOURS["grey"], linewidth=0.9, linestyle="--")
+    axes.annotate(
+        f"pressure limit {limit:g} kPa", (1.0, limit), xytext=(2, 4), textcoords="offset points",
+        color=COLOURS["grey"], fontsize=8,
+    )  # fmt: skip
+    frame_curve(axes)
+    axes.set_title("Critical pressure of a stone in the human ureter")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.97))
+    return figure
+
+
+def _ratio(value: float | None, sign: str = "") -> str:
+    return "–" if value is None else f"{value:{sign}.3f}"

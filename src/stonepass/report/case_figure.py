@@ -1,0 +1,135 @@
+"""The picture of one case: the seated wall, its contact pressure, the balance of forces."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from stonepass.errors import BadInput
+from stonepass.fe.readout import Field
+from stonepass.model.balance import drive, resistance
+from stonepass.model.critical import Answer, pressure_of_angle
+from stonepass.model.seated import SeatedState
+from stonepass.report.style import COLOURS, new_figure, tidy
+
+__all__ = ["case_figure"]
+
+
+def case_figure(answer: Answer) -> Figure:
+    """Draw the seated wall above, contact pressure and force balance below."""
+    seated = answer.seated
+    if seated is None or seated.wall is None:
+        raise BadInput(
+            "figure", answer.outcome.name, "asked for where there is a seated state to draw"
+        )
+    figure = new_figure(8.4, 6.6)
+    rows = figure.add_gridspec(2, 2, height_ratios=(1.15, 1.0))
+    _wall(figure.add_subplot(rows[0, :]), seated, seated.wall)
+    _contact(figure.add_subplot(rows[1, 0]), answer, seated)
+    _balance(figure.add_subplot(rows[1, 1]), answer, seated)
+    return figure
+
+
+def _wall(axes: Axes, seated: SeatedState, wall: Field) -> None:
+    """The meridian section, upstream left, coloured by the radial compression of the wall."""
+    radius = seated.case.size_ratio
+    order = round(np.sqrt(wall.r.shape[1])) - 1
+    shape = (order + 1, order + 1)
+    compression = -wall.stress_rr / 1e3
+    top = float(seated.peak_contact_pressure) / 1e3
+    image = None
+    for side in (-1.0, 1.0):  # upstream, downstream
+        for half in (1.0, -1.0):  # above and below the axis
+            for r, z, value in zip(wall.r, wall.z, compression, strict=True):
+                x, y, c = (side * z).reshape(shape), (half * r).reshape(shape), value.reshape(shape)
+                image = axes.pcolormesh(
+                    x, y, c, shading="gouraud", cmap="magma_r", vmin=0.0, vmax=top, rasterized=True
+                )
+                outline = np.r_[x[0], x[:, -1], x[-1, ::-1], x[::-1, 0]]
+                outline_y = np.r_[y[0], y[:, -1], y[-1, ::-1], y[::-1, 0]]
+                axes.plot(outline, outline_y, color="white", linewidth=0.25, alpha=0.6)
+    axes.add_patch(
+        Circle((0.0, 0.0), radius, facecolor=COLOURS["stone"], edgecolor=COLOURS["ink"], lw=0.8)
+    )
+    alpha = seated.contact_angle
+    for half in (1.0, -1.0):
+        for side in (-1.0, 1.0):
+            axes.plot(
+                [0.0, side * radius * np.cos(alpha)],
+                [0.0, half * radius * np.sin(alpha)],
+                color=COLOURS["grey"],
+                linewidth=0.8,
+                linestyle="--",
+            )
+    axes.annotate(
+        rf"$\alpha_0$ = {np.degrees(alpha):.1f}°", (-0.12 * radius, 0.0), ha="right", va="center"
+    )
+    extent = 2.2 * radius + 0.6
+    height = float(wall.r.max()) * 1.06
+    axes.set(xlim=(-extent, extent), ylim=(-height, height), aspect="equal")
+    axes.set(xlabel="z / inner radius   (urine comes from the left)", ylabel="r / inner radius")
+    axes.set_title("Seated stone: radial compression in the wall")
+    axes.spines[["top", "right"]].set_visible(False)
+    assert image is not None
+    bar = axes.figure.colorbar(image, ax=axes, shrink=0.85, pad=0.01)
+    bar.set_label(r"$-\sigma_{rr}$  (kPa)")
+    bar.outline.set_visible(False)
+
+
+def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:
+    theta = np.concatenate([[seated.contact_angle], seated.theta, [np.pi / 2]])
+    theta = np.unique(np.concatenate([theta, np.pi - theta]))
+    pressure = seated.pressure_at(theta) / 1e3
+    axes.fill_between(np.degrees(theta), pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
+    axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"])
+    if answer.critical_angle is not None:
+        axes.axvline(np.degrees(answer.critical_angle), color=COLOURS["orange"], linewidth=1.0)
+        axes.annotate(
+            f"opens to α = {np.degrees(answer.critical_angle):.1f}°",
+            (np.degrees(answer.critical_angle), 0.04),
+            xycoords=("data", "axes fraction"),
+            xytext=(4, 0),
+            textcoords="offset points",
+            color=COLOURS["orange"],
+        )
+    axes.set(
+        xlabel="θ from the upstream axis (°)", ylabel="contact pressure σ (kPa)", ylim=(0, None)
+    )
+    axes.set_title("Contact pressure")
+    tidy(axes)
+
+
+def _balance(axes: Axes, answer: Answer, seated: SeatedState) -> None:
+    """F_re and F_dr over α, as pressures on the stone's cross-section."""
+    forces = resistance(seated)
+    alpha = np.linspace(seated.contact_angle, np.pi / 2, 300)
+    push = drive(pressure_of_angle(seated, alpha), alpha)
+    degrees = np.degrees(alpha)
+    axes.plot(degrees, forces.total(alpha) / 1e3, color=COLOURS["blue"], label="resistance")
+    axes.plot(
+        degrees,
+        forces.friction(alpha) / 1e3,
+        color=COLOURS["blue"],
+        linewidth=0.9,
+        linestyle=":",
+        label="of it friction",
+    )
+    axes.plot(degrees, push / 1e3, color=COLOURS["green"], label="drive")
+    if answer.pressure is not None and answer.critical_angle is not None:
+        at = np.array(answer.critical_angle)
+        axes.plot(
+            np.degrees(at),
+            float(forces.total(at)) / 1e3,
+            marker="o",
+            color=COLOURS["orange"],
+            linestyle="none",
+            label=rf"$P_{{ucr}}$ = {answer.pressure / 1e3:.4g} kPa",
+        )
+    axes.set(
+        xlabel="angle α up to which the wall is open (°)", ylabel=r"force / ($\pi R_s^2$)  (kPa)"
+    )
+    axes.set_title("Resistance and drive")
+    axes.legend(fontsize=8)
+    tidy(axes)

@@ -1,0 +1,166 @@
+"""Answers as flat records with the names of the glossary: JSON and CSV."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable
+from dataclasses import asdict, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import stonepass
+from stonepass.errors import BadInput
+from stonepass.model.case import Case
+from stonepass.model.critical import Answer
+from stonepass.model.seated import SeatedState
+from stonepass.model.size import SizeAnswer
+
+__all__ = [
+    "DISCLAIMER",
+    "curve_rows",
+    "record",
+    "size_record",
+    "write_curve",
+    "write_profile",
+]
+
+DISCLAIMER = "Research use only. Not a medical device."
+PROFILE_STEP = 0.1  # degrees
+_CURVE_COLUMNS = (
+    "size_ratio",
+    "outcome",
+    "critical_pressure_kPa",
+    "critical_angle_deg",
+    "contact_angle_deg",
+    "equator_contact_pressure_kPa",
+    "peak_contact_pressure_kPa",
+    "closure_end_pressure_kPa",
+    "wall_ratio",
+    "model",
+    "material",
+)
+
+
+def record(answer: Answer) -> dict[str, Any]:
+    """One answer as a JSON-ready record; a number that does not exist is None."""
+    seated, case = answer.seated, answer.case
+    return {
+        "outcome": answer.outcome.name,
+        "message": answer.message,
+        "critical_pressure_kPa": _kilo(answer.pressure),
+        "critical_angle_deg": _degrees(answer.critical_angle),
+        "contact_angle_deg": _degrees(seated.contact_angle if seated else None),
+        "equator_contact_pressure_kPa": _kilo(seated.equator_contact_pressure if seated else None),
+        "peak_contact_pressure_kPa": _kilo(seated.peak_contact_pressure if seated else None),
+        "closure_end_pressure_kPa": _kilo(answer.closure_end_pressure),
+        "size_ratio": case.size_ratio,
+        "wall_ratio": case.wall_ratio,
+        "model": case.method.model,
+        "material": case.ureter.material.name,
+        "inputs": _inputs(case),
+        "solver": {
+            "dofs": seated.solver.dofs if seated else None,
+            "newton_steps": answer.newton_steps or None,
+            "seconds": answer.seconds or None,
+            "residual": seated.solver.residual if seated else None,
+        },
+        "warnings": list(answer.warnings),
+        "version": stonepass.__version__,
+        "disclaimer": DISCLAIMER,
+    }
+
+
+def size_record(answer: SizeAnswer) -> dict[str, Any]:
+    """One critical size as a JSON-ready record.
+
+    The keys of `record` describe the state at the critical size; without one they are None.
+    """
+    found = answer.size_ratio is not None
+    assert not found or answer.at_size is not None
+    base = (
+        answer.at_size
+        if found and answer.at_size
+        else Answer(answer.case, answer.outcome, answer.message)
+    )
+    row = record(base)
+    if not found:
+        row["size_ratio"] = None
+        row["inputs"]["size_ratio"] = None
+    return {
+        **row,
+        "outcome": answer.outcome.name,
+        "message": answer.message,
+        "critical_size_ratio": answer.size_ratio,
+        "critical_diameter_mm": None if answer.diameter is None else answer.diameter * 1e3,
+        "limit_kPa": _kilo(answer.limit),
+        "warnings": list(answer.warnings),
+    }
+
+
+def curve_rows(answers: Iterable[Answer]) -> list[dict[str, Any]]:
+    """The rows of a curve: the numbers of `record` that vary with the stone."""
+    return [{key: row[key] for key in _CURVE_COLUMNS} for row in map(record, answers)]
+
+
+def write_curve(answers: Iterable[Answer], path: Path) -> None:
+    """Write a curve as CSV; a number that does not exist is an empty cell."""
+    rows = [[_cell(row[key]) for key in _CURVE_COLUMNS] for row in curve_rows(answers)]
+    _write_csv(path, _CURVE_COLUMNS, rows)
+
+
+def write_profile(seated: SeatedState, path: Path) -> None:
+    """Write σ(θ) as CSV, θ from 0 to 180° in steps of 0.1° with α₀ and π − α₀ as rows."""
+    edge = math.degrees(seated.contact_angle)
+    grid = np.linspace(0.0, 180.0, round(180.0 / PROFILE_STEP) + 1)
+    theta = np.unique(np.concatenate([grid, [edge, 180.0 - edge]]))
+    pressure = seated.pressure_at(np.radians(theta)) / 1e3
+    rows = [[f"{t:.10g}", f"{p:.10g}"] for t, p in zip(theta, pressure, strict=True)]
+    _write_csv(path, ("theta_deg", "contact_pressure_kPa"), rows)
+
+
+def _inputs(case: Case) -> dict[str, Any]:
+    """What the answer was computed from, in SI."""
+    ureter, law = case.ureter, case.ureter.material.law
+    constants: dict[str, Any] = asdict(law) if is_dataclass(law) else {}
+    constants.pop("function", None)
+    return {
+        "stone_diameter_m": case.stone.diameter,
+        "size_ratio": case.size_ratio,
+        "friction": case.stone.friction,
+        "inner_diameter_m": ureter.inner_diameter,
+        "outer_diameter_m": ureter.outer_diameter,
+        "wall_ratio": ureter.wall_ratio,
+        "law": type(law).__name__,
+        "law_constants": constants,
+        "confining_pressure_Pa": float(case.load.confining_pressure),
+        "confinement": case.load.confinement,
+        "prestretch": case.load.prestretch,
+        **{name: value for name, value in asdict(case.method).items() if name != "model"},
+    }
+
+
+def _kilo(value: float | None) -> float | None:
+    return None if value is None else value / 1e3
+
+
+def _degrees(value: float | None) -> float | None:
+    return None if value is None else math.degrees(value)
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def _write_csv(path: Path, header: Iterable[str], rows: list[list[str]]) -> None:
+    try:
+        with path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(header)
+            writer.writerows(rows)
+    except OSError as problem:
+        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem

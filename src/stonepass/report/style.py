@@ -1,0 +1,84 @@
+"""How every figure looks: fonts, colours, saving."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stonepass.errors import BadInput
+from stonepass.units import PASCAL_PER
+
+__all__ = ["COLOURS", "add_mmhg_axis", "new_figure", "save", "tidy"]
+
+# Distinguishable with colour blindness and in grey (Okabe–Ito).
+COLOURS = {
+    "blue": "#0072B2",
+    "orange": "#D55E00",
+    "green": "#009E73",
+    "pink": "#CC79A7",
+    "grey": "#6B7280",
+    "ink": "#1F2937",
+    "stone": "#D6CFC4",
+}
+FORMATS = ("svg", "png", "pdf")
+
+_STYLE: Any = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9.0,
+    "axes.titlesize": 10.0,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelcolor": COLOURS["ink"],
+    "axes.edgecolor": COLOURS["grey"],
+    "xtick.color": COLOURS["ink"],
+    "ytick.color": COLOURS["ink"],
+    "text.color": COLOURS["ink"],
+    "legend.frameon": False,
+    "svg.hashsalt": "stonepass",
+    "svg.fonttype": "path",
+}
+mpl.rcParams.update(_STYLE)
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Return an empty figure, sizes in inches, that lays itself out."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def tidy(axes: Axes) -> None:
+    """Leave only the left and bottom frame, and a light grid."""
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.grid(alpha=0.25, linewidth=0.6)
+    axes.set_axisbelow(True)
+
+
+def add_mmhg_axis(axes: Axes) -> None:
+    """Put a scale in mmHg on the right of axes in kPa."""
+    factor = PASCAL_PER["kPa"] / PASCAL_PER["mmHg"]
+
+    def to_mmhg(kilopascals: Any) -> Any:
+        return kilopascals * factor
+
+    def to_kpa(mmhg: Any) -> Any:
+        return mmhg / factor
+
+    right = axes.secondary_yaxis("right", functions=(to_mmhg, to_kpa))
+    right.set_ylabel("mmHg")
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write the figure; the ending of `path` says which format, the same bytes every time."""
+    ending = path.suffix.lower().lstrip(".")
+    if ending not in FORMATS:
+        raise BadInput("figure", str(path), "a file name ending in ." + ", .".join(FORMATS))
+    metadata: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(
+        ending, {}
+    )
+    try:
+        figure.savefig(path, dpi=200, metadata=metadata)
+    except OSError as problem:
+        raise BadInput("figure", str(path), f"writable ({problem.strerror})") from problem

@@ -1,0 +1,112 @@
+"""Answers as short tables for a terminal, pressures in kPa, mmHg and cmH₂O."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from rich import box
+from rich.table import Table
+
+from stonepass.errors import Outcome
+from stonepass.model.case import Case
+from stonepass.model.critical import Answer
+from stonepass.model.size import SizeAnswer
+from stonepass.units import PASCAL_PER
+
+__all__ = ["curve_table", "pressure_table", "size_table"]
+
+
+def pressure_table(answer: Answer) -> Table:
+    """One answer: what was asked, then the pressures."""
+    table = _pressures(_title(answer.case))
+    if answer.pressure is not None:
+        _pressure_row(table, "[bold]critical pressure[/bold]", answer.pressure)
+    _state_rows(table, answer)
+    if answer.outcome is Outcome.MOVES and answer.critical_angle is not None:
+        _angle_row(table, "critical angle", answer.critical_angle)
+    return table
+
+
+def size_table(answer: SizeAnswer) -> Table:
+    """One critical size: the size, then the state at it."""
+    case = answer.case
+    table = _pressures(_title(case, with_stone=False))
+    _pressure_row(table, "pressure limit", answer.limit)
+    if answer.size_ratio is None or answer.at_size is None:
+        return table
+    table.add_row("[bold]critical size ratio[/bold]", f"[bold]{answer.size_ratio:.4f}[/bold]")
+    if answer.diameter is not None:
+        table.add_row("[bold]critical diameter[/bold]", f"[bold]{answer.diameter * 1e3:.3f} mm")
+    _state_rows(table, answer.at_size)
+    return table
+
+
+def curve_table(answers: Sequence[Answer]) -> Table:
+    """A curve: one row per size ratio."""
+    table = Table(box=box.SIMPLE_HEAD, title=_title(answers[0].case, with_stone=False))
+    for name in ("size ratio", "outcome", "kPa", "mmHg", "cmH₂O", "contact angle"):
+        table.add_column(name, justify="left" if name == "outcome" else "right")
+    for answer in answers:
+        pressures = (
+            ["–"] * 3
+            if answer.pressure is None
+            else [_significant(answer.pressure / scale) for scale in PASCAL_PER.values()]
+        )
+        angle = "–" if answer.seated is None else f"{_deg(answer.seated.contact_angle):.2f}°"
+        table.add_row(f"{answer.case.size_ratio:.4g}", answer.outcome.name, *pressures, angle)
+    return table
+
+
+def _pressures(title: str) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left")
+    table.add_column("")
+    for unit in ("kPa", "mmHg", "cmH₂O"):
+        table.add_column(unit, justify="right")
+    return table
+
+
+def _pressure_row(table: Table, name: str, pascals: float) -> None:
+    table.add_row(name, *(_significant(pascals / scale) for scale in PASCAL_PER.values()))
+
+
+def _angle_row(table: Table, name: str, radians: float) -> None:
+    table.add_row(name, f"{_deg(radians):.2f}°")
+
+
+def _state_rows(table: Table, answer: Answer) -> None:
+    seated = answer.seated
+    if answer.closure_end_pressure is not None:
+        _pressure_row(table, "closure end", answer.closure_end_pressure)
+    if seated is None:
+        return
+    _pressure_row(table, "contact pressure, equator", seated.equator_contact_pressure)
+    _pressure_row(table, "contact pressure, peak", seated.peak_contact_pressure)
+    _angle_row(table, "contact angle", seated.contact_angle)
+
+
+def _title(case: Case, *, with_stone: bool = True) -> str:
+    stone, ureter = case.stone, case.ureter
+    sizes = [f"η = {case.wall_ratio:.4g}"]
+    if with_stone:
+        sizes.insert(0, f"ξ = {case.size_ratio:.4g}")
+    parts = [", ".join(sizes), f"friction {stone.friction:g}", ureter.material.name]
+    if case.load.confining_pressure > 0.0:
+        parts.append(f"P_out {case.load.confining_pressure / 1e3:g} kPa {case.load.confinement}")
+    if case.load.prestretch != 1.0:
+        parts.append(f"pre-stretch {case.load.prestretch:g}")
+    if case.method.as_printed:
+        parts.append("Eq. 5 as printed")
+    return " · ".join(parts)
+
+
+def _deg(radians: float) -> float:
+    return math.degrees(radians)
+
+
+def _significant(value: float) -> str:
+    """Four significant digits without an exponent: 0.04151, 12, 91.62, 1234."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
+    digits = max(0, 3 - math.floor(math.log10(abs(value))))
+    return f"{value:.{digits}f}"

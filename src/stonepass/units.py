@@ -10,11 +10,17 @@ from __future__ import annotations
 import math
 import re
 from functools import lru_cache
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
+
+import numpy as np
+from jaxtyping import Float
 
 from stonepass.errors import BadInput
 
-__all__ = ["Length", "Pressure", "format_length", "format_pressure", "length", "pressure"]
+__all__ = ["Length", "Pressure", "Values", "format_length", "format_pressure", "length", "pressure"]
+
+# A number or an array of numbers; functions of it work elementwise.
+Values: TypeAlias = float | Float[np.ndarray, "..."]
 
 PASCAL_PER = {"kPa": 1e3, "mmHg": 133.322387415, "cmH2O": 98.0665}
 METRE_PER_MM = 1e-3

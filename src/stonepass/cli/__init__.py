@@ -20,7 +20,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 def run(arguments: list[str]) -> int:
     """Run the command line and return its exit code."""
-    import click  # comes with typer
+    import typer
 
     from stonepass.cli.app import app
     from stonepass.errors import StonepassError
@@ -30,13 +30,11 @@ def run(arguments: list[str]) -> int:
         return result if isinstance(result, int) else 0
     except StonepassError as problem:
         return _say(str(problem), EXIT_BAD_REQUEST)
-    except click.exceptions.Exit as stop:
+    except typer.Exit as stop:
         return stop.exit_code
-    except click.exceptions.Abort:
-        return _say("stopped.", 130)
-    except click.ClickException as problem:
+    except typer.TyperException as problem:
         return _say(_sentence(problem.format_message()), EXIT_BAD_REQUEST)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, typer.Abort):
         return _say("stopped.", 130)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -31,7 +31,9 @@ def list_materials() -> int:
         table.add_column(column)
     for entry in CATALOGUE.values():
         low, high = entry.strain_range
-        table.add_row(entry.name, type(entry.law).__name__, f"{low:g}–{high:g}", entry.verified.split(";")[0])
+        table.add_row(
+            entry.name, type(entry.law).__name__, f"{low:g}–{high:g}", entry.verified.split(";")[0]
+        )
     show(table)
     return 0
 

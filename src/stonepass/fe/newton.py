@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import ngsolve as ng
 
@@ -29,6 +29,7 @@ class Report:
         return not self.reason
 
 
+@runtime_checkable
 class System(Protocol):
     """A nonlinear system with a current state that can be moved along a direction."""
 

@@ -10,10 +10,18 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.fe.contact import lobatto, lobatto_rule
-from stonepass.fe.tube import Fitted
-from stonepass.fe.wall import cauchy_stress, strain
+from stonepass.fe.problem import Fitted
+from stonepass.fe.wall import SYMBOLS, cauchy_stress, strain
 
-__all__ = ["ContactProfile", "Field", "Volume", "contact_profile", "field", "volume"]
+__all__ = [
+    "ContactProfile",
+    "Field",
+    "Volume",
+    "contact_profile",
+    "field",
+    "stored_energy",
+    "volume",
+]
 
 SAMPLES_PER_COLUMN = 33
 
@@ -117,6 +125,17 @@ def field(solved: Fitted) -> Field:
         stress_zz=stress[2],
         stress_rz=stress[3],
     )
+
+
+def stored_energy(solved: Fitted) -> float:
+    """Strain energy of the half tube Z ≥ 0, in units of modulus × inner radius³.
+
+    Its slope in the radius of the sphere is the contact force: growing the sphere by dR does the
+    work ∫ σ dA dR, which is all the work there is where no other load acts (a check by energy).
+    """
+    u, w, _, _ = solved.state.components
+    density = ng.CF(solved.tube.energy(*strain(u, w).C, SYMBOLS))
+    return float(2.0 * np.pi * ng.Integrate(density * ng.x * ng.dx(bonus_intorder=8), solved.mesh))
 
 
 def volume(solved: Fitted) -> Volume:

@@ -10,13 +10,12 @@ from autograd import elementwise_grad, hessian
 from jaxtyping import Float
 
 from stonepass.materials.protocol import Law
+from stonepass.units import Values
 
 __all__ = ["hoop_energy_slope", "hoop_modulus", "rest_gradient", "rest_moduli"]
 
 
-def hoop_energy_slope(
-    law: Law, stretch: Float[np.ndarray, ...], axial: float = 1.0
-) -> Float[np.ndarray, ...]:
+def hoop_energy_slope(law: Law, stretch: Values, axial: float = 1.0) -> Values:
     """w′(λ) in Pa: slope of the energy of an inflated tube (model: far field).
 
     w(λ) is the energy at circumferential stretch λ and axial stretch `axial`; the radial stretch
@@ -27,7 +26,7 @@ def hoop_energy_slope(
         one = t / t
         return law.energy(1.0 / (t * axial) ** 2, t * t, axial**2 * one, 0.0 * one, anp)
 
-    slope: Float[np.ndarray, ...] = elementwise_grad(w)(np.asarray(stretch, dtype=float))
+    slope: Values = elementwise_grad(w)(np.asarray(stretch, dtype=float))
     return slope
 
 

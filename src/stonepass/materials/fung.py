@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 from scipy.special import erfi
 
 from stonepass.errors import require
 from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.units import Values
 
 __all__ = ["Fung"]
 
@@ -56,9 +56,7 @@ class Fung:
         """Return the fibres alone, as the paper's Eq. 22 has them."""
         return replace(self, G=0.0)
 
-    def inflation_pressure(
-        self, inner_ratio: Float[np.ndarray, ...], wall_ratio: float
-    ) -> Float[np.ndarray, ...]:
+    def inflation_pressure(self, inner_ratio: Values, wall_ratio: float) -> Values:
         """Eq. 22 without P_out, corrected, in Pa; the ground matrix adds Eq. 20 with C₁₀ = G/2.
 
         With q = ½ √a1111 ((r_a/R_a)² − 1):  ¼ C √(π a1111) (erfi q − erfi(q/η²)).

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 
 from stonepass.errors import require
+from stonepass.units import Values
 
 __all__ = ["NeoHookean"]
 
@@ -36,9 +36,7 @@ class NeoHookean:
         """Return itself: there is no fibre part to leave alone."""
         return self
 
-    def inflation_pressure(
-        self, inner_ratio: Float[np.ndarray, ...], wall_ratio: float
-    ) -> Float[np.ndarray, ...]:
+    def inflation_pressure(self, inner_ratio: Values, wall_ratio: float) -> Values:
         """Eq. 20 without P_out, in Pa.
 
         With s = (r_a/R_a)² and t = s + η² − 1:  C₁₀ (η²/t − 1/s + ln s − ln(t/η²)).

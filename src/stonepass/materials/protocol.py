@@ -10,10 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
-import numpy as np
-from jaxtyping import Float
-
 from stonepass.errors import require
+from stonepass.units import Values
 
 __all__ = ["NAMESPACE", "ClosedForm", "Law", "Material"]
 
@@ -23,6 +21,7 @@ NAMESPACE = (
 )  # fmt: skip
 
 
+@runtime_checkable
 class Law(Protocol):
     """A hyperelastic, incompressible wall, cylindrically orthotropic at most."""
 
@@ -44,9 +43,7 @@ class Law(Protocol):
 class ClosedForm(Protocol):
     """A law whose inflation pressure at unit axial stretch is known in closed form."""
 
-    def inflation_pressure(
-        self, inner_ratio: Float[np.ndarray, ...], wall_ratio: float
-    ) -> Float[np.ndarray, ...]:
+    def inflation_pressure(self, inner_ratio: Values, wall_ratio: float) -> Values:
         """Transmural pressure in Pa at r_a/R_a = `inner_ratio`, R_b/R_a = `wall_ratio`."""
         ...
 

@@ -104,7 +104,7 @@ def _existing(text: str, folder: Path | None) -> Path:
 def _from_python(path: Path, name: str, text: str) -> Material:
     try:
         module = runpy.run_path(str(path))
-    except Exception as problem:
+    except (Exception, SystemExit) as problem:
         raise BadInput(
             "material", text, f"Python that runs, not {type(problem).__name__}: {problem}"
         ) from problem

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
 from stonepass.model.seated import SeatedState
+from stonepass.units import Values
 
 __all__ = ["Resistance", "drive", "resistance"]
 
@@ -35,13 +35,13 @@ class Resistance:
     _shear: Any
     _axial: Any
 
-    def friction(self, alpha: Float[np.ndarray, ...]) -> Float[np.ndarray, ...]:
+    def friction(self, alpha: Values) -> Values:
         """F_f(α)/(π R_s²) in Pa, α in [α₀, π/2]."""
         end = self._shear(np.pi / 2)
         upstream = end - self._shear(alpha)  # ∫ from α to π/2 of σ sin²θ
         return 2.0 * self.friction_coefficient * (upstream + end)
 
-    def wall(self, alpha: Float[np.ndarray, ...]) -> Float[np.ndarray, ...]:
+    def wall(self, alpha: Values) -> Values:
         """F_σ(α)/(π R_s²) in Pa, α in [α₀, π/2].
 
         σ⁰ is symmetric about π/2 and sin 2θ antisymmetric, so the integral from α to π − α₀ is
@@ -49,7 +49,7 @@ class Resistance:
         """
         return self.wall_sign * self._axial(alpha)
 
-    def total(self, alpha: Float[np.ndarray, ...]) -> Float[np.ndarray, ...]:
+    def total(self, alpha: Values) -> Values:
         """F_re(α)/(π R_s²) in Pa (Eq. 7)."""
         return self.friction(alpha) + self.wall(alpha)
 
@@ -66,8 +66,6 @@ def resistance(seated: SeatedState) -> Resistance:
     )
 
 
-def drive(
-    urine_pressure: Float[np.ndarray, ...], alpha: Float[np.ndarray, ...]
-) -> Float[np.ndarray, ...]:
+def drive(urine_pressure: Values, alpha: Values) -> Values:
     """F_dr/(π R_s²) in Pa: the urine pressure acts on the disc of radius R_s sin α (Eq. 3)."""
     return urine_pressure * np.sin(alpha) ** 2

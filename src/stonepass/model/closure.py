@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
+
+from stonepass.units import Values
 
 __all__ = ["linear_closure"]
 
 
 def linear_closure(
-    alpha: Float[np.ndarray, ...], contact_angle: float, size_ratio: float, start: float = 1.0
-) -> Float[np.ndarray, ...]:
+    alpha: Values, contact_angle: float, size_ratio: float, start: float = 1.0
+) -> Values:
     """r_a/R_a, linear in sin α from `start` at α₀ to ξ at π/2 (Eq. 15, where `start` is 1).
 
     A choice, not a derivation: the paper's "tangent" condition does not fix it. Only the value at

@@ -6,23 +6,21 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
 from scipy.optimize import brentq
 
 from stonepass.errors import Outcome
-from stonepass.fe.tube import Resolution
+from stonepass.fe.problem import Resolution
 from stonepass.materials.stability import check
 from stonepass.model.balance import Resistance, drive, resistance
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
 from stonepass.model.seated import NoSeat, SeatedState, seat
+from stonepass.units import Values
 
 __all__ = ["Answer", "critical_pressure", "pressure_of_angle", "solve"]
 
 SCAN_POINTS = 721
-
-Angles = Float[np.ndarray, "..."]
 
 
 @dataclass(frozen=True)
@@ -103,7 +101,7 @@ def solve(case: Case, resolution: Resolution = Resolution()) -> Answer:
     return _balance(case, seated)
 
 
-def pressure_of_angle(seated: SeatedState, alpha: Angles) -> Angles:
+def pressure_of_angle(seated: SeatedState, alpha: Values) -> Values:
     """P_u(α) in Pa (Eq. 16): the far field at the radius the closure gives to the angle α."""
     case, start = seated.case, _closure_start(seated.case)
     assert start is not None, "a seated stone under a load that closes the far field"
@@ -125,10 +123,10 @@ def _balance(case: Case, seated: SeatedState) -> Answer:
         reason = "the far field without the ground matrix has no lumen under this load"
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
 
-    def pressure(alpha: Angles) -> Angles:
+    def pressure(alpha: Values) -> Values:
         return pressure_of_angle(seated, alpha)
 
-    def excess(alpha: Angles) -> Angles:
+    def excess(alpha: Values) -> Values:
         return forces.total(alpha) - drive(pressure(alpha), alpha)
 
     first, last = seated.contact_angle, np.pi / 2
@@ -173,10 +171,10 @@ def _at_contact_edge(forces: Resistance, alpha: float) -> float:
     return max(float(forces.total(np.array(alpha))), 0.0) / float(np.sin(alpha)) ** 2
 
 
-def _first_root(excess: Callable[[Angles], Angles], first: float, last: float) -> float | None:
+def _first_root(excess: Callable[[Values], Values], first: float, last: float) -> float | None:
     """Smallest root of `excess` in [first, last]; `first` itself where it starts at or below 0."""
     grid = np.linspace(first, last, SCAN_POINTS)
-    values = excess(grid)
+    values = np.asarray(excess(grid))
     if not np.all(np.isfinite(values)):
         raise FloatingPointError("the force balance is not finite")
     if values[0] <= 1e-12 * np.abs(values).max():

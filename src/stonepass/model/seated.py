@@ -9,8 +9,9 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.errors import BadInput, SolverFault
+from stonepass.fe.problem import Failure, Fitted, Resolution, Tube, Wrap
 from stonepass.fe.readout import Field, Volume, contact_profile, field, volume
-from stonepass.fe.tube import Failure, Fitted, Resolution, Tube, Wrap, seat_on_sphere
+from stonepass.fe.tube import seat_on_sphere
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
 from stonepass.model.case import Case
@@ -144,7 +145,7 @@ def _wrap(case: Case, modulus: float) -> Wrap:
         np.sqrt(np.maximum(radius**2 - z**2, 0.0)),
         lumen + (rim - lumen) * np.exp(-rate * (z - leave)),
     )
-    pressure = inflation(inner, case.wall_ratio, law, stretch) / modulus
+    pressure = np.asarray(inflation(inner, case.wall_ratio, law, stretch)) / modulus
     return Wrap(
         station=z / stretch,
         inner_radius=inner,
@@ -169,9 +170,9 @@ def _state(case: Case, solved: Fitted, modulus: float, started: float) -> Seated
         wall=replace(wall, **{name: modulus * getattr(wall, name) for name in stresses}),
         solver=SolverReport(
             dofs=solved.dofs,
-            newton_steps=solved.report.steps,
+            newton_steps=solved.steps,
             seconds=time.perf_counter() - started,
-            residual=solved.relative_residual,
+            residual=solved.residual,
             volume=kept,
         ),
     )

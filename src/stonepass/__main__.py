@@ -1,0 +1,5 @@
+"""``python -m stonepass``."""
+
+from stonepass.cli import main
+
+main()

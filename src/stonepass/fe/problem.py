@@ -1,0 +1,101 @@
+"""What is asked of the finite elements, and what comes back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.fe.mesh import Layout
+from stonepass.fe.wall import Energy
+
+__all__ = ["Failure", "Fitted", "Resolution", "Tube", "Wrap"]
+
+
+@dataclass(frozen=True)
+class Tube:
+    """A tube in units of its inner radius and of a modulus of its law.
+
+    `wall_ratio` R_b/R_a, `half_length` L/R_a in the reference state, `axial_stretch` imposed at
+    the ends, `outside_pressure` dead (radial resultant kept) or `hydrostatic`.
+    """
+
+    energy: Energy
+    wall_ratio: float
+    half_length: float
+    axial_stretch: float = 1.0
+    outside_pressure: float = 0.0
+    hydrostatic: bool = False
+
+
+@dataclass(frozen=True)
+class Wrap:
+    """First guess: inner radius and inner pressure along the tube, at reference stations Z/R_a.
+
+    `reach` is the station up to which the wall is taken to touch the sphere.
+    """
+
+    station: Float[np.ndarray, " n"]
+    inner_radius: Float[np.ndarray, " n"]
+    pressure: Float[np.ndarray, " n"]
+    reach: float
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How fine the fitted mesh is; the defaults meet 0.05° in the contact edge.
+
+    Attributes
+    ----------
+    order : int
+        Polynomial order of the displacements; the pressure has one less.
+    closed : int
+        Columns in contact, graded towards the edge.
+    edge : float
+        Length of the columns next to the edge, as a fraction of the contact length.
+    growth : float
+        Largest ratio of neighbouring columns beyond the edge and of rows through the wall.
+    """
+
+    order: int = 4
+    closed: int = 10
+    edge: float = 0.02
+    growth: float = 1.6
+
+    def refined(self, factor: float = 2.0) -> Resolution:
+        """Return a finer mesh of the same kind: more columns, a finer edge, gentler growth."""
+        return replace(
+            self,
+            closed=round(self.closed * factor),
+            edge=self.edge / factor,
+            growth=self.growth ** (1.0 / factor),
+        )
+
+
+@dataclass(frozen=True)
+class Failure:
+    """No equilibrium was found, and why."""
+
+    reason: str
+    steps: int
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A solved state: the engine's objects, for reading values off (see `fe.readout`).
+
+    `steps` counts every Newton step on the way, failed attempts too; `residual` is relative to the
+    norm of the contact forces.
+    """
+
+    tube: Tube
+    radius: float
+    layout: Layout
+    mesh: Any
+    state: Any
+    order: int
+    steps: int
+    dofs: int
+    residual: float

@@ -1,0 +1,80 @@
+"""Resistance, drive and closure against integrals done by hand."""
+
+import numpy as np
+import pytest
+
+from stonepass.fe.readout import Volume
+from stonepass.model.balance import drive, resistance
+from stonepass.model.case import Case, Method, Stone, Ureter
+from stonepass.model.closure import linear_closure
+from stonepass.model.seated import SeatedState, SolverReport
+
+EDGE = np.pi / 3
+
+
+def uniform(sigma=7.0, friction=0.4, as_printed=False):
+    """A seated state with constant contact pressure from 60° to 120°."""
+    case = Case(
+        Stone(size_ratio=1.2, friction=friction),
+        Ureter(wall_ratio=1.5),
+        method=Method(as_printed=as_printed),
+    )
+    theta = np.linspace(EDGE, np.pi / 2, 400)
+    report = SolverReport(0, 0, 0.0, 0.0, Volume(0.0, 0.0, 1.0))
+    return SeatedState(case, EDGE, theta, np.full(400, sigma), None, report)
+
+
+def test_friction_by_hand():
+    # 2 μ σ ∫_α^{2π/3} sin²θ dθ, ∫ sin² = θ/2 − sin 2θ / 4.
+    def antiderivative(t):
+        return t / 2 - np.sin(2 * t) / 4
+
+    for alpha in (EDGE, 1.2, np.pi / 2):
+        expected = 2 * 0.4 * 7.0 * (antiderivative(2 * np.pi / 3) - antiderivative(alpha))
+        assert float(resistance(uniform()).friction(np.array(alpha))) == pytest.approx(
+            expected, rel=1e-8
+        )
+
+
+def test_wall_force_by_hand():
+    # −σ ∫_α^{2π/3} sin 2θ dθ = σ (cos 2·(2π/3) − cos 2α)/2 = σ (sin²α − sin²α₀).
+    for alpha in (EDGE, 1.2, np.pi / 2):
+        expected = 7.0 * (np.sin(alpha) ** 2 - 0.75)
+        derived = float(resistance(uniform()).wall(np.array(alpha)))
+        printed = float(resistance(uniform(as_printed=True)).wall(np.array(alpha)))
+        assert derived == pytest.approx(expected, rel=1e-7, abs=1e-12)
+        assert printed == -derived
+
+
+def test_wall_force_resists():
+    alpha = np.linspace(EDGE, np.pi / 2, 50)
+    assert np.all(np.diff(resistance(uniform()).wall(alpha)) > 0.0)
+
+
+def test_total_is_the_sum():
+    forces, alpha = resistance(uniform()), np.array([1.1, 1.3])
+    np.testing.assert_allclose(
+        forces.total(alpha), forces.friction(alpha) + forces.wall(alpha), rtol=1e-15
+    )
+
+
+def test_drive_by_hand():
+    # P_u on a disc of radius R_s sin 30° is P_u/4 on the full cross-section.
+    assert float(drive(np.array(8.0), np.array(np.pi / 6))) == pytest.approx(2.0)
+
+
+def test_closure_by_hand():
+    # sin α₀ = 1/2, ξ = 1.3: halfway in sin α (0.75) is halfway in radius (1.15).
+    alpha = np.arcsin([0.5, 0.75, 1.0])
+    np.testing.assert_allclose(linear_closure(alpha, np.pi / 6, 1.3), [1.0, 1.15, 1.3], rtol=1e-14)
+    np.testing.assert_allclose(
+        linear_closure(alpha, np.pi / 6, 1.3, start=0.9), [0.9, 1.1, 1.3], rtol=1e-14
+    )
+
+
+def test_closure_is_eq_15_as_printed():
+    # r_a = R_s sin α + (sin α − 1)(R_a − R_s sin α₀)/(sin α₀ − 1), R_a = 1, R_s = ξ.
+    alpha, first, xi = np.linspace(1.1, np.pi / 2, 9), 1.1, 1.25
+    s, s0 = np.sin(alpha), np.sin(first)
+    printed = xi * s + (s - 1.0) * (1.0 - xi * s0) / (s0 - 1.0)
+    np.testing.assert_allclose(linear_closure(alpha, first, xi), printed, rtol=1e-13)

@@ -1,0 +1,345 @@
+"""The command line as a user meets it: exit codes, streams, files, sentences."""
+
+import csv
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import stonepass
+from stonepass.cli import run
+from stonepass.cli.curve import size_range
+from stonepass.model.case_file import read_case
+
+PRESSURE_KEYS = [
+    "outcome", "message", "critical_pressure_kPa", "critical_angle_deg", "contact_angle_deg",
+    "equator_contact_pressure_kPa", "peak_contact_pressure_kPa", "closure_end_pressure_kPa",
+    "size_ratio", "wall_ratio", "model", "material", "inputs", "solver", "warnings", "version",
+    "disclaimer",
+]  # fmt: skip
+LATEX = ["--xi", "1.2", "--eta", "1.5", "--material", "latex"]
+
+
+@pytest.fixture
+def cli(capsys):
+    """Run the command line in this process: (exit code, stdout, stderr)."""
+
+    def call(*arguments):
+        code = run([str(a) for a in arguments])
+        out, err = capsys.readouterr()
+        return code, out, err
+
+    return call
+
+
+def test_pressure_json_has_every_key_and_nothing_else_is_on_stdout(cli):
+    code, out, err = cli("pressure", *LATEX, "--json")
+    record = json.loads(out)
+    assert code == 0
+    assert err == ""
+    assert list(record) == PRESSURE_KEYS
+    assert record["outcome"] == "MOVES"
+    assert record["critical_pressure_kPa"] == pytest.approx(41.53, abs=0.05)
+    assert record["inputs"]["law_constants"] == {"C10": 146500.0}
+    assert set(record["solver"]) == {"dofs", "newton_steps", "seconds", "residual"}
+    assert 0.0 <= record["solver"]["residual"] < 1e-8
+    assert record["version"] == stonepass.__version__
+    assert "Not a medical device" in record["disclaimer"]
+
+
+def test_lengths_and_ratios_give_the_same_answer(cli):
+    by_length = json.loads(
+        cli("pressure", "--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.55mm", "--json")[1]
+    )
+    by_ratio = json.loads(cli("pressure", "--xi", 1.2, "--eta", 1.3, "--json")[1])
+    assert by_length["critical_pressure_kPa"] == pytest.approx(
+        by_ratio["critical_pressure_kPa"], rel=1e-9
+    )
+    assert by_length["inputs"]["stone_diameter_m"] == 0.0042
+    assert by_ratio["inputs"]["stone_diameter_m"] is None
+
+
+def test_numbers_that_do_not_exist_are_null(cli):
+    code, out, _ = cli("pressure", "--xi", 0.9, "--eta", 1.3, "--json")
+    record = json.loads(out)
+    assert (code, record["outcome"], record["critical_pressure_kPa"]) == (0, "LOOSE", 0.0)
+    for key in ("critical_angle_deg", "contact_angle_deg", "closure_end_pressure_kPa"):
+        assert record[key] is None
+    assert record["solver"] == dict.fromkeys(("dofs", "newton_steps", "seconds", "residual"))
+
+
+def test_a_table_for_people_in_three_units(cli):
+    code, out, _ = cli("pressure", *LATEX)
+    assert code == 0
+    for part in ("kPa", "mmHg", "cmH₂O", "critical pressure", "41.5", "311", "MOVES"):
+        assert part in out
+    assert max(map(len, out.splitlines())) <= 100
+
+
+def test_no_answer_is_exit_1(cli):
+    code, out, _ = cli("pressure", *LATEX, "--friction", 1.5, "--json")
+    assert (code, json.loads(out)["outcome"]) == (1, "BEYOND_CLOSURE")
+    code, out, _ = cli("pressure", "--xi", 1.2, "--eta", 1.3, "--prestretch", 0.85, "--json")
+    record = json.loads(out)
+    assert (code, record["outcome"]) == (1, "NO_SOLUTION")
+    assert record["solver"]["newton_steps"] > 0
+    code, out, _ = cli("size", "--eta", 1.3, "--limit", "50kPa", "--json")
+    assert (code, json.loads(out)["outcome"]) == (1, "BEYOND_RANGE")
+    code, out, _ = cli("size", "--eta", 1.3, "--limit", "1Pa", "--friction", 1, "--json")
+    assert (code, json.loads(out)["outcome"]) == (1, "BELOW_RANGE")
+
+
+def test_warnings_go_to_stderr_and_into_the_record(cli):
+    code, out, err = cli("pressure", "--xi", 1.35, "--eta", 1.3)
+    assert code == 0
+    assert "1 to 1.3 only" in err
+    assert "1 to 1.3 only" not in out
+    record = json.loads(cli("pressure", "--xi", 1.35, "--eta", 1.3, "--json")[1])
+    assert len(record["warnings"]) == 1
+
+
+def test_profile_has_both_edges_as_rows(cli, tmp_path):
+    path = tmp_path / "p.csv"
+    record = json.loads(cli("pressure", *LATEX, "--profile", path, "--json")[1])
+    with path.open() as file:
+        rows = list(csv.DictReader(file))
+    theta = np.array([float(row["theta_deg"]) for row in rows])
+    sigma = np.array([float(row["contact_pressure_kPa"]) for row in rows])
+    edge = record["contact_angle_deg"]
+    assert (theta[0], theta[-1]) == (0.0, 180.0)
+    assert np.diff(theta).min() > 0.0
+    assert np.diff(theta).max() <= 0.1 + 1e-9
+    for angle in (edge, 180.0 - edge):
+        assert np.abs(theta - angle).min() < 1e-6
+    outside = (theta < edge - 1e-6) | (theta > 180.0 - edge + 1e-6)
+    assert np.all(sigma[outside] == 0.0)
+    assert np.all(sigma[~outside][1:-1] > 0.0)
+    assert sigma.max() == pytest.approx(record["peak_contact_pressure_kPa"], rel=1e-6)
+
+
+@pytest.mark.parametrize("ending", ["svg", "png", "pdf"])
+def test_figures_are_written(cli, tmp_path, ending):
+    path = tmp_path / f"f.{ending}"
+    assert cli("pressure", *LATEX, "--figure", path, "--json")[0] == 0
+    magic = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}[ending]
+    assert path.read_bytes().startswith(magic)
+
+
+def test_save_and_read_again(cli, tmp_path):
+    path = tmp_path / "case.toml"
+    arguments = [*LATEX, "--friction", 0.3, "--half-length", 12, "--as-printed"]
+    first = json.loads(cli("pressure", *arguments, "--save", path, "--json")[1])
+    again = json.loads(cli("pressure", path, "--json")[1])
+    for record in (first, again):
+        record["solver"].pop("seconds")
+    assert again == first
+    assert read_case(path).method.as_printed
+
+
+def test_options_win_over_the_case_file(cli, tmp_path):
+    path = tmp_path / "case.toml"
+    cli("pressure", *LATEX, "--friction", 0.3, "--save", path, "--json")
+    changed = json.loads(
+        cli("pressure", path, "--xi", 1.1, "--friction", 0.1, "--half-length", 8, "--json")[1]
+    )
+    assert changed["size_ratio"] == 1.1
+    assert changed["inputs"]["friction"] == 0.1
+    assert changed["inputs"]["half_length"] == 8.0
+    assert changed["material"] == "latex"
+    size = json.loads(cli("size", path, "--limit", "10kPa", "--json")[1])
+    assert (size["wall_ratio"], size["inputs"]["friction"]) == (1.5, 0.3)
+
+
+def test_size_json(cli):
+    code, out, _ = cli(
+        "size", "--inner", "3.5mm", "--outer", "4.55mm", "--limit", "90mmHg", "--json"
+    )
+    record = json.loads(out)
+    assert code == 0
+    added = {"critical_size_ratio", "critical_diameter_mm", "limit_kPa"}
+    assert set(record) == {*PRESSURE_KEYS, *added}
+    assert record["critical_diameter_mm"] == pytest.approx(3.5 * record["critical_size_ratio"])
+    assert record["critical_pressure_kPa"] == pytest.approx(record["limit_kPa"], rel=1e-4)
+    no_lengths = json.loads(cli("size", "--eta", 1.3, "--limit", "12kPa", "--json")[1])
+    assert no_lengths["critical_diameter_mm"] is None
+    assert no_lengths["critical_size_ratio"] > 1.2
+
+
+def test_curve_writes_what_it_shows(cli, tmp_path):
+    out_csv, figure = tmp_path / "c.csv", tmp_path / "c.svg"
+    code, out, _ = cli(
+        "curve", "--eta", 1.5, "--material", "latex", "--xi", "1:1.2:0.1",
+        "--out", out_csv, "--figure", figure,
+    )  # fmt: skip
+    assert code == 0
+    with out_csv.open() as file:
+        rows = list(csv.DictReader(file))
+    assert [row["size_ratio"] for row in rows] == ["1", "1.1", "1.2"]
+    assert [row["outcome"] for row in rows] == ["LOOSE", "MOVES", "MOVES"]
+    assert rows[0]["contact_angle_deg"] == ""
+    assert float(rows[2]["critical_pressure_kPa"]) == pytest.approx(41.53, abs=0.05)
+    assert "41.5" in out
+    assert figure.read_text().startswith("<?xml")
+
+
+def test_curve_files_are_the_same_bytes_every_time(cli, tmp_path):
+    for name in ("a", "b"):
+        files = ("--out", tmp_path / f"{name}.csv", "--figure", tmp_path / f"{name}.svg")
+        cli("curve", "--eta", 1.5, "--material", "latex", "--xi", "1:1.1:0.1", *files)
+    for ending in ("csv", "svg"):
+        one, two = ((tmp_path / f"{name}.{ending}").read_bytes() for name in "ab")
+        assert one == two
+
+
+def test_curve_with_a_gap_is_exit_1(cli):
+    code, out, _ = cli("curve", "--eta", 1.3, "--friction", 1, "--xi", "1.1:1.3:0.2", "--json")
+    assert code == 1
+    assert [row["outcome"] for row in json.loads(out)] == ["MOVES", "BEYOND_CLOSURE"]
+
+
+def test_size_range():
+    assert size_range("1:1.02:0.01") == [1.0, 1.01, 1.02]
+    assert size_range("1:1.3:0.01")[-1] == 1.3
+    assert size_range("1.2:1.2:1") == [1.2]
+
+
+def test_materials(cli):
+    code, out, _ = cli("material", "list")
+    assert code == 0
+    for name in ("latex", "ureter", "ureter-printed", "ureter-soft-cross"):
+        assert name in out
+    code, out, _ = cli("material", "show", "ureter")
+    for part in ("0.4056 MPa", "0.8892", "Rassoli", "not reachable"):
+        assert part in out
+    assert cli("material", "check", "ureter")[0] == 0
+    code, out, err = cli("material", "check", "ureter-printed")
+    assert (code, out) == (2, "")
+    assert "lowers the fibre energy" in err
+
+
+BAD = [
+    (["pressure"], "size of the stone is missing"),
+    (["pressure", "--xi", "1.2"], "size of the ureter is missing"),
+    (["pressure", "--xi", "1.2", "--eta", "0"], "wall_ratio is 0.0"),
+    (["pressure", "--xi", "nan", "--eta", "1.3"], "size_ratio is nan"),
+    (["pressure", "--xi", "40", "--eta", "1.3"], "0.1 to 3"),
+    (["pressure", "--xi", "1.2", "--eta", "1e9"], "1.02 to 10"),
+    (["pressure", "--xi", "-1.2", "--eta", "1.3"], "size_ratio is -1.2"),
+    (["pressure", "--xi", "x", "--eta", "1.3"], "--xi"),
+    (["pressure", "--xi", "1.2", "--stone", "4mm", "--eta", "1.3"], "both given"),
+    (["pressure", "--stone", "4", "--inner", "3mm", "--outer", "4mm"], "with its unit"),
+    (["pressure", "--stone", "4kPa", "--inner", "3mm", "--outer", "4mm"], "must be a length"),
+    (["pressure", "--stone", "4mm", "--inner", "4mm", "--outer", "3mm"], "larger than the inner"),
+    (["pressure", "--stone", "4mm", "--inner", "3mm"], "outer diameter is missing"),
+    (["pressure", "--stone", "4mm", "--eta", "1.3"], "inner diameter is missing"),
+    (["pressure", "--stone", "0mm", "--inner", "3mm", "--outer", "4mm"], "0.01 mm"),
+    (["pressure", *LATEX, "--confining", "3mm"], "must be a pressure"),
+    (["pressure", *LATEX, "--confinement", "wet"], "one of dead, hydrostatic"),
+    (["pressure", *LATEX, "--seating", "frictionles"], "did you mean 'frictionless'"),
+    (["pressure", *LATEX, "--friction", "-1"], "friction is -1.0"),
+    (["pressure", *LATEX, "--half-length", "1"], "half_length is 1.0"),
+    (["pressure", *LATEX, "--figure", "x.jpeg"], "ending in .svg"),
+    (["pressure", *LATEX, "--profile", "/nowhere/p.csv"], "writable"),
+    (["pressure", "--xi", "1.2", "--eta", "1.3", "--material", "latx"], "did you mean 'latex'"),
+    (["pressure", "--xi", "1.2", "--eta", "1.3", "--material", "ureter-printed"], "not stable"),
+    (["pressure", "none.toml"], "a file that exists"),
+    (["pressure", "--xi", "0.9", "--eta", "1.3", "--profile", "p.csv"], "where a stone is seated"),
+    (["size", "--eta", "1.3"], "--limit"),
+    (["size", "--eta", "1.3", "--limit", "12"], "with its unit"),
+    (["size", "--eta", "1.3", "--limit", "12 mm"], "must be a pressure"),
+    (["size", "--limit", "12kPa"], "size of the ureter is missing"),
+    (["curve", "--eta", "1.3", "--xi", "1:2"], "FROM:TO:STEP"),
+    (["curve", "--eta", "1.3", "--xi", "2:1:0.1"], "FROM:TO:STEP"),
+    (["curve", "--eta", "1.3", "--xi", "1:nan:0.1"], "FROM:TO:STEP"),
+    (["curve", "--eta", "1.3", "--xi", "1:2:1e-9"], "larger step"),
+    (["material", "show", "urter"], "did you mean 'ureter'"),
+    (["presure"], "presure"),
+    (["pressure", "--nonsense"], "--nonsense"),
+]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    BAD,
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_bad_requests_are_one_sentence_and_exit_2(cli, arguments, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = cli(*arguments)
+    assert code == 2
+    assert out == ""
+    assert words in err
+    assert err.startswith("stonepass: ")
+    assert len(err.splitlines()) == 1
+    assert "Traceback" not in err
+
+
+def test_a_fault_of_ours_is_a_sentence_and_exit_3(cli, monkeypatch):
+    def broken(*_):
+        raise RuntimeError("boom")
+
+    monkeypatch.setattr("stonepass.model.critical.solve", broken)
+    code, out, err = cli("pressure", *LATEX)
+    assert (code, out) == (3, "")
+    assert "please report it" in err
+    assert "boom" in err
+
+
+def test_version_and_help(cli):
+    assert cli("--version")[1] == f"stonepass {stonepass.__version__}\n"
+    for arguments in (["--help"], ["pressure", "-h"], ["material", "--help"]):
+        code, out, _ = cli(*arguments)
+        assert code == 0
+        assert "Usage: stonepass" in out
+
+
+def test_headline(cli, tmp_path, monkeypatch):
+    monkeypatch.setattr("stonepass.paper.headline.SIZE_RATIOS", (1.0, 1.2))
+    figure = tmp_path / "h.svg"
+    code, out, _ = cli("headline", "--figure", figure)
+    assert code == 0
+    for part in ("1.22", "1.11", "published", "η = 1.30", "Research use only"):
+        assert part in out
+    assert figure.read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize(
+    ("statement", "absent"),
+    [
+        ("import stonepass", ("numpy", "scipy", "ngsolve", "matplotlib", "pint", "typer")),
+        (
+            "from stonepass.cli import run; run(['--help'])",
+            ("numpy", "scipy", "ngsolve", "matplotlib", "pint", "pydantic", "autograd"),
+        ),
+        ("import stonepass.model.far_field", ("ngsolve", "matplotlib")),
+        ("import stonepass; stonepass.Ureter(wall_ratio=1.3)", ("ngsolve", "matplotlib")),
+        ("import stonepass; stonepass.critical_pressure", ("matplotlib", "pandas", "dask")),
+    ],
+)
+def test_heavy_libraries_stay_behind_their_door(statement, absent):
+    """In a fresh interpreter, what is loaded after the statement."""
+    probe = f"{statement}; import sys; print(*sorted(m.split('.')[0] for m in sys.modules))"
+    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
+    loaded = set(done.stdout.splitlines()[-1].split())
+    assert "stonepass" in loaded
+    assert loaded.isdisjoint(absent)
+
+
+def test_as_a_real_process():
+    done = subprocess.run(
+        [sys.executable, "-m", "stonepass", "pressure", *LATEX, "--json"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert json.loads(done.stdout)["outcome"] == "MOVES"
+    assert done.stderr == ""
+
+
+def test_every_public_name_is_there():
+    for name in stonepass.__all__:
+        assert getattr(stonepass, name).__doc__, name
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        stonepass.nothing  # noqa: B018

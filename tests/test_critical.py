@@ -1,0 +1,162 @@
+"""The critical state end to end: outcomes, scaling, size independence, monotonicity."""
+
+import math
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.materials.fung import Fung
+from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.model.balance import drive, resistance
+from stonepass.model.critical import pressure_of_angle
+
+THIN = sp.Ureter(wall_ratio=1.3)
+LATEX = sp.Ureter(wall_ratio=1.5, material="latex")
+
+
+def answer(xi, friction=0.5, ureter=LATEX, load=None, **method):
+    return sp.critical_pressure(
+        sp.Stone(size_ratio=xi, friction=friction), ureter, load, sp.Method(**method)
+    )
+
+
+def test_the_answer_balances_drive_and_resistance():
+    found = answer(1.2)
+    alpha = np.array(found.critical_angle)
+    force = float(resistance(found.seated).total(alpha))
+    push = float(drive(pressure_of_angle(found.seated, alpha), alpha))
+    assert force == pytest.approx(push, rel=1e-10)
+    assert found.pressure == pytest.approx(push / math.sin(found.critical_angle) ** 2, rel=1e-12)
+    assert found.seated.contact_angle < found.critical_angle < math.pi / 2
+
+
+def test_no_smaller_balance_was_missed():
+    found = answer(1.2)
+    alpha = np.linspace(found.seated.contact_angle, found.critical_angle - 1e-6, 2000)
+    excess = resistance(found.seated).total(alpha) - drive(
+        pressure_of_angle(found.seated, alpha), alpha
+    )
+    assert excess.min() > 0.0
+
+
+def test_a_small_stone_is_loose():
+    for xi in (0.5, 1.0):
+        found = answer(xi)
+        assert (found.outcome, found.pressure, found.seated) == (sp.Outcome.LOOSE, 0.0, None)
+
+
+def test_without_friction_nothing_holds_the_stone():
+    found = answer(1.2, friction=0.0)
+    assert (found.outcome, found.pressure, found.warnings) == (sp.Outcome.MOVES, 0.0, ())
+    assert found.critical_angle == found.seated.contact_angle
+
+
+def test_much_friction_is_beyond_the_closure():
+    found = answer(1.3, friction=1.5)
+    assert found.outcome is sp.Outcome.BEYOND_CLOSURE
+    assert found.pressure is None
+    # The closure ends at r_a = R_s: Eq. 20 at 1.3, η 1.5; origin: evaluated independently, kPa.
+    assert found.closure_end_pressure / 1e3 == pytest.approx(63.1, abs=0.05)
+    assert "direct" in found.message
+
+
+def test_confining_pressure_adds_about_itself():
+    base = answer(1.2, ureter=THIN).pressure
+    for kilopascals in (4.0, 8.0):
+        for confinement in ("dead", "hydrostatic"):
+            load = sp.Load(f"{kilopascals} kPa", confinement)
+            more = answer(1.2, ureter=THIN, load=load).pressure - base
+            assert more == pytest.approx(kilopascals * 1e3, rel=0.15)
+
+
+def test_confining_pressure_with_little_friction_moves_with_a_warning():
+    found = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("8 kPa"))
+    assert found.outcome is sp.Outcome.MOVES
+    alpha = found.seated.contact_angle
+    force = float(resistance(found.seated).total(np.array(alpha)))
+    assert found.pressure == pytest.approx(force / math.sin(alpha) ** 2, rel=1e-12)
+    assert "narrowed the lumen" in found.warnings[0]
+    lumen = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("8 kPa"), closure_start="lumen")
+    assert lumen.warnings == ()
+    assert lumen.critical_angle > alpha
+
+
+def test_a_stone_is_loose_only_against_the_narrowed_lumen():
+    # Under 4 kPa the thin ureter's lumen is 0.937, so a stone of 0.99 is stuck.
+    assert answer(0.99, ureter=THIN).outcome is sp.Outcome.LOOSE
+    assert answer(0.93, ureter=THIN, load=sp.Load("4 kPa")).outcome is sp.Outcome.LOOSE
+    assert answer(0.99, ureter=THIN, load=sp.Load("4 kPa")).outcome is sp.Outcome.MOVES
+
+
+def test_a_lumen_closed_by_its_load_has_no_solution():
+    soft = sp.Material("soft", NeoHookean(1.0), "", "", "", (1.0, 1.5))
+    ureter = sp.Ureter(wall_ratio=1.3, material=soft)
+    found = answer(1.2, ureter=ureter, load=sp.Load("100 kPa", "hydrostatic"))
+    assert found.outcome is sp.Outcome.NO_SOLUTION
+    assert "lumen" in found.message
+
+
+def test_failed_finite_elements_are_named():
+    found = answer(1.2, ureter=THIN, load=sp.Load(prestretch=0.85))
+    assert found.outcome is sp.Outcome.NO_SOLUTION
+    assert found.pressure is None
+    assert found.newton_steps > 0
+    assert found.message.startswith("The finite elements found no equilibrium: ")
+
+
+def test_pressure_scales_with_stiffness_end_to_end():
+    law = THIN.material.law
+    stiff = Fung(3.0 * law.C, law.a1111, law.a2222, law.a1122, 3.0 * law.G)
+    wall = sp.Material("stiff", stiff, "", "", "", (1.0, 1.3))
+    one = answer(1.2, ureter=THIN, load=sp.Load("2 kPa"))
+    three = answer(1.2, ureter=sp.Ureter(wall_ratio=1.3, material=wall), load=sp.Load("6 kPa"))
+    assert three.pressure == pytest.approx(3.0 * one.pressure, rel=1e-9)
+
+
+def test_absolute_size_drops_out_end_to_end():
+    pressures = [
+        sp.critical_pressure(
+            sp.Stone(diameter=f"{4.2 * s} mm"),
+            sp.Ureter(inner_diameter=f"{3.5 * s} mm", outer_diameter=f"{4.55 * s} mm"),
+        ).pressure
+        for s in (1.0, 0.1, 30.0)
+    ]
+    assert pressures[1:] == pytest.approx([pressures[0]] * 2, rel=1e-9)
+    assert pressures[0] == pytest.approx(answer(1.2, ureter=THIN).pressure, rel=1e-9)
+
+
+def test_pressure_grows_with_size_wall_and_friction():
+    by_size = [answer(xi, ureter=THIN).pressure for xi in (1.001, 1.01, 1.05, 1.1, 1.2, 1.3)]
+    by_wall = [answer(1.1, ureter=sp.Ureter(wall_ratio=eta)).pressure for eta in (1.3, 2.0, 3.4)]
+    by_friction = [answer(1.1, friction=mu, ureter=THIN).pressure for mu in (0.0, 0.1, 0.3, 0.5)]
+    for series in (by_size, by_wall, by_friction):
+        assert np.all(np.diff(series) > 0.0)
+
+
+def test_the_printed_sign_lowers_the_pressure():
+    # Erratum 3: the sign matters by 10–20 % of P_ucr.
+    derived, printed = answer(1.2).pressure, answer(1.2, as_printed=True).pressure
+    assert 0.05 < 1.0 - printed / derived < 0.3
+
+
+def test_the_ground_matrix_in_the_far_field_raises_the_pressure():
+    fibres, ground = answer(1.2, ureter=THIN), answer(1.2, ureter=THIN, far_field_ground=True)
+    rise = ground.closure_end_pressure / fibres.closure_end_pressure - 1.0
+    assert 0.05 < rise < 0.15
+    assert ground.pressure > fibres.pressure
+
+
+def test_outside_its_strain_range_the_law_warns():
+    assert answer(1.29, ureter=THIN).warnings == ()
+    assert "1 to 1.3 only" in answer(1.35, ureter=THIN).warnings[0]
+
+
+def test_the_unstable_law_is_refused_before_any_solve():
+    with pytest.raises(sp.BadInput, match="not stable"):
+        answer(1.2, ureter=sp.Ureter(wall_ratio=1.3, material="ureter-printed"))
+
+
+def test_latex_golden():
+    # Origin: `accuracy` section of docs/verification.md, order 6; friction 0.5.
+    assert answer(1.2).pressure == pytest.approx(41529.0, rel=2e-3)

@@ -1,0 +1,230 @@
+"""Finite elements: meshes, quadrature, tangents, stresses, without any ureter."""
+
+import ngsolve as ng
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stonepass.fe.contact import lobatto, sphere_gap, unilateral
+from stonepass.fe.discrete import discretise, wall_form
+from stonepass.fe.mesh import Layout, graded, growing, intervals, place, structured_mesh
+from stonepass.fe.newton import Plain, newton
+from stonepass.fe.problem import Tube
+from stonepass.fe.wall import SYMBOLS, cauchy_stress
+from stonepass.materials.catalogue import CATALOGUE
+from stonepass.materials.derivatives import hoop_modulus
+from stonepass.materials.protocol import NAMESPACE
+
+LAYOUT = Layout(np.array([1.0, 1.2, 1.5]), np.array([0.0, 0.4, 1.0, 2.0]), closed=1)
+
+
+def test_graded_by_hand():
+    np.testing.assert_allclose(graded(2, 1.0, 3.0), [0.0, 1.0, 3.0], rtol=1e-12)
+    np.testing.assert_allclose(graded(3, 1.0, 7.0), [0.0, 1.0, 3.0, 7.0], rtol=1e-12)
+    np.testing.assert_allclose(graded(2, 9.0, 3.0), [0.0, 1.5, 3.0])
+    np.testing.assert_allclose(graded(2, 1.5, 3.0), [0.0, 1.5, 3.0])
+
+
+@given(st.floats(1e-5, 1.0), st.floats(0.5, 100.0), st.floats(1.2, 3.0))
+def test_growing_keeps_first_interval_total_and_growth(first, total, growth):
+    points = growing(first, total, growth)
+    steps = np.diff(points)
+    assert points[0] == 0.0
+    assert points[-1] == pytest.approx(total)
+    assert steps.min() > 0.0
+    if first * 2 < total:
+        assert steps[0] == pytest.approx(min(first, total / len(steps)), rel=1e-6)
+    assert (steps[1:] / steps[:-1]).max() <= growth * (1.0 + 1e-9)
+    assert len(steps) == intervals(first, total, growth)
+
+
+def test_lobatto_by_hand():
+    points, weights = lobatto(2)
+    np.testing.assert_allclose(points, [0.0, 0.5, 1.0], atol=1e-15)
+    np.testing.assert_allclose(weights, [1 / 6, 4 / 6, 1 / 6])
+
+
+@pytest.mark.parametrize("order", [2, 3, 4, 5, 6])
+def test_lobatto_is_exact_to_twice_its_order_minus_one(order):
+    points, weights = lobatto(order)
+    for degree in range(2 * order):
+        assert weights @ points**degree == pytest.approx(1.0 / (degree + 1.0), rel=1e-13)
+
+
+def test_mesh_has_its_boundaries_and_moves():
+    mesh = structured_mesh(LAYOUT)
+    lengths = {"closed": 0.4, "open": 1.6, "outer": 2.0, "middle": 0.5, "end": 0.5}
+    for name, expected in lengths.items():
+        assert ng.Integrate(ng.CF(1.0) * ng.ds(name), mesh) == pytest.approx(expected)
+    place(mesh, Layout(LAYOUT.radial, 2.0 * LAYOUT.axial, closed=1))
+    assert ng.Integrate(ng.CF(1.0), mesh) == pytest.approx(0.5 * 4.0)
+    # ∫ R dR dZ = ½ (1.5² − 1) · 4: coordinates move with the nodes.
+    assert ng.Integrate(ng.x, mesh) == pytest.approx(0.5 * 1.25 * 4.0)
+
+
+def homogeneous(law, a, b, c, d):
+    """A discrete wall with u = a R + c Z (so not quite a tube) and w = b Z + d R."""
+    scale = hoop_modulus(law)
+    tube = Tube(lambda *C: law.energy(*C) / scale, 1.5, 2.0)
+    wall = discretise(tube, 1.2, LAYOUT, 3)
+    u, w, p, _ = wall.state.components
+    u.Set(a * ng.x + c * ng.y)
+    w.Set(b * ng.y + d * ng.x)
+    p.Set(ng.CF(0.3))
+    return tube, wall
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_cauchy_stress_is_the_slope_of_the_energy(name):
+    """σ = ∂U/∂F Fᵀ − p, the slope by central differences of the NumPy energy."""
+    law = CATALOGUE[name].law
+    a, b, c, d = 0.12, -0.05, 0.07, 0.04
+    tube, wall = homogeneous(law, a, b, c, d)
+    u, w, p, _ = wall.state.components
+    at = wall.mesh(1.3, 0.7)
+    F = np.array([[1 + a, 0.0, c], [0.0, 1 + a + c * 0.7 / 1.3, 0.0], [d, 0.0, 1 + b]])
+
+    def energy(F):
+        C = F.T @ F
+        return float(law.energy(C[0, 0], C[1, 1], C[2, 2], C[0, 2], np)) / hoop_modulus(law)
+
+    h, P = 1e-6, np.zeros((3, 3))
+    for i, j in ((0, 0), (0, 2), (1, 1), (2, 0), (2, 2)):
+        step = np.zeros((3, 3))
+        step[i, j] = h
+        P[i, j] = (energy(F + step) - energy(F - step)) / (2 * h)
+    expected = P @ F.T - 0.3 * np.eye(3)
+    assert expected[0, 2] == pytest.approx(expected[2, 0], abs=1e-8)  # objectivity of the law
+    found = [float(s(at)) for s in cauchy_stress(tube.energy, u, w, p)]
+    wanted = [expected[0, 0], expected[1, 1], expected[2, 2], expected[0, 2]]
+    np.testing.assert_allclose(found, wanted, rtol=1e-7, atol=1e-8)
+
+
+def test_residual_is_the_slope_of_the_energy_and_tangent_the_slope_of_the_residual():
+    """Contact included: one random direction, central differences of Energy and Apply."""
+    _tube, wall = homogeneous(CATALOGUE["ureter"].law, 0.15, -0.02, 0.01, 0.0)
+    form = wall_form(wall)
+    wall.state.components[3].Set(0.2 + 0.1 * ng.y, definedon=wall.mesh.Boundaries("closed|open"))
+    form += ng.Variation(
+        unilateral(wall.multiplier, wall.gap, ng.Parameter(5.0)).Compile()
+        * ng.ds("closed|open", intrules={ng.SEGM: wall.rule})
+    )
+    vec = wall.state.vec
+    direction, origin, up, down = (vec.CreateVector() for _ in range(4))
+    direction.FV().NumPy()[:] = np.random.default_rng(1).normal(size=len(vec))
+    free = wall.state.space.FreeDofs()
+    ng.Projector(free, True).Project(direction)
+    origin.data = vec
+    h = 1e-6
+    form.Apply(vec, up)
+    slope = ng.InnerProduct(up, direction)
+    energies = []
+    for sign in (1.0, -1.0):
+        vec.data = origin + sign * h * direction
+        energies.append(form.Energy(vec))
+        form.Apply(vec, up if sign > 0 else down)
+    vec.data = origin
+    assert (energies[0] - energies[1]) / (2 * h) == pytest.approx(slope, rel=1e-7)
+    difference = vec.CreateVector()
+    difference.data = (0.5 / h) * (up - down)
+    full = ng.BilinearForm(wall.state.space)
+    full += ng.Variation(wall.energy.Compile() * ng.dx(bonus_intorder=2))
+    full += ng.Variation(
+        unilateral(wall.multiplier, wall.gap, ng.Parameter(5.0)).Compile()
+        * ng.ds("closed|open", intrules={ng.SEGM: wall.rule})
+    )
+    full.AssembleLinearization(vec)
+    product = vec.CreateVector()
+    product.data = full.mat * direction
+    product.data -= difference
+    assert ng.Norm(product) <= 1e-6 * ng.Norm(difference)
+
+
+def test_a_free_tube_under_load_is_the_far_field():
+    """No contact: a finite-element tube under P_out and axial stretch is exactly uniform."""
+    from stonepass.materials.neo_hookean import NeoHookean
+    from stonepass.model.case import Load
+    from stonepass.model.far_field import lumen_ratio
+
+    law = NeoHookean(1.0 / 8.0)  # hoop modulus 1 Pa: units and SI coincide
+    for confinement in ("dead", "hydrostatic"):
+        load = Load(prestretch=1.1)
+        object.__setattr__(load, "confining_pressure", type(load.confining_pressure)(0.04))
+        object.__setattr__(load, "confinement", confinement)
+        tube = Tube(law.energy, 1.5, 2.0, 1.1, 0.04, hydrostatic=load.hydrostatic)
+        wall = discretise(tube, 1.2, LAYOUT, 4)
+        form = wall_form(wall)
+        free = ng.BitArray(wall.state.space.FreeDofs())
+        for index in wall.state.space.Range(3):
+            free[index] = False
+        wall.state.components[1].Set(0.1 * ng.y)
+        wall.state.components[2].Set(ng.CF(0.25))
+        report = newton(Plain(form, wall.state, free), 1e-13)
+        assert report.converged, report.reason
+        radius = 1.0 + float(wall.state.components[0](wall.mesh(1.0, 1.0)))
+        assert radius == pytest.approx(lumen_ratio(1.5, law, load), rel=1e-7)
+
+
+def test_sphere_gap_is_the_distance():
+    mesh = structured_mesh(LAYOUT)
+    gap = sphere_gap(ng.CF(0.0), ng.CF(0.0), 1.0)
+    # At R = 1.5, Z = 2: distance 2.5 from the origin, gap 1.5.
+    assert gap(mesh(1.5, 2.0)) == pytest.approx(1.5)
+
+
+def test_the_engine_knows_every_function_a_law_may_use():
+    assert sorted(vars(SYMBOLS)) == sorted(NAMESPACE)
+    values = {
+        "maximum": (SYMBOLS.maximum(ng.CF(0.3), 0.7), 0.7),
+        "minimum": (SYMBOLS.minimum(ng.CF(0.3), 0.7), 0.3),
+        "abs": (SYMBOLS.abs(ng.CF(-0.3)), 0.3),
+        "tanh": (SYMBOLS.tanh(ng.CF(0.3)), np.tanh(0.3)),
+        "arctan": (SYMBOLS.arctan(ng.CF(0.3)), np.arctan(0.3)),
+    }
+    mesh = structured_mesh(LAYOUT)
+    for found, expected in values.values():
+        assert ng.CF(found)(mesh(1.1, 0.1)) == pytest.approx(expected)
+
+
+class Scalar:
+    """x² = 2 as a system: Newton's own test."""
+
+    def __init__(self, start):
+        self.x = start
+
+    def residual(self):
+        return abs(self.x**2 - 2.0)
+
+    def direction(self):
+        self.origin, self.change = self.x, (self.x**2 - 2.0) / (2.0 * self.x)
+
+    def move(self, step):
+        self.x = self.origin - step * self.change
+
+
+def test_newton_finds_a_root_and_counts():
+    system = Scalar(1.0)
+    report = newton(system, 1e-14)
+    assert report.converged
+    assert report.steps == 5
+    assert system.x == pytest.approx(np.sqrt(2.0), rel=1e-14)
+
+
+def test_newton_ends_on_what_is_not_finite():
+    class Broken(Scalar):
+        def residual(self):
+            return 1.0 if self.x == 1.0 else float("nan")
+
+    report = newton(Broken(1.0), 1e-14)
+    assert not report.converged
+    assert "inside out" in report.reason
+
+
+def test_newton_gives_up_in_bounded_steps():
+    class Stuck(Scalar):
+        def residual(self):
+            return 1.0
+
+    report = newton(Stuck(1.0), 1e-14, most=7)
+    assert (report.steps, report.converged) == (7, False)

@@ -1,0 +1,139 @@
+"""The seated state: energy balance, agreement of two stresses, scaling, symmetry of the readout."""
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.fe.problem import Resolution, Tube
+from stonepass.fe.readout import contact_profile, stored_energy
+from stonepass.fe.tube import seat_on_sphere
+from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.far_field import lumen_ratio
+from stonepass.model.seated import NoSeat, SeatedState, _wrap, seat
+
+LATEX = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material="latex"))
+
+
+@pytest.fixture(scope="module")
+def latex():
+    state = seat(LATEX)
+    assert isinstance(state, SeatedState)
+    return state
+
+
+def fitted(case):
+    law = case.ureter.material.law
+    from stonepass.materials.derivatives import hoop_modulus
+
+    modulus = hoop_modulus(law)
+    tube = Tube(lambda *C: law.energy(*C) / modulus, case.wall_ratio, case.method.half_length)
+    return seat_on_sphere(tube, case.size_ratio, _wrap(case, modulus))
+
+
+@pytest.mark.parametrize(
+    ("material", "eta", "xi"), [("latex", 1.5, 1.2), ("ureter", 1.3, 1.2), ("ureter", 3.4, 1.1)]
+)
+def test_contact_force_is_the_slope_of_the_energy(material, eta, xi):
+    """Growing the sphere by dR does the work ∫ σ dA dR; nothing else moves (ends held).
+
+    Half tube: ∫ σ dA = 2π ξ² ∫_{α₀}^{π/2} σ sin θ dθ. An error in the contact pressure or its
+    area would show here, since the energy does not know of the multiplier.
+    """
+    case = Case(Stone(size_ratio=xi), Ureter(wall_ratio=eta, material=material))
+    h = 2e-3
+    up, down = (stored_energy(fitted(case.with_size_ratio(xi + s * h))) for s in (1, -1))
+    profile = contact_profile(fitted(case))
+    integrand = profile.pressure * np.sin(profile.theta)
+    force = 2 * np.pi * xi**2 * np.trapezoid(integrand, profile.theta)
+    assert (up - down) / (2 * h) == pytest.approx(force, rel=2e-4)
+
+
+def test_multiplier_and_wall_stress_agree_at_the_equator(latex):
+    at = np.argmin(np.abs(latex.wall.R - 1.0) + np.abs(latex.wall.Z))
+    assert (latex.wall.R.flat[at], latex.wall.Z.flat[at]) == (1.0, 0.0)
+    compression = -latex.wall.stress_rr.flat[at]
+    assert compression == pytest.approx(latex.equator_contact_pressure, rel=1e-4)
+
+
+def test_volume_is_kept(latex):
+    assert abs(latex.solver.volume.wall) <= 1e-8
+    assert latex.solver.volume.rms <= 2e-4
+
+
+def test_latex_reference(latex):
+    # Origin: limit of the refinement table in docs/verification.md (order 6, 29,521 unknowns).
+    assert np.degrees(latex.contact_angle) == pytest.approx(71.93295, abs=0.05)
+    assert latex.equator_contact_pressure == pytest.approx(91620.4, rel=2e-3)
+
+
+def test_wall_lies_on_the_stone_and_never_inside(latex):
+    inner = latex.wall.R == 1.0
+    distance = np.hypot(latex.wall.r[inner], latex.wall.z[inner])
+    assert distance.min() >= 1.2 - 1e-7
+    angle = np.arctan2(latex.wall.r[inner], latex.wall.z[inner])
+    touching = angle >= latex.contact_angle
+    assert touching.sum() > 30
+    np.testing.assert_allclose(distance[touching], 1.2, rtol=1e-9)
+
+
+def test_traction_vanishes_on_the_outer_wall(latex):
+    """At Z = 0 the outer wall's normal is radial, so σ_rr itself vanishes there."""
+    at = np.argmin(np.abs(latex.wall.R - 1.5) + np.abs(latex.wall.Z))
+    assert np.abs(latex.wall.stress_rr.flat[at]) < 1e-3 * latex.equator_contact_pressure
+
+
+def test_profile_is_symmetric_and_zero_outside_contact(latex):
+    theta = np.linspace(0.0, np.pi, 1801)
+    sigma = latex.pressure_at(theta)
+    np.testing.assert_allclose(sigma, sigma[::-1], atol=1e-8 * sigma.max())
+    assert np.all(sigma[theta < latex.contact_angle] == 0.0)
+    equator = latex.pressure_at(np.array([np.pi / 2]))[0]
+    assert equator == pytest.approx(latex.equator_contact_pressure, rel=1e-9)
+
+
+def test_contact_pressure_scales_with_stiffness():
+    soft = seat(LATEX)
+    wall = sp.Material("stiff", NeoHookean(37.0 * 0.1465e6), "", "", "", (1.0, 1.5))
+    stiff = seat(Case(LATEX.stone, Ureter(wall_ratio=1.5, material=wall)))
+    np.testing.assert_allclose(
+        stiff.contact_pressure, 37.0 * soft.contact_pressure, rtol=1e-9, atol=1e-3
+    )
+    assert stiff.contact_angle == pytest.approx(soft.contact_angle, rel=1e-12)
+
+
+def test_error_of_the_contact_angle_falls_with_the_edge_elements():
+    # The edge condition is exact up to the size of the elements beside it: first order in `edge`.
+    angles = [
+        seat(LATEX, Resolution(edge=edge)).contact_angle for edge in (0.08, 0.04, 0.02, 0.0025)
+    ]
+    errors = np.abs(np.array(angles[:3]) - angles[3])
+    rates = np.log2(errors[:-1] / errors[1:])
+    assert np.all(rates > 0.8), rates
+
+
+def test_far_from_the_stone_the_wall_is_the_far_field():
+    """Under load and pre-stretch the lumen far away is that of section 3 at the local stretch."""
+    load = Load("6 kPa", "hydrostatic", prestretch=1.05)
+    method = Method(half_length=20.0)
+    case = Case(Stone(size_ratio=1.1), Ureter(wall_ratio=1.5, material="latex"), load, method)
+    wall = seat(case).wall
+    inner = (wall.R == 1.0) & (wall.Z > 8.0) & (wall.Z < 19.0)
+    order = np.argsort(wall.Z[inner])
+    Z, z, r = (values[inner][order] for values in (wall.Z, wall.z, wall.r))
+    stretch = (z[-1] - z[0]) / (Z[-1] - Z[0])
+    local = Load("6 kPa", "hydrostatic", prestretch=float(stretch))
+    expected = lumen_ratio(1.5, case.ureter.material.law, local)
+    np.testing.assert_allclose(r, expected, rtol=5e-5)
+
+
+def test_axial_compression_of_the_ureter_is_named_not_hidden():
+    case = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.3), Load(prestretch=0.85))
+    state = seat(case)
+    assert isinstance(state, NoSeat)
+    assert state.reason
+
+
+def test_a_loose_stone_is_not_seated():
+    with pytest.raises(sp.BadInput, match="larger than the lumen"):
+        seat(LATEX.with_size_ratio(0.99))

@@ -1,0 +1,139 @@
+"""A user's own law: works like a catalogue law, and every way to get it wrong is one sentence."""
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.materials.derivatives import hoop_energy_slope
+from stonepass.materials.user_law import load_material
+
+RUBBER = """
+source = "a bench"
+strain_range = (1.0, 1.6)
+def energy(C_rr, C_tt, C_zz, C_rz, xp):
+    return 146.5e3 * (C_rr + C_tt + C_zz - 3.0)
+"""
+
+
+def write(tmp_path, text, name="law.py"):
+    (tmp_path / name).write_text(text)
+    return f"{tmp_path / name}:energy" if name.endswith(".py") else str(tmp_path / name)
+
+
+def test_a_user_law_equals_the_same_catalogue_law_end_to_end(tmp_path):
+    mine = load_material(write(tmp_path, RUBBER))
+    assert (mine.source, mine.strain_range) == ("a bench", (1.0, 1.6))
+    stone = sp.Stone(size_ratio=1.2)
+    one = sp.critical_pressure(stone, sp.Ureter(wall_ratio=1.5, material=mine))
+    two = sp.critical_pressure(stone, sp.Ureter(wall_ratio=1.5, material="latex"))
+    assert one.pressure == pytest.approx(two.pressure, rel=1e-9)
+
+
+def test_every_function_of_the_namespace_may_be_used(tmp_path):
+    """The same law in NumPy and in the engine: |x|, max, min and all the rest cancel out."""
+    text = """
+def energy(C_rr, C_tt, C_zz, C_rz, xp):
+    I1 = C_rr + C_tt + C_zz - 3.0
+    x = C_tt - 1.0
+    odd = xp.sin(x) - xp.tan(xp.arctan(xp.sin(x)))
+    odd = odd + xp.cosh(x) ** 2 - xp.sinh(x) ** 2 - 1.0
+    odd = odd + xp.tanh(x) - xp.sinh(x) / xp.cosh(x)
+    odd = odd + xp.cos(x) ** 2 + xp.sin(x) ** 2 - 1.0
+    odd = odd + xp.log(xp.exp(x)) - x + xp.sqrt(C_tt * C_tt) - C_tt
+    odd = odd + xp.maximum(x, 0.5 + 0 * x) + xp.minimum(x, 0.5 + 0 * x) - x - 0.5
+    odd = odd + xp.abs(C_tt) - C_tt
+    return 146.5e3 * (I1 + odd)
+"""
+    mine = load_material(write(tmp_path, text))
+    state = sp.seat(sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=mine)))
+    latex = sp.seat(sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex")))
+    assert state.contact_angle == pytest.approx(latex.contact_angle, rel=1e-8)
+    slope = hoop_energy_slope(mine.law, np.array([1.1, 1.3]))
+    np.testing.assert_allclose(
+        slope, hoop_energy_slope(latex.case.ureter.material.law, np.array([1.1, 1.3]))
+    )
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("1 / 0", "raising ZeroDivisionError"),
+        ("xp.erf(C_tt)", r"raising AttributeError.*xp\.exp"),
+        ("None", "None, but must be an energy"),
+        ("'text'", "one energy in J/m³ per strain"),
+        ("xp.log(C_tt - 10.0)", "nan at circumferential stretch"),
+        ("3.0", "strain-dependent"),
+        ("C_tt * float('inf')", "finite energy"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_bad_functions_are_refused(tmp_path, body, words):
+    text = f"def energy(C_rr, C_tt, C_zz, C_rz, xp):\n    return {body}\n"
+    with pytest.raises(sp.BadInput, match=words) as refusal:
+        load_material(write(tmp_path, text))
+    assert "\n" not in str(refusal.value)
+
+
+def test_a_law_that_only_numpy_can_evaluate_is_refused_by_the_engine(tmp_path):
+    text = """
+import numpy as np
+def energy(C_rr, C_tt, C_zz, C_rz, xp):
+    if xp.__name__.startswith("autograd"):
+        return 1e5 * (C_rr + C_tt + C_zz - 3.0)
+    return np.exp(C_tt)
+"""
+    mine = load_material(write(tmp_path, text))
+    with pytest.raises(sp.BadInput, match=r"it may use .*xp\.exp"):
+        sp.seat(sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=mine)))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("def energy(:\n", "SyntaxError"),
+        ("raise SystemExit(3)\n", "SystemExit"),
+        ("def enrgy(*a): pass\n", "did you mean 'enrgy'"),
+        ("energy = 3\n", "function in law.py is energy"),
+        (RUBBER.replace("(1.0, 1.6)", "'wide'"), "two circumferential stretches"),
+        (RUBBER.replace("(1.0, 1.6)", "(2.0, 1.6)"), "low <= 1 < high"),
+    ],
+)
+def test_bad_modules_are_refused(tmp_path, text, words):
+    with pytest.raises(sp.BadInput, match=words):
+        load_material(write(tmp_path, text))
+
+
+GOOD = 'law = "fung"\nC = "0.4 MPa"\na1111 = 0.7\na2222 = 0.9\na1122 = 0.2\nsource = "x"\nstrain_range = [1, 1.3]\n'
+
+
+def test_constants_from_a_file(tmp_path):
+    entry = load_material(write(tmp_path, GOOD + 'G = "10 kPa"\nname = "pig"\n', "law.toml"))
+    assert (entry.law.C, entry.law.G, entry.name) == (0.4e6, 1e4, "pig")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (GOOD.replace("fung", "fungg"), "did you mean 'fung'"),
+        (GOOD.replace("a1111", "a111"), "did you mean 'a1111'"),
+        (GOOD.replace('C = "0.4 MPa"\n', ""), "'C' in law.toml is missing"),
+        (GOOD.replace('source = "x"\n', ""), "'source' in law.toml is missing"),
+        (GOOD.replace('"0.4 MPa"', "0.4"), "'C' in law.toml"),
+        (GOOD.replace("0.4 MPa", "0.4 mm"), "must be a pressure"),
+        (GOOD.replace("0.4 MPa", "-0.4 MPa"), "a positive modulus"),
+        (GOOD.replace("0.7", '"0.7"'), "'a1111' in law.toml"),
+        (GOOD + 'C10 = "1 kPa"\n', "absent for law 'fung'"),
+        (GOOD.replace("[1, 1.3]", "[1.3, 1]"), "low <= 1 < high"),
+        ("law = \n", "valid TOML"),
+    ],
+)
+def test_bad_constant_files_are_refused(tmp_path, text, words):
+    with pytest.raises(sp.BadInput, match=words) as refusal:
+        load_material(write(tmp_path, text, "law.toml"))
+    assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize("text", ["none.toml", "none.py:energy", "law.py", "law.py:", "law.py:1x"])
+def test_bad_names_are_refused(text):
+    with pytest.raises(sp.BadInput, match="material is"):
+        load_material(text)

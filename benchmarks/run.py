@@ -1,0 +1,94 @@
+"""Timings against their targets, one thread: python benchmarks/run.py [--json]
+
+In-process rows are the median of several solves after one warm-up ("after import"); process rows
+are whole commands from a cold interpreter, the median again. These machines are noisy: a missed
+target is reported, not raised.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import resource
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+REPEATS = 7
+
+
+def main() -> None:
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    rows = [*in_process(), *processes()]
+    if "--json" in sys.argv:
+        print(json.dumps({"machine": machine(), "rows": rows}, indent=2))
+        return
+    print(machine())
+    print(f"{'what':<58}{'median':>9}{'target':>9}   ")
+    for row in rows:
+        mark = "ok" if row["value"] <= row["target"] else "MISSED"
+        unit = row["unit"]
+        print(f"{row['what']:<58}{row['value']:>7.2f} {unit}{row['target']:>7g} {unit}   {mark}")
+
+
+def machine() -> str:
+    import ngsolve
+
+    return (
+        f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, "
+        f"Python {platform.python_version()}, NGSolve {ngsolve.__version__}"
+    )
+
+
+def in_process() -> list[dict]:
+    import stonepass as sp
+
+    def solve(material: str, eta: float, xi: float) -> Callable[[], object]:
+        case = sp.Case(sp.Stone(size_ratio=xi), sp.Ureter(wall_ratio=eta, material=material))
+        return lambda: sp.solve(case)
+
+    cases = [
+        ("seated latex, η 1.5, ξ 1.2", solve("latex", 1.5, 1.2), 0.3),
+        ("seated ureter, η 1.3, ξ 1.22", solve("ureter", 1.3, 1.22), 0.5),
+        ("seated ureter, η 3.4, ξ 1.11", solve("ureter", 3.4, 1.11), 0.5),
+    ]
+    return [row(f"{what} (after import)", timed(call), target) for what, call, target in cases]
+
+
+def processes() -> list[dict]:
+    command = [sys.executable, "-m", "stonepass"]
+    latex = ["pressure", "--xi", "1.2", "--eta", "1.5", "--material", "latex"]
+    ureter = ["pressure", "--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.54mm"]
+    rows = [
+        row("stonepass pressure, latex (process)", timed(process(command + latex)), 2.5),
+        row("stonepass pressure, ureter (process)", timed(process(command + ureter)), 4.0),
+        row("stonepass --help (process)", timed(process([*command, "--help"])), 0.4),
+    ]
+    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024.0
+    return [*rows, {"what": "peak memory of these processes", "value": peak, "target": 300.0,
+                    "unit": "MB"}]  # fmt: skip
+
+
+def process(command: list[str]) -> Callable[[], object]:
+    return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+def timed(call: Callable[[], object]) -> float:
+    call()
+    seconds = []
+    for _ in range(REPEATS):
+        started = time.perf_counter()
+        call()
+        seconds.append(time.perf_counter() - started)
+    return statistics.median(seconds)
+
+
+def row(what: str, value: float, target: float) -> dict:
+    return {"what": what, "value": value, "target": target, "unit": "s "}
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,65 @@
+"""Every example runs; every docstring example is true; the glossary's words are the code's words."""
+
+import doctest
+import importlib
+import pkgutil
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+
+import stonepass
+from stonepass.cli import run
+from stonepass.report.record import record, size_record
+
+ROOT = Path(__file__).parents[1]
+EXAMPLES = sorted((ROOT / "examples").iterdir())
+
+
+def test_there_are_examples():
+    assert len([path for path in EXAMPLES if path.suffix in (".py", ".toml")]) >= 4
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
+def test_example_runs(path, capsys):
+    if path.suffix == ".toml" and "[stone]" in path.read_text():
+        assert run(["pressure", str(path)]) == 0
+    elif path.suffix == ".toml" or "def energy" in path.read_text():
+        law = str(path) if path.suffix == ".toml" else f"{path}:energy"
+        assert run(["material", "check", law]) == 0
+        assert run(["pressure", "--xi", "1.2", "--eta", "1.3", "--material", law]) == 0
+    else:
+        runpy.run_path(str(path), run_name="__main__")
+    assert capsys.readouterr().out
+
+
+def test_docstring_examples():
+    names = [m.name for m in pkgutil.walk_packages(stonepass.__path__, "stonepass.")]
+    modules = [importlib.import_module(n) for n in names if not n.endswith("__main__")]
+    results = [doctest.testmod(module) for module in modules]
+    assert sum(result.failed for result in results) == 0
+    assert sum(result.attempted for result in results) >= 3  # the guard inspected something
+
+
+def test_json_keys_are_in_the_glossary():
+    glossary = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
+    ureter = stonepass.Ureter(wall_ratio=1.3)
+    one = record(stonepass.critical_pressure(stonepass.Stone(size_ratio=0.9), ureter))
+    size = size_record(stonepass.critical_size(ureter, "1 Pa", friction=1.0))
+    keys = {*one, *size, *one["inputs"], *one["solver"]}
+    assert len(keys) > 30
+    assert [key for key in sorted(keys) if f"`{key}`" not in glossary] == []
+    for outcome in stonepass.Outcome:
+        assert f"`{outcome.name}`" in glossary
+
+
+def test_readme_commands_are_real():
+    """Every `stonepass …` line of the README and the docs parses: --help of it exists."""
+    text = "".join(
+        path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *ROOT.glob("docs/*.md")]
+    )
+    commands = set(re.findall(r"^\s*stonepass (\w+)", text, flags=re.MULTILINE))
+    assert {"pressure", "size", "curve", "headline", "material"} <= commands
+    for command in commands:
+        assert run([command, "--help"]) == 0

@@ -8,6 +8,7 @@ from stonepass.model.balance import drive, resistance
 from stonepass.model.case import Case, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.seated import SeatedState, SolverReport
+from stonepass.model.soundness import Soundness
 
 EDGE = np.pi / 3
 
@@ -20,8 +21,10 @@ def uniform(sigma=7.0, friction=0.4, as_printed=False):
         method=Method(as_printed=as_printed),
     )
     theta = np.linspace(EDGE, np.pi / 2, 400)
-    report = SolverReport(0, 0, 0.0, 0.0, Volume(0.0, 0.0, 1.0))
-    return SeatedState(case, EDGE, theta, np.full(400, sigma), None, report)
+    report = SolverReport(0, 0, 0.0, 0.0, Volume(0.0, 0.0, 1.0), 0.0, 0.0)
+    sound = Soundness(1.0, (1.0, 0.0), 0.0, (1.0, 0.0))
+    none = np.zeros(400)
+    return SeatedState(case, EDGE, theta, np.full(400, sigma), none, None, report, sound)
 
 
 def test_friction_by_hand():

@@ -6,12 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stonepass.fe.contact import lobatto, sphere_gap, unilateral
-from stonepass.fe.discrete import discretise, wall_form
+from stonepass.fe.contact import Arc, lobatto, unilateral
+from stonepass.fe.discrete import discretise, free_unknowns, inner_wall, set_at_nodes, wall_form
+from stonepass.fe.friction import open_contact
 from stonepass.fe.mesh import Layout, graded, growing, intervals, place, structured_mesh
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Tube
-from stonepass.fe.wall import SYMBOLS, cauchy_stress
+from stonepass.fe.wall import SYMBOLS, cauchy_stress, wall_energy
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import NAMESPACE
@@ -67,8 +68,8 @@ def homogeneous(law, a, b, c, d):
     """A discrete wall with u = a R + c Z (so not quite a tube) and w = b Z + d R."""
     scale = hoop_modulus(law)
     tube = Tube(lambda *C: law.energy(*C) / scale, 1.5, 2.0)
-    wall = discretise(tube, 1.2, LAYOUT, 3)
-    u, w, p, _ = wall.state.components
+    wall = discretise(tube, Arc.at(1.2), LAYOUT, 3)
+    u, w, p, *_ = wall.state.components
     u.Set(a * ng.x + c * ng.y)
     w.Set(b * ng.y + d * ng.x)
     p.Set(ng.CF(0.3))
@@ -81,7 +82,7 @@ def test_cauchy_stress_is_the_slope_of_the_energy(name):
     law = CATALOGUE[name].law
     a, b, c, d = 0.12, -0.05, 0.07, 0.04
     tube, wall = homogeneous(law, a, b, c, d)
-    u, w, p, _ = wall.state.components
+    u, w, p, *_ = wall.state.components
     at = wall.mesh(1.3, 0.7)
     F = np.array([[1 + a, 0.0, c], [0.0, 1 + a + c * 0.7 / 1.3, 0.0], [d, 0.0, 1 + b]])
 
@@ -101,44 +102,100 @@ def test_cauchy_stress_is_the_slope_of_the_energy(name):
     np.testing.assert_allclose(found, wanted, rtol=1e-7, atol=1e-8)
 
 
-def test_residual_is_the_slope_of_the_energy_and_tangent_the_slope_of_the_residual():
-    """Contact included: one random direction, central differences of Energy and Apply."""
-    _tube, wall = homogeneous(CATALOGUE["ureter"].law, 0.15, -0.02, 0.01, 0.0)
-    form = wall_form(wall)
-    wall.state.components[3].Set(0.2 + 0.1 * ng.y, definedon=wall.mesh.Boundaries("closed|open"))
-    form += ng.Variation(
-        unilateral(wall.multiplier, wall.gap, ng.Parameter(5.0)).Compile()
-        * ng.ds("closed|open", intrules={ng.SEGM: wall.rule})
+def touching_wall():
+    """A deformed wall with contact forces; some points inside the arc, some outside."""
+    _, wall = homogeneous(CATALOGUE["ureter"].law, 0.15, -0.02, 0.01, 0.0)
+    boundary = wall.mesh.Boundaries("closed|open")
+    wall.state.components[3].Set(0.2 + 0.1 * ng.y, definedon=boundary)
+    wall.state.components[4].Set(0.05 * ng.y - 0.02, definedon=boundary)
+    return wall
+
+
+def frictionless_form(wall, *, condense):
+    u, w, _, multiplier, _ = wall.state.space.TrialFunction()
+    form = wall_form(wall) if condense else ng.BilinearForm(wall.state.space)
+    if not condense:
+        form += ng.Variation(
+            wall_energy(wall.tube.energy, *wall.state.space.TrialFunction()[:3]).Compile()
+            * ng.dx(bonus_intorder=2)
+        )
+    contact = unilateral(multiplier, wall.arc.gap(u, w), ng.Parameter(5.0))
+    form += ng.Variation(contact.Compile() * ng.ds("closed|open", intrules={ng.SEGM: wall.rule}))
+    return form
+
+
+def frictional_form(wall):
+    space = wall.state.space
+    form = ng.BilinearForm(space)
+    residual = open_contact(
+        space.TrialFunction(), space.TestFunction(), wall.arc, ng.CF(0.01) * ng.y, 0.4, 5.0
     )
-    vec = wall.state.vec
-    direction, origin, up, down = (vec.CreateVector() for _ in range(4))
-    direction.FV().NumPy()[:] = np.random.default_rng(1).normal(size=len(vec))
-    free = wall.state.space.FreeDofs()
-    ng.Projector(free, True).Project(direction)
+    form += residual.Compile() * ng.ds("closed|open", intrules={ng.SEGM: wall.rule})
+    return form
+
+
+def random_direction(wall):
+    direction = wall.state.vec.CreateVector()
+    direction.FV().NumPy()[:] = np.random.default_rng(1).normal(size=len(direction))
+    ng.Projector(wall.state.space.FreeDofs(), True).Project(direction)
+    return direction
+
+
+def test_residual_is_the_slope_of_the_energy():
+    """Contact included: one random direction, central difference of the energy."""
+    wall = touching_wall()
+    form, vec, direction, h = frictionless_form(wall, condense=True), wall.state.vec, None, 1e-6
+    direction = random_direction(wall)
+    origin, force = vec.CreateVector(), vec.CreateVector()
     origin.data = vec
-    h = 1e-6
-    form.Apply(vec, up)
-    slope = ng.InnerProduct(up, direction)
+    form.Apply(vec, force)
     energies = []
     for sign in (1.0, -1.0):
         vec.data = origin + sign * h * direction
         energies.append(form.Energy(vec))
-        form.Apply(vec, up if sign > 0 else down)
-    vec.data = origin
+    slope = ng.InnerProduct(force, direction)
     assert (energies[0] - energies[1]) / (2 * h) == pytest.approx(slope, rel=1e-7)
-    difference = vec.CreateVector()
-    difference.data = (0.5 / h) * (up - down)
-    full = ng.BilinearForm(wall.state.space)
-    full += ng.Variation(wall.energy.Compile() * ng.dx(bonus_intorder=2))
-    full += ng.Variation(
-        unilateral(wall.multiplier, wall.gap, ng.Parameter(5.0)).Compile()
-        * ng.ds("closed|open", intrules={ng.SEGM: wall.rule})
-    )
-    full.AssembleLinearization(vec)
-    product = vec.CreateVector()
-    product.data = full.mat * direction
-    product.data -= difference
-    assert ng.Norm(product) <= 1e-6 * ng.Norm(difference)
+
+
+@pytest.mark.parametrize("friction", [False, True])
+def test_tangent_is_the_slope_of_the_residual(friction):
+    wall = touching_wall()
+    form = frictional_form(wall) if friction else frictionless_form(wall, condense=False)
+    vec, direction, h = wall.state.vec, random_direction(wall), 1e-6
+    origin, up, down, product = (vec.CreateVector() for _ in range(4))
+    origin.data = vec
+    for sign, into in ((1.0, up), (-1.0, down)):
+        vec.data = origin + sign * h * direction
+        form.Apply(vec, into)
+    vec.data = origin
+    form.AssembleLinearization(vec)
+    up.data = (0.5 / h) * (up - down)
+    product.data = form.mat * direction
+    product.data -= up
+    assert ng.Norm(up) > 0.1
+    assert ng.Norm(product) <= 1e-6 * ng.Norm(up)
+
+
+def test_contact_does_the_work_of_its_forces():
+    """The virtual gap and slip are the slopes of gap and arc length, at one wall point."""
+    mesh = structured_mesh(LAYOUT)
+    arc, at, h = Arc.at(1.2, -0.1), mesh(1.0, 0.5), 1e-6
+    u, w, du, dw = 0.2, -0.03, 0.7, -0.4
+    for exact, function in (
+        (arc.virtual_gap(u, w, du, dw), arc.gap),
+        (arc.virtual_slip(u, w, du, dw), lambda a, b: arc.radius * arc.angle(a, b)),
+    ):
+        up, down = (ng.CF(function(u + s * h * du, w + s * h * dw))(at) for s in (1.0, -1.0))
+        assert ng.CF(exact)(at) == pytest.approx((up - down) / (2 * h), rel=1e-8)
+
+
+def test_values_set_at_nodes_are_read_there():
+    _, wall = homogeneous(CATALOGUE["latex"].law, 0.1, 0.0, 0.0, 0.0)
+    set_at_nodes(wall.state.components[3], ng.sin(3.0 * ng.y), wall)
+    read = inner_wall(wall)
+    np.testing.assert_allclose(read.normal, np.sin(3.0 * read.station), atol=1e-13)
+    assert np.all(np.diff(read.station.ravel()) >= 0.0)
+    assert read.weight.sum() == pytest.approx(2.0)
 
 
 def test_a_free_tube_under_load_is_the_far_field():
@@ -153,9 +210,9 @@ def test_a_free_tube_under_load_is_the_far_field():
         object.__setattr__(load, "confining_pressure", type(load.confining_pressure)(0.04))
         object.__setattr__(load, "confinement", confinement)
         tube = Tube(law.energy, 1.5, 2.0, 1.1, 0.04, hydrostatic=load.hydrostatic)
-        wall = discretise(tube, 1.2, LAYOUT, 4)
+        wall = discretise(tube, Arc.at(1.2), LAYOUT, 4)
         form = wall_form(wall)
-        free = ng.BitArray(wall.state.space.FreeDofs())
+        free = free_unknowns(wall, friction=False, closed_only=True)
         for index in wall.state.space.Range(3):
             free[index] = False
         wall.state.components[1].Set(0.1 * ng.y)
@@ -166,11 +223,15 @@ def test_a_free_tube_under_load_is_the_far_field():
         assert radius == pytest.approx(lumen_ratio(1.5, law, load), rel=1e-7)
 
 
-def test_sphere_gap_is_the_distance():
+def test_the_gap_is_the_distance_from_the_arc():
+    # At R = 1.5, Z = 2, centre at r = 0: distance 2.5, radius 1, gap 1.5. Centre at r = −0.5 and
+    # Z = 2, R = 1: a = 1.5, again 2.5; the angle from the equator is atan(2/1.5).
     mesh = structured_mesh(LAYOUT)
-    gap = sphere_gap(ng.CF(0.0), ng.CF(0.0), 1.0)
-    # At R = 1.5, Z = 2: distance 2.5 from the origin, gap 1.5.
-    assert gap(mesh(1.5, 2.0)) == pytest.approx(1.5)
+    zero = ng.CF(0.0)
+    assert Arc.at(1.0).gap(zero, zero)(mesh(1.5, 2.0)) == pytest.approx(1.5)
+    arc = Arc.at(1.0, -0.5)
+    assert arc.gap(zero, zero)(mesh(1.0, 2.0)) == pytest.approx(1.5)
+    assert arc.angle(zero, zero)(mesh(1.0, 2.0)) == pytest.approx(np.arctan2(2.0, 1.5))
 
 
 def test_the_engine_knows_every_function_a_law_may_use():

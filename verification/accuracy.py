@@ -20,7 +20,9 @@ def section() -> Section:
     rows, angles, pressures, criticals = [], [], [], []
     for material, eta, xi in CASES:
         case = sp.Case(
-            sp.Stone(size_ratio=xi, friction=0.3), sp.Ureter(wall_ratio=eta, material=material)
+            sp.Stone(size_ratio=xi, friction=0.3),
+            sp.Ureter(wall_ratio=eta, material=material),
+            method=sp.Method(seating="frictionless"),
         )
         default, reference = sp.solve(case), sp.solve(case, REFERENCE)
         assert default.seated is not None, (material, eta, xi, default.message)

@@ -78,4 +78,8 @@ def is_sound(state: SeatedState) -> bool:
 
 
 def _case(xi: float, eta: float, wall: sp.Material) -> sp.Case:
-    return sp.Case(sp.Stone(size_ratio=xi), sp.Ureter(wall_ratio=eta, material=wall))
+    return sp.Case(
+        sp.Stone(size_ratio=xi),
+        sp.Ureter(wall_ratio=eta, material=wall),
+        method=sp.Method(seating="frictionless"),
+    )

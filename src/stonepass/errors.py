@@ -10,7 +10,6 @@ __all__ = [
     "BadInput",
     "MissingPart",
     "Outcome",
-    "SolverFault",
     "StonepassError",
     "UnstableLaw",
     "refuse_unknown",
@@ -48,10 +47,6 @@ class UnstableLaw(BadInput):
 
 class MissingPart(StonepassError):
     """A part of the installation that the request needs is not there."""
-
-
-class SolverFault(StonepassError):
-    """We are wrong: a converged state that cannot be, never to be passed on as a result."""
 
 
 class Outcome(enum.Enum):

@@ -75,7 +75,7 @@ def check_material(name: Name) -> int:
     entry = find_material(name)
     state = check(entry)
     show(
-        f"{entry.name}: stable at rest, no stress at rest.",
+        f"{entry.name}: no stress at rest, strongly elliptic over its strain range.",
         f"  circumferential modulus      {state.hoop / 1e6:.4g} MPa",
         f"  axial modulus                {state.axial / 1e6:.4g} MPa",
         f"  circumferential, axis held   {state.plane_hoop / 1e6:.4g} MPa",

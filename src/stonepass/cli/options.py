@@ -24,6 +24,7 @@ _LOAD_OPTIONS = ("confining_pressure", "confinement", "prestretch")
 _METHOD_OPTIONS = (
     "model",
     "seating",
+    "seating_friction",
     "half_length",
     "as_printed",
     "closure_start",
@@ -67,7 +68,14 @@ class Settings:
         typer.Option("--friction", help="Coulomb friction coefficient.  [default: 0.5]"),
     ] = None
     seating: Annotated[
-        str | None, typer.Option("--seating", help="frictionless.  [default: frictionless]")
+        str | None,
+        typer.Option("--seating", help="pressed, frictionless or growing.  [default: pressed]"),
+    ] = None
+    seating_friction: Annotated[
+        float | None,
+        typer.Option(
+            "--seating-friction", help="Friction while the stone is seated.  [default: --friction]"
+        ),
     ] = None
     confining_pressure: Annotated[
         str | None,

@@ -1,12 +1,13 @@
-"""Frictionless contact of the inner wall with a rigid profile, by a multiplier.
+"""Contact of the inner wall with a rigid arc: kinematics, and the frictionless forms.
 
-The multiplier λ ≥ 0 is the contact force per *reference* area. It is collocated at the
+The normal multiplier λ ≥ 0 is the contact force per *reference* area. It is collocated at the
 Gauss–Lobatto points of each edge, where the trace of the displacement has its nodes: contact
 holds, or pressure vanishes, exactly at each of them, and no penalty error remains.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -14,13 +15,51 @@ import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
 
-__all__ = ["bilateral", "lobatto", "lobatto_rule", "sphere_gap", "unilateral"]
+__all__ = ["Arc", "bilateral", "lobatto", "lobatto_rule", "unilateral"]
 
 
-def sphere_gap(u: Any, w: Any, radius: Any) -> Any:
-    """Distance of the deformed wall point from a sphere centred at the origin."""
-    r, z = ng.x + u, ng.y + w
-    return ng.sqrt(r * r + z * z) - radius
+@dataclass(frozen=True)
+class Arc:
+    """The rigid meridian: a circle of `radius` whose centre has the radial coordinate `offset`.
+
+    Both are parameters of the engine, so a loading path moves the arc without a new set-up.
+    """
+
+    radius: Any
+    offset: Any
+
+    @classmethod
+    def at(cls, radius: float, offset: float = 0.0) -> Arc:
+        """Make an arc at its first place."""
+        return cls(ng.Parameter(radius), ng.Parameter(offset))
+
+    def move(self, radius: float, offset: float) -> None:
+        """Go to another place of the path."""
+        self.radius.Set(radius)
+        self.offset.Set(offset)
+
+    def gap(self, u: Any, w: Any) -> Any:
+        """Distance of the deformed wall point from the arc."""
+        a, z = self._from_centre(u, w)
+        return ng.sqrt(a * a + z * z) - self.radius
+
+    def angle(self, u: Any, w: Any) -> Any:
+        """Angle of the wall point at the centre, from the equator: where it lies on the arc."""
+        a, z = self._from_centre(u, w)
+        return ng.atan(z / a)
+
+    def virtual_gap(self, u: Any, w: Any, du: Any, dw: Any) -> Any:
+        """Change of the gap under virtual displacements."""
+        a, z = self._from_centre(u, w)
+        return (a * du + z * dw) / ng.sqrt(a * a + z * z)
+
+    def virtual_slip(self, u: Any, w: Any, du: Any, dw: Any) -> Any:
+        """Change of the arc length, radius × angle, under virtual displacements."""
+        a, z = self._from_centre(u, w)
+        return self.radius * (a * dw - z * du) / (a * a + z * z)
+
+    def _from_centre(self, u: Any, w: Any) -> tuple[Any, Any]:
+        return ng.x + u - self.offset, ng.y + w
 
 
 def unilateral(multiplier: Any, gap: Any, c: Any) -> Any:

@@ -2,61 +2,121 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import ngsolve as ng
 import numpy as np
+from scipy.interpolate import make_interp_spline
 
-from stonepass.fe.contact import bilateral
-from stonepass.fe.discrete import Discrete, contact_force, discretise, wall_form
+from stonepass.fe.contact import Arc, bilateral
+from stonepass.fe.discrete import (
+    NORMAL,
+    TANGENTIAL,
+    Discrete,
+    contact_force,
+    discretise,
+    free_unknowns,
+    inner_wall,
+    set_at_nodes,
+    smallest_volume_ratio,
+    wall_form,
+)
+from stonepass.fe.friction import closed_contact
 from stonepass.fe.mesh import Layout, graded, growing, intervals, place
 from stonepass.fe.newton import Bordered, newton
-from stonepass.fe.problem import Failure, Fitted, Resolution, Tube
-from stonepass.fe.scout import Scouted
+from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
+from stonepass.fe.problem import Failure, Resolution, Tube
+from stonepass.fe.scout import Start
 
-__all__ = ["fit"]
+__all__ = ["Fitted", "fit"]
 
 FIT_TOLERANCE = 1e-9  # of the contact force
 ROUNDING = 1e-14  # residual norm that rounding leaves where the contact force is tiny
 
 
-def fit(tube: Tube, radius: float, scouted: Scouted, resolution: Resolution) -> Fitted | Failure:
-    """Solve with the contact edge as a grid line whose place is an unknown."""
+@dataclass(frozen=True)
+class Fitted:
+    """A solved state: the engine's objects, for reading values off (see `fe.readout`).
+
+    `steps` counts every Newton step on the way, failed attempts too; `residual` is relative to the
+    norm of the contact forces; `dissipated` is the energy that friction took on the path (half
+    tube, units of modulus × inner radius³).
+    """
+
+    discrete: Discrete
+    radius: float
+    layout: Layout
+    steps: int
+    dofs: int
+    residual: float
+    friction: float
+    dissipated: float
+
+
+def fit(
+    tube: Tube, radius: float, start: Start, resolution: Resolution, friction: float
+) -> Fitted | Failure:
+    """Solve with the contact edge as a grid line whose place is an unknown.
+
+    With friction this is the last increment of the path again, on the fitted mesh: slip counts
+    from `start.origin`.
+    """
 
     def layout(edge: float) -> Layout:
-        return _layout(edge, scouted.edge, tube, resolution)
+        return _layout(edge, start.edge, tube, resolution)
 
-    d = discretise(tube, radius, layout(scouted.edge), resolution.order)
-    _take_over(d, scouted.discrete)
-    form = wall_form(d)
-    form += ng.Variation(
-        bilateral(d.multiplier, d.gap).Compile() * ng.ds("closed", intrules={ng.SEGM: d.rule})
-    )
+    d = discretise(tube, Arc.at(radius), layout(start.edge), resolution.order)
+    _take_over(d, start)
+    free = free_unknowns(d, friction=start.origin is not None, closed_only=True)
     system = Bordered(
-        form,
+        _form(d, start, friction),
         d.state,
-        _free_with_closed_contact(d),
-        value=scouted.edge,
+        free,
+        value=start.edge,
         apply=lambda edge: place(d.mesh, layout(edge)),
         index=_edge_unknown(d, resolution.closed),
     )
-    report = newton(system, max(FIT_TOLERANCE * scouted.force, ROUNDING), most=30)
+    report = newton(system, max(FIT_TOLERANCE * start.force, ROUNDING), most=30)
     if not report.converged:
         return Failure(report.reason, report.steps)
-    flaw = _complementarity_flaw(d, radius)
+    flaw = _flaw(d, radius)
     if flaw:
         return Failure(flaw, report.steps)
     return Fitted(
-        tube=tube,
+        discrete=d,
         radius=radius,
         layout=layout(system.value),
-        mesh=d.mesh,
-        state=d.state,
-        order=resolution.order,
         steps=report.steps,
-        dofs=int(sum(d.state.space.FreeDofs())),
+        dofs=int(sum(free)),
         residual=report.residual / contact_force(d, system),
+        friction=friction,
+        dissipated=start.dissipated + _last_dissipation(d, start, radius),
     )
+
+
+def _form(d: Discrete, start: Start, friction: float) -> Any:
+    where = ng.ds("closed", intrules={ng.SEGM: d.rule})
+    form, space = wall_form(d), d.state.space
+    if start.origin is None:
+        u, w, _, multiplier, _ = space.TrialFunction()
+        form += ng.Variation(bilateral(multiplier, d.arc.gap(u, w)).Compile() * where)
+        return form
+    spline = make_interp_spline(*start.origin, k=3)
+    origin = ng.BSpline(4, spline.t.tolist(), spline.c.tolist())(ng.y)
+    residual = closed_contact(
+        space.TrialFunction(), space.TestFunction(), d.arc, origin, friction, FRICTION_WEIGHT
+    )
+    form += residual.Compile() * where
+    return form
+
+
+def _last_dissipation(d: Discrete, start: Start, radius: float) -> float:
+    if start.origin is None:
+        return 0.0
+    wall = inner_wall(d, "closed")
+    origin = make_interp_spline(*start.origin, k=3)(wall.station)
+    return dissipation(wall, (radius, 0.0), origin)
 
 
 def _layout(edge: float, reference: float, tube: Tube, resolution: Resolution) -> Layout:
@@ -64,58 +124,42 @@ def _layout(edge: float, reference: float, tube: Tube, resolution: Resolution) -
     n, fraction = resolution.closed, resolution.edge
     inside = 1.0 - graded(n, fraction, 1.0)[::-1]
     beyond = intervals(fraction * reference, tube.half_length - reference, resolution.growth)
+    outside = graded(beyond, fraction * edge, tube.half_length - edge)
+    first_row = min(4.0 * fraction, 0.5) * reference
     return Layout(
-        radial=1.0
-        + growing(
-            min(4.0 * fraction, 0.5) * reference, tube.wall_ratio - 1.0, 1.5 * resolution.growth
-        ),
-        axial=np.concatenate(
-            [
-                edge * inside,
-                edge + graded(beyond, fraction * edge, tube.half_length - edge)[1:],
-            ]
-        ),
+        radial=1.0 + growing(first_row, tube.wall_ratio - 1.0, 1.5 * resolution.growth),
+        axial=np.concatenate([edge * inside, edge + outside[1:]]),
         closed=n,
     )
 
 
-def _take_over(d: Discrete, other: Discrete) -> None:
-    """Interpolate the state of another discretisation of the same wall."""
-    for ours, theirs in zip(d.state.components[:3], other.state.components[:3], strict=True):
+def _take_over(d: Discrete, start: Start) -> None:
+    """Interpolate the state of another discretisation; contact forces end at the edge."""
+    for ours, theirs in zip(d.state.components[:3], start.discrete.state.components, strict=False):
         ours.Set(theirs)
-    contact, touched = d.state.components[3], other.state.components[3]
-    contact.Set(touched, definedon=d.mesh.Boundaries("closed"))
-
-
-def _free_with_closed_contact(d: Discrete) -> Any:
-    """Free unknowns, the multiplier only where the wall is closed on the sphere."""
-    space = d.state.space
-    free = ng.BitArray(space.FreeDofs())
-    contact = space.Range(3)
-    closed = space.components[3].GetDofs(d.mesh.Boundaries("closed"))
-    for local, index in enumerate(contact):
-        free[index] = bool(free[index] and closed[local])
-    return free
+    wall = inner_wall(start.discrete)
+    for component, force in ((NORMAL, wall.normal), (TANGENTIAL, wall.tangential)):
+        carried = ng.IfPos(start.edge - ng.y, along_wall(wall.station, force), 0.0)
+        set_at_nodes(d.state.components[component], carried, d)
 
 
 def _edge_unknown(d: Discrete, closed: int) -> int:
-    """Index of the multiplier at the contact edge: inner-wall vertex number `closed`.
+    """Index of the normal force at the contact edge: inner-wall vertex number `closed`.
 
     Vertices were added row by row, so the inner wall has the first ones, in axial order; the
     vertex unknowns of H1 come first and in that order.
     """
-    return int(d.state.space.Range(3).start) + closed
+    return int(d.state.space.Range(NORMAL).start) + closed
 
 
-def _complementarity_flaw(d: Discrete, radius: float) -> str:
-    """Empty where λ ≥ 0 on the closed and gap ≥ 0 on the open part of the inner wall."""
-    u, w, _, multiplier = d.state.components
-    closed = d.mesh.MapToAllElements({ng.SEGM: d.rule}, d.mesh.Boundaries("closed"))
-    force = multiplier(closed)
+def _flaw(d: Discrete, radius: float) -> str:
+    """Empty where λ_n ≥ 0 on the closed and gap ≥ 0 on the open part of the wall, and J > 0."""
+    if not smallest_volume_ratio(d) > 0.0:  # NaN too
+        return "the wall found is turned inside out at a kink"
+    force = inner_wall(d, "closed").normal
     if force.min() < -1e-6 * force.max():
         return "the contact is not one closed band: the wall would lift off inside it"
-    opened = d.mesh.MapToAllElements({ng.SEGM: d.rule}, d.mesh.Boundaries("open"))
-    r, z = ng.x(opened) + u(opened), ng.y(opened) + w(opened)
-    if (np.hypot(r, z) - radius).min() < -1e-7 * radius:
+    opened = inner_wall(d, "open")
+    if (np.hypot(opened.r, opened.z) - radius).min() < -1e-7 * radius:
         return "the wall would touch the stone again beyond the contact edge"
     return ""

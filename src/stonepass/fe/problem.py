@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.fe.mesh import Layout
 from stonepass.fe.wall import Energy
 
-__all__ = ["Failure", "Fitted", "Resolution", "Tube", "Wrap"]
+__all__ = ["Failure", "Path", "Resolution", "Tube", "Wrap"]
 
 
 @dataclass(frozen=True)
@@ -41,6 +40,26 @@ class Wrap:
     inner_radius: Float[np.ndarray, " n"]
     pressure: Float[np.ndarray, " n"]
     reach: float
+
+
+@dataclass(frozen=True)
+class Path:
+    """How the arc comes to its final place, with friction on the way.
+
+    Attributes
+    ----------
+    friction : float
+        Coulomb coefficient during the path.
+    place : callable
+        ``place(t)`` gives (radius, offset of the centre) of the arc, t from 0, where it just
+        touches the unloaded lumen, to 1.
+    increments : int
+        Equal increments of t, at least 2.
+    """
+
+    friction: float
+    place: Callable[[float], tuple[float, float]]
+    increments: int = 8
 
 
 @dataclass(frozen=True)
@@ -80,22 +99,3 @@ class Failure:
 
     reason: str
     steps: int
-
-
-@dataclass(frozen=True)
-class Fitted:
-    """A solved state: the engine's objects, for reading values off (see `fe.readout`).
-
-    `steps` counts every Newton step on the way, failed attempts too; `residual` is relative to the
-    norm of the contact forces.
-    """
-
-    tube: Tube
-    radius: float
-    layout: Layout
-    mesh: Any
-    state: Any
-    order: int
-    steps: int
-    dofs: int
-    residual: float

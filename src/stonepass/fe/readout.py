@@ -9,15 +9,19 @@ import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.fe.contact import lobatto, lobatto_rule
-from stonepass.fe.problem import Fitted
+from stonepass.fe.contact import lobatto
+from stonepass.fe.discrete import inner_wall, smallest_volume_ratio
+from stonepass.fe.fit import Fitted
 from stonepass.fe.wall import SYMBOLS, cauchy_stress, strain
 
 __all__ = [
     "ContactProfile",
+    "Deformation",
     "Field",
     "Volume",
+    "axial_balance",
     "contact_profile",
+    "deformation",
     "field",
     "stored_energy",
     "volume",
@@ -30,12 +34,14 @@ SAMPLES_PER_COLUMN = 33
 class ContactProfile:
     """Contact pressure along the half in contact, from the contact edge (θ = α₀) to θ = π/2.
 
-    `theta` in rad is measured at the sphere's centre from the tube axis; `pressure` is the force
-    per deformed area, in units of the modulus; `station` is the reference coordinate Z/R_a.
+    `theta` in rad is measured at the sphere's centre from the tube axis; `pressure` and `traction`
+    (friction on the wall, positive away from the equator) are forces per deformed area, in units
+    of the modulus; `station` is the reference coordinate Z/R_a.
     """
 
     theta: Float[np.ndarray, " n"]
     pressure: Float[np.ndarray, " n"]
+    traction: Float[np.ndarray, " n"]
     station: Float[np.ndarray, " n"]
 
 
@@ -58,6 +64,17 @@ class Field:
 
 
 @dataclass(frozen=True)
+class Deformation:
+    """Deformation gradient at the points of `Field`: F_iJ, i deformed and J reference direction."""
+
+    F_rr: Float[np.ndarray, "elements points"]
+    F_rz: Float[np.ndarray, "elements points"]
+    F_zr: Float[np.ndarray, "elements points"]
+    F_zz: Float[np.ndarray, "elements points"]
+    F_tt: Float[np.ndarray, "elements points"]
+
+
+@dataclass(frozen=True)
 class Volume:
     """How well volume is kept: relative change of the wall's volume, root mean square of J − 1,
     and the smallest J found at the integration points."""
@@ -68,63 +85,98 @@ class Volume:
 
 
 def contact_profile(solved: Fitted) -> ContactProfile:
-    """Evaluate the multiplier per deformed area on a fine grid of the closed columns.
+    """Evaluate the contact forces per deformed area on a fine grid of the closed columns.
 
     The polynomials of each edge are rebuilt from their Gauss–Lobatto values; the area ratio is
     r ds/dZ / R_a with s the arc length of the deformed inner wall.
     """
-    points = solved.mesh.MapToAllElements(
-        {ng.SEGM: lobatto_rule(solved.order)}, solved.mesh.Boundaries("closed")
-    )
-    u, w, _, multiplier = solved.state.components
-    per_edge = (-1, solved.order + 1)
-    Z = ng.y(points).reshape(per_edge)
-    order = np.argsort(Z.mean(axis=1))
-    Z = Z[order]
-    r = 1.0 + u(points).reshape(per_edge)[order]
-    z = Z + w(points).reshape(per_edge)[order]
-    force = multiplier(points).reshape(per_edge)[order]
+    wall = inner_wall(solved.discrete, "closed")
+    values, slopes = _resample(lobatto(solved.discrete.order)[0], SAMPLES_PER_COLUMN)
+    run = wall.station[:, -1:] - wall.station[:, :1]
+    r, z = wall.r @ values.T, wall.z @ values.T
+    area = r * np.hypot(wall.r @ slopes.T, wall.z @ slopes.T) / run
+    station = (wall.station @ values.T).ravel()
+    keep = np.concatenate([[True], np.diff(station) > 0.0])
 
-    values, slopes = _resample(lobatto(solved.order)[0], SAMPLES_PER_COLUMN)
-    if Z[0, 0] > Z[0, -1]:  # the edge runs against the axis
-        values, slopes = values[::-1], slopes[::-1]
-    run = Z[:, -1:] - Z[:, :1]
-    arc_rate = np.hypot(r @ slopes.T, z @ slopes.T) / np.abs(run)
-    pressure = (force @ values.T) / ((r @ values.T) * arc_rate)
-    theta = np.arctan2(r @ values.T, z @ values.T)
-    station = Z @ values.T
-    keep = np.concatenate([[True], np.diff(station.ravel()) > 0.0])
+    def outwards(samples: Float[np.ndarray, "edges points"]) -> Float[np.ndarray, " n"]:
+        return samples.ravel()[keep][::-1]
+
     return ContactProfile(
-        theta=theta.ravel()[keep][::-1],
-        pressure=pressure.ravel()[keep][::-1],
-        station=station.ravel()[keep][::-1],
+        theta=outwards(np.arctan2(r, z)),
+        pressure=outwards((wall.normal @ values.T) / area),
+        traction=outwards((wall.tangential @ values.T) / area),
+        station=station[keep][::-1],
     )
 
 
 def field(solved: Fitted) -> Field:
     """Evaluate the deformed wall and its stress."""
-    points, _ = lobatto(solved.order)
-    rule = ng.IntegrationRule(
-        points=[(float(a), float(b), 0.0) for a in points for b in points],
-        weights=[1.0] * len(points) ** 2,
-    )
-    at = solved.mesh.MapToAllElements({ng.QUAD: rule}, ng.VOL)
-    u, w, p, _ = solved.state.components
-    shape = (-1, len(points) ** 2)
-    R, Z = ng.x(at), ng.y(at)
-    stress = [
-        component(at).reshape(shape) for component in cauchy_stress(solved.tube.energy, u, w, p)
-    ]
+    u, w, p, _, _ = solved.discrete.state.components
+    (R, Z), at, shape = _field_points(solved)
+    stress = cauchy_stress(solved.discrete.tube.energy, u, w, p)
+    names = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
     return Field(
         R=R.reshape(shape),
         Z=Z.reshape(shape),
         r=(R + u(at)).reshape(shape),
         z=(Z + w(at)).reshape(shape),
-        stress_rr=stress[0],
-        stress_tt=stress[1],
-        stress_zz=stress[2],
-        stress_rz=stress[3],
+        **{name: value(at).reshape(shape) for name, value in zip(names, stress, strict=True)},
     )
+
+
+def _field_points(solved: Fitted) -> tuple[Any, Any, tuple[int, int]]:
+    """Coordinates of, and handle on, the Gauss–Lobatto points of every element."""
+    points, _ = lobatto(solved.discrete.order)
+    rule = ng.IntegrationRule(
+        points=[(float(a), float(b), 0.0) for a in points for b in points],
+        weights=[1.0] * len(points) ** 2,
+    )
+    at = solved.discrete.mesh.MapToAllElements({ng.QUAD: rule}, ng.VOL)
+    return (ng.x(at), ng.y(at)), at, (-1, len(points) ** 2)
+
+
+def deformation(solved: Fitted) -> Deformation:
+    """Evaluate the deformation gradient where `field` evaluates the stress."""
+    _, at, shape = _field_points(solved)
+    u, w, _, _, _ = solved.discrete.state.components
+    s = strain(u, w)
+    return Deformation(
+        **{name: getattr(s, name)(at).reshape(shape) for name in Deformation.__annotations__}
+    )
+
+
+def axial_balance(solved: Fitted) -> float:
+    """Axial force left over on the half tube, relative to the normal contact force.
+
+    The stress at both sections (Z = 0 and Z = L stay plane), the contact forces, and a hydrostatic
+    pressure on the outer wall must add up to nothing; no equation of the solver says so directly.
+    """
+    d, tube = solved.discrete, solved.discrete.tube
+    wall = inner_wall(d, "closed")
+    angle = np.arctan2(wall.z, wall.r)
+    axial = wall.normal * np.sin(angle) + wall.tangential * np.cos(angle)
+    contact = 2.0 * np.pi * (wall.weight * axial).sum()
+    scale = 2.0 * np.pi * (wall.weight * wall.normal).sum()
+    middle, outer_middle = _section_force(solved, 0.0)
+    end, outer_end = _section_force(solved, tube.half_length)
+    bath = np.pi * (outer_end**2 - outer_middle**2) * tube.outside_pressure * tube.hydrostatic
+    return float(abs(end - middle + contact + bath) / scale)
+
+
+def _section_force(solved: Fitted, Z: float) -> tuple[float, float]:
+    """2π ∫ σ_zz r dr over a plane section, and the outer radius there."""
+    d = solved.discrete
+    u, w, p, _, _ = d.state.components
+    stress_zz = cauchy_stress(d.tube.energy, u, w, p)[2]
+    stretch_rr = strain(u, w).F_rr
+    points, weights = np.polynomial.legendre.leggauss(d.order + 3)
+    lines = solved.layout.radial
+    run = np.diff(lines)[:, None]
+    R = (lines[:-1, None] + run * (points + 1.0) / 2.0).ravel()
+    at = d.mesh(R, np.full_like(R, Z))
+    density = stress_zz(at).ravel() * (R + u(at).ravel()) * stretch_rr(at).ravel()
+    force = 2.0 * np.pi * float(((run * weights / 2.0).ravel() * density).sum())
+    return force, float(lines[-1] + u(d.mesh(float(lines[-1]), Z)))
 
 
 def stored_energy(solved: Fitted) -> float:
@@ -133,27 +185,27 @@ def stored_energy(solved: Fitted) -> float:
     Its slope in the radius of the sphere is the contact force: growing the sphere by dR does the
     work ∫ σ dA dR, which is all the work there is where no other load acts (a check by energy).
     """
-    u, w, _, _ = solved.state.components
-    density = ng.CF(solved.tube.energy(*strain(u, w).C, SYMBOLS))
-    return float(2.0 * np.pi * ng.Integrate(density * ng.x * ng.dx(bonus_intorder=8), solved.mesh))
+    u, w, _, _, _ = solved.discrete.state.components
+    density = ng.CF(solved.discrete.tube.energy(*strain(u, w).C, SYMBOLS))
+    return float(
+        2.0 * np.pi * ng.Integrate(density * ng.x * ng.dx(bonus_intorder=8), solved.discrete.mesh)
+    )
 
 
 def volume(solved: Fitted) -> Volume:
     """Integrate J over the reference wall."""
-    u, w, _, _ = solved.state.components
+    u, w, _, _, _ = solved.discrete.state.components
     J = strain(u, w).J
 
     def integral(density: Any) -> float:
-        return float(ng.Integrate(density * ng.x * ng.dx(bonus_intorder=4), solved.mesh))
+        return float(ng.Integrate(density * ng.x * ng.dx(bonus_intorder=4), solved.discrete.mesh))
 
     reference = integral(ng.CF(1.0))
     change, square = integral(J - 1.0), integral((J - 1.0) * (J - 1.0))
-    rule = ng.IntegrationRule(ng.QUAD, 2 * solved.order)
-    at = solved.mesh.MapToAllElements({ng.QUAD: rule}, ng.VOL)
     return Volume(
         wall=change / reference,
         rms=float(np.sqrt(square / reference)),
-        smallest=float(J(at).min()),
+        smallest=smallest_volume_ratio(solved.discrete),
     )
 
 

@@ -1,4 +1,4 @@
-"""The scout: contact as an inequality on a coarse mesh, to find the contact edge roughly."""
+"""The scout: frictionless contact as an inequality on a coarse mesh, to find the contact edge."""
 
 from __future__ import annotations
 
@@ -9,66 +9,88 @@ import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.fe.contact import unilateral
-from stonepass.fe.discrete import Discrete, contact_force, discretise, wall_form
+from stonepass.fe.contact import Arc, unilateral
+from stonepass.fe.discrete import (
+    Discrete,
+    contact_force,
+    discretise,
+    free_unknowns,
+    inner_wall,
+    wall_form,
+)
 from stonepass.fe.mesh import Layout, growing
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Failure, Tube, Wrap
 from stonepass.fe.wall import SYMBOLS
 
-__all__ = ["Scouted", "scout"]
+__all__ = ["SCOUT_ORDER", "Start", "edge_of_contact", "scout", "scout_layout", "wrap_round"]
 
 SCOUT_ORDER = 4
-SCOUT_TOLERANCE = 1e-6
+SCOUT_TOLERANCE = 1e-6  # of the contact force
 
 
 @dataclass(frozen=True)
-class Scouted:
-    """The scout's solution: its discretisation, the last station in contact, the contact force."""
+class Start:
+    """A solution to start from: last station in contact, norm of the contact force, steps so far.
+
+    With friction, `origin` has the stations and the angles from which the last increment slips,
+    and `dissipated` the energy that the increments before it took.
+    """
 
     discrete: Discrete
     edge: float
     force: float
     steps: int
+    origin: tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]] | None = None
+    dissipated: float = 0.0
 
 
-def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) -> Scouted | Failure:
+def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) -> Start | Failure:
     """Solve the contact inequality on `columns` equal columns over the guessed contact.
 
     `weight` is the factor of the gap in the augmented Lagrangian, in units of the modulus.
     """
-    d = discretise(tube, radius, _layout(tube, wrap, columns), SCOUT_ORDER)
+    layout = scout_layout(tube, wrap.reach, columns, growth=2.0)
+    d = discretise(tube, Arc.at(radius), layout, SCOUT_ORDER)
+    u, w, _, multiplier, _ = d.state.space.TrialFunction()
     form = wall_form(d)
     form += ng.Variation(
-        unilateral(d.multiplier, d.gap, ng.Parameter(weight)).Compile()
+        unilateral(multiplier, d.arc.gap(u, w), ng.Parameter(weight)).Compile()
         * ng.ds("closed|open", intrules={ng.SEGM: d.rule})
     )
-    _first_guess(d, tube, wrap)
-    system = Plain(form, d.state, d.state.space.FreeDofs())
+    wrap_round(d, wrap)
+    system = Plain(form, d.state, free_unknowns(d, friction=False, closed_only=False))
     force = contact_force(d, system)
     report = newton(system, SCOUT_TOLERANCE * force, most=30)
     if not report.converged:
         return Failure(report.reason, report.steps)
-    points = d.mesh.MapToAllElements({ng.SEGM: d.rule}, d.mesh.Boundaries("closed|open"))
-    station, multiplier = ng.y(points).ravel(), d.state.components[3](points).ravel()
-    touching = multiplier > 1e-6 * multiplier.max()
-    if not touching.any():
+    edge = edge_of_contact(d)
+    if edge is None:
         return Failure("the wall left the stone", report.steps)
-    return Scouted(d, float(station[touching].max()), force, report.steps)
+    return Start(d, edge, force, report.steps)
 
 
-def _layout(tube: Tube, wrap: Wrap, columns: int) -> Layout:
-    first = wrap.reach / columns
-    beyond = growing(first, tube.half_length - wrap.reach, 2.0)
+def scout_layout(tube: Tube, reach: float, columns: int, growth: float) -> Layout:
+    """Equal columns up to `reach`, growing ones beyond and through the wall."""
+    first = reach / columns
+    beyond = growing(first, tube.half_length - reach, growth)
     return Layout(
-        radial=1.0 + growing(first, tube.wall_ratio - 1.0, 3.0),
-        axial=np.concatenate([np.linspace(0.0, wrap.reach, columns + 1), wrap.reach + beyond[1:]]),
+        radial=1.0 + growing(first, tube.wall_ratio - 1.0, 1.5 * growth),
+        axial=np.concatenate([np.linspace(0.0, reach, columns + 1), reach + beyond[1:]]),
         closed=columns,
     )
 
 
-def _first_guess(d: Discrete, tube: Tube, wrap: Wrap) -> None:
-    """Wrap the wall isochorically round the sphere, with plane-strain pressures."""
+def edge_of_contact(d: Discrete) -> float | None:
+    """Last station of the inner wall that carries contact force; None where none does."""
+    wall = inner_wall(d)
+    touching = wall.normal > 1e-6 * wall.normal.max()
+    return float(wall.station[touching].max()) if touching.any() else None
+
+
+def wrap_round(d: Discrete, wrap: Wrap) -> None:
+    """Wrap the wall isochorically round the arc, with plane-strain pressures and no friction."""
+    tube = d.tube
     stretch = tube.axial_stretch
 
     def along(values: Float[np.ndarray, " n"]) -> Any:
@@ -77,7 +99,7 @@ def _first_guess(d: Discrete, tube: Tube, wrap: Wrap) -> None:
 
     inner = along(wrap.inner_radius)
     r = ng.sqrt((ng.x * ng.x - 1.0) / stretch + inner * inner)
-    u, w, p, multiplier = d.state.components
+    u, w, p, multiplier, tangential = d.state.components
     u.Set(r - ng.x)
     w.Set((stretch - 1.0) * ng.y)
     hoop = r / ng.x
@@ -91,3 +113,4 @@ def _first_guess(d: Discrete, tube: Tube, wrap: Wrap) -> None:
         ng.IfPos(wrap.reach - ng.y, pressure * inner * stretch, 0.0),
         definedon=d.mesh.Boundaries("closed|open"),
     )
+    tangential.vec[:] = 0.0

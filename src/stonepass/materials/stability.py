@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float
 
 from stonepass.errors import BadInput, UnstableLaw
 from stonepass.materials.derivatives import rest_gradient, rest_moduli
+from stonepass.materials.ellipticity import weakest
 from stonepass.materials.fung import Fung
 from stonepass.materials.protocol import Law, Material
 
@@ -60,13 +62,15 @@ def rest_state(law: Law) -> RestState:
     )
 
 
+@lru_cache(maxsize=32)
 def check(material: Material) -> RestState:
     """Return the rest state of a sound law.
 
     Raises
     ------
     UnstableLaw
-        Some strain from rest lowers the energy, or the Fung form is not positive definite.
+        Some strain from rest lowers the energy, the Fung form is not positive definite, or the
+        law loses strong ellipticity in the uniform tube somewhere in its strain range.
     BadInput
         The law is stressed at rest, not finite there, or absurdly soft or stiff.
     """
@@ -84,13 +88,14 @@ def check(material: Material) -> RestState:
             f"from rest lowers the energy (modulus {state.softest / 1e6:.3g} MPa)",
             "use other constants",
         )
-    if state.shear < -1e-12 * state.plane_hoop:
+    if state.shear <= 1e-9 * state.plane_hoop:
         raise UnstableLaw(
             "law",
             material.name,
-            f"r-z shear from rest lowers the energy (modulus {state.shear / 1e6:.3g} MPa)",
-            "use other constants",
+            f"nothing resists r-z shear from rest (modulus {state.shear / 1e6:.3g} MPa)",
+            "give it a ground matrix, G > 0",
         )
+    _check_ellipticity(material)
     low, high = MODULUS_RANGE
     if not low <= state.plane_hoop <= high:
         raise BadInput(
@@ -118,6 +123,28 @@ def _check_rest_stress(law: Law, name: str) -> None:
             "zero apart from a pressure: dU/dC_rr = dU/dC_tt = dU/dC_zz, dU/dC_rz = 0 at C = 1",
             "residual stress is not part of this model",
         )
+
+
+def _check_ellipticity(material: Material) -> None:
+    """Every shear band must cost energy in the uniform tube, all over the strain range."""
+    low, high = material.strain_range
+    hoop = np.linspace(low, high, 9)
+    zero, one = np.zeros_like(hoop), np.ones_like(hoop)
+    worst = weakest(material.law, np.column_stack([1.0 / hoop, zero, zero, one, hoop]))
+    if worst.stiffness <= 0.0:
+        n, m = (_vector(v) for v in (worst.normal, worst.direction))
+        raise UnstableLaw(
+            "law",
+            material.name,
+            f"at circumferential stretch {hoop[worst.index]:.3g} a shear band with normal {n} and "
+            f"direction {m} in (r, t, z) lowers the energy, {worst.stiffness:.3g} in units of the "
+            "rest shear modulus",
+            "narrow the strain range or use other constants",
+        )
+
+
+def _vector(v: tuple[float, float, float]) -> str:
+    return "(" + ", ".join(f"{x:.2f}" for x in v) + ")"
 
 
 def _check_fung_form(law: Fung, name: str) -> None:

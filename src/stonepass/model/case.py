@@ -163,8 +163,11 @@ class Method:
     ----------
     model : {"paper"}
         Seated contact pressure cut off at the contact angle, with the closure of Eq. 15.
-    seating : {"frictionless"}
-        How the stone came to its place.
+    seating : {"pressed", "frictionless", "growing"}
+        How the stone came to its place: its arc pressed radially into the wall as in the paper,
+        without friction, or a sphere growing in place.
+    seating_friction : float, optional
+        Coulomb coefficient while the stone is seated, 0 to 2; by default the stone's.
     half_length : float
         L/R_a, half the length of the tube in inner radii, 3 to 100; its ends keep their place.
     as_printed : bool
@@ -176,7 +179,8 @@ class Method:
     """
 
     model: str = "paper"
-    seating: str = "frictionless"
+    seating: str = "pressed"
+    seating_friction: float | None = None
     half_length: float = 10.0
     as_printed: bool = False
     closure_start: str = "inner-radius"
@@ -184,7 +188,9 @@ class Method:
 
     def __post_init__(self) -> None:
         _choice("model", self.model, ("paper",))
-        _choice("seating", self.seating, ("frictionless",))
+        _choice("seating", self.seating, ("pressed", "frictionless", "growing"))
+        if self.seating_friction is not None:
+            _number(self.seating_friction, "seating_friction", *FRICTION)
         _choice("closure_start", self.closure_start, ("inner-radius", "lumen"))
         _number(self.half_length, "half_length", *HALF_LENGTH)
         for name in ("as_printed", "far_field_ground"):
@@ -228,6 +234,14 @@ class Case:
         assert self.stone.diameter is not None
         assert self.ureter.inner_diameter is not None
         return self.stone.diameter / self.ureter.inner_diameter
+
+    @property
+    def seating_friction(self) -> float:
+        """Coulomb coefficient on the way to the seated state."""
+        if self.method.seating == "frictionless":
+            return 0.0
+        given = self.method.seating_friction
+        return self.stone.friction if given is None else given
 
     @property
     def wall_ratio(self) -> float:

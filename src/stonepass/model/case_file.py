@@ -45,7 +45,8 @@ class _Load(_Section):
 
 class _Method(_Section):
     model: str = "paper"
-    seating: str = "frictionless"
+    seating: str = "pressed"
+    seating_friction: float | None = None
     half_length: float = 10.0
     as_printed: bool = False
     closure_start: str = "inner-radius"

@@ -4,32 +4,51 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.errors import BadInput, SolverFault
-from stonepass.fe.problem import Failure, Fitted, Resolution, Tube, Wrap
-from stonepass.fe.readout import Field, Volume, contact_profile, field, volume
+from stonepass.errors import BadInput
+from stonepass.fe.fit import Fitted
+from stonepass.fe.problem import Failure, Path, Resolution, Tube
+from stonepass.fe.readout import Field, Volume, axial_balance, contact_profile, field, volume
 from stonepass.fe.tube import seat_on_sphere
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
 from stonepass.model.case import Case
-from stonepass.model.far_field import inflation, lumen_ratio
+from stonepass.model.far_field import lumen_ratio
+from stonepass.model.first_guess import wrap_round_arc
+from stonepass.model.soundness import Soundness, far_field_hint, soundness
 
 __all__ = ["NoSeat", "SeatedState", "SolverReport", "seat"]
 
 
 @dataclass(frozen=True)
 class SolverReport:
-    """What the finite elements did: unknowns, Newton steps, seconds, relative residual (of the
-    contact force), and how well volume is kept."""
+    """What the finite elements did, and how well the state obeys what they were not told.
+
+    Attributes
+    ----------
+    dofs, newton_steps, seconds : int, int, float
+        Unknowns of the last mesh; Newton steps and seconds of the whole path.
+    residual : float
+        Relative to the contact force.
+    volume : Volume
+        How well volume is kept.
+    axial_balance : float
+        Axial force left over on a half of the tube, relative to the normal contact force.
+    dissipated : float
+        Energy that friction took, whole tube, per cube of the inner radius (J/m³ = Pa).
+    """
 
     dofs: int
     newton_steps: int
     seconds: float
     residual: float
     volume: Volume
+    axial_balance: float
+    dissipated: float
 
 
 @dataclass(frozen=True)
@@ -43,18 +62,25 @@ class SeatedState:
     theta, contact_pressure : arrays
         σ(θ) in Pa, true stress on the deformed wall, compression positive, on a fine grid of the
         upstream half, θ from α₀ to π/2; the downstream half is its mirror image.
+    friction_traction : array
+        Traction of the stone on the wall along it in Pa, positive away from the equator; zero
+        where the seating is frictionless.
     wall : Field
         Deformed wall and Cauchy stress (Pa, tension positive) of the half Z ≥ 0, lengths in
         inner radii; None where it was not kept (curves).
     solver : SolverReport
+    soundness : Soundness
+        Stability of the wall, and whether it would fold.
     """
 
     case: Case
     contact_angle: float
     theta: Float[np.ndarray, " n"]
     contact_pressure: Float[np.ndarray, " n"]
+    friction_traction: Float[np.ndarray, " n"]
     wall: Field | None
     solver: SolverReport
+    soundness: Soundness
 
     @property
     def equator_contact_pressure(self) -> float:
@@ -94,8 +120,9 @@ def seat(case: Case, resolution: Resolution = Resolution()) -> SeatedState | NoS
     """
     check(case.ureter.material)
     started = time.perf_counter()
-    modulus = hoop_modulus(case.ureter.material.law)
-    law, load = case.ureter.material.law, case.load
+    law, load, radius = case.ureter.material.law, case.load, case.size_ratio
+    modulus = hoop_modulus(law)
+    lumen = _smaller_lumen(case)
 
     def energy(C_rr, C_tt, C_zz, C_rz, xp):  # type: ignore[no-untyped-def]
         return law.energy(C_rr, C_tt, C_zz, C_rz, xp) / modulus
@@ -108,71 +135,58 @@ def seat(case: Case, resolution: Resolution = Resolution()) -> SeatedState | NoS
         outside_pressure=load.confining_pressure / modulus,
         hydrostatic=load.hydrostatic,
     )
-    solved = seat_on_sphere(tube, case.size_ratio, _wrap(case, modulus), resolution)
+    wrap_at = partial(wrap_round_arc, case, lumen, modulus)
+    solved = seat_on_sphere(tube, radius, wrap_at, resolution, _path(case, lumen))
     if isinstance(solved, Failure):
-        return NoSeat(solved.reason, solved.steps, time.perf_counter() - started)
+        reason = solved.reason + far_field_hint(case)
+        return NoSeat(reason, solved.steps, time.perf_counter() - started)
     return _state(case, solved, modulus, started)
 
 
-def _wrap(case: Case, modulus: float) -> Wrap:
-    """First guess: the wall on the sphere, then an exponential return to the lumen.
-
-    The wall is taken to leave the sphere where the axial coordinate is half that of the place at
-    which the sphere has the radius of the lumen, with the slope it has there. The inner pressure
-    is that of a uniform tube of the local radius.
-    """
-    radius, stretch, law = case.size_ratio, case.load.prestretch, case.ureter.material.law
-    lumen = lumen_ratio(case.wall_ratio, law, case.load)
-    if lumen is None or radius <= lumen:
+def _smaller_lumen(case: Case) -> float:
+    """The lumen r_a/R_a that load leaves open, refused where the stone is not larger."""
+    lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+    if lumen is None or case.size_ratio <= lumen:
         raise BadInput(
             "size ratio",
-            round(radius, 6),
+            round(case.size_ratio, 6),
             "larger than the lumen" + ("" if lumen is None else f", {lumen:.6g}"),
             "a smaller stone is loose",
         )
-    leave = 0.5 * np.sqrt(radius**2 - lumen**2)
-    rim = np.sqrt(radius**2 - leave**2)
-    rate = leave / (rim * (rim - lumen))
-    z = np.concatenate(
-        [
-            np.linspace(0.0, leave, 200, endpoint=False),
-            leave + np.geomspace(1.0, 1.0 + 40.0 / rate, 800) - 1.0,
-        ]
-    )
-    z = np.append(z[z < case.method.half_length * stretch], case.method.half_length * stretch)
-    inner = np.where(
-        z < leave,
-        np.sqrt(np.maximum(radius**2 - z**2, 0.0)),
-        lumen + (rim - lumen) * np.exp(-rate * (z - leave)),
-    )
-    pressure = np.asarray(inflation(inner, case.wall_ratio, law, stretch)) / modulus
-    return Wrap(
-        station=z / stretch,
-        inner_radius=inner,
-        pressure=pressure,
-        reach=1.2 * leave / stretch,
-    )
+    return lumen
+
+
+def _path(case: Case, lumen: float) -> Path | None:
+    """How the stone comes to its place; None where no friction acts on the way."""
+    friction, radius = case.seating_friction, case.size_ratio
+    if friction == 0.0:
+        return None
+    if case.method.seating == "growing":
+        return Path(friction, lambda t: (lumen + t * (radius - lumen), 0.0))
+    return Path(friction, lambda t: (radius, (1.0 - t) * (lumen - radius)))
 
 
 def _state(case: Case, solved: Fitted, modulus: float, started: float) -> SeatedState:
     profile, wall, kept = contact_profile(solved), field(solved), volume(solved)
-    if not (np.all(np.isfinite(profile.pressure)) and kept.smallest > 0.0):
-        raise SolverFault(
-            f"the solved wall is not a wall (smallest J {kept.smallest:.3g}); please report "
-            f"this case: size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}"
-        )
     stresses = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
+    in_pascals = replace(wall, **{name: modulus * getattr(wall, name) for name in stresses})
+    cone = case.seating_friction * np.maximum(profile.pressure, 0.0)
     return SeatedState(
         case=case,
         contact_angle=float(profile.theta[0]),
         theta=profile.theta,
         contact_pressure=modulus * np.maximum(profile.pressure, 0.0),
-        wall=replace(wall, **{name: modulus * getattr(wall, name) for name in stresses}),
+        # Between the nodes, where Coulomb's law was solved, the polynomials may leave the cone.
+        friction_traction=modulus * np.clip(profile.traction, -cone, cone),
+        wall=in_pascals,
         solver=SolverReport(
             dofs=solved.dofs,
             newton_steps=solved.steps,
             seconds=time.perf_counter() - started,
             residual=solved.residual,
             volume=kept,
+            axial_balance=axial_balance(solved),
+            dissipated=2.0 * modulus * solved.dissipated,
         ),
+        soundness=soundness(case, solved, in_pascals),
     )

@@ -56,6 +56,7 @@ def record(answer: Answer) -> dict[str, Any]:
         "equator_contact_pressure_kPa": _kilo(seated.equator_contact_pressure if seated else None),
         "peak_contact_pressure_kPa": _kilo(seated.peak_contact_pressure if seated else None),
         "closure_end_pressure_kPa": _kilo(answer.closure_end_pressure),
+        "stability_margin": seated.soundness.margin if seated else None,
         "size_ratio": case.size_ratio,
         "wall_ratio": case.wall_ratio,
         "model": case.method.model,
@@ -139,6 +140,7 @@ def _inputs(case: Case) -> dict[str, Any]:
         "confinement": case.load.confinement,
         "prestretch": case.load.prestretch,
         **{name: value for name, value in asdict(case.method).items() if name != "model"},
+        "seating_friction": case.seating_friction,
     }
 
 

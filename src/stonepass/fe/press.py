@@ -1,0 +1,186 @@
+"""The path with friction: the arc moves in increments, wall points stick or slip on it.
+
+Wall points remember where they stuck. A point that comes into contact within an increment starts
+from the angle at which it touches, extrapolated from its free motion in the increment before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import ngsolve as ng
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.fe.contact import Arc
+from stonepass.fe.discrete import (
+    Discrete,
+    InnerWall,
+    discretise,
+    free_unknowns,
+    inner_wall,
+    set_at_nodes,
+    wall_form,
+)
+from stonepass.fe.friction import open_contact
+from stonepass.fe.newton import Plain, newton
+from stonepass.fe.problem import Failure, Path, Tube, Wrap
+from stonepass.fe.scout import SCOUT_ORDER, Start, edge_of_contact, scout_layout, wrap_round
+
+__all__ = ["FRICTION_WEIGHT", "WrapAt", "along_wall", "dissipation", "press"]
+
+PATH_TOLERANCE = 1e-5  # of the contact force
+FRICTION_WEIGHT = 8.0  # factor of gap and slip in the augmented forms, in units of the modulus
+PATH_COLUMNS = 10
+MARGIN = 1.15  # the equal columns reach this much beyond the frictionless contact edge
+MOST_HALVINGS = 4
+
+# (radius, offset of the centre) of the arc to a first guess for it.
+WrapAt = Callable[[float, float], Wrap]
+
+
+@dataclass(frozen=True)
+class _Moment:
+    """Gap and angle of the inner wall seen from the arc's centre; the state, None at t = 0."""
+
+    t: float
+    gap: Float[np.ndarray, "edges points"]
+    angle: Float[np.ndarray, "edges points"]
+    state: Any
+
+
+def press(tube: Tube, path: Path, wrap_at: WrapAt, frictionless: Start) -> Start | Failure:
+    """Follow the path, from the unloaded wall that the arc just touches to the arc's last place.
+
+    The mesh has equal columns up to beyond the contact edge of the frictionless solution. An
+    increment that does not converge is halved, down to 1/16 of its size.
+    """
+    layout = scout_layout(tube, MARGIN * frictionless.edge, PATH_COLUMNS, growth=1.7)
+    d = discretise(tube, Arc.at(*path.place(0.0)), layout, SCOUT_ORDER)
+    origin = ng.GridFunction(d.nodal[0])
+    system = Plain(
+        _form(d, path, origin), d.state, free_unknowns(d, friction=True, closed_only=False)
+    )
+    before, now = None, _untouched(d, path)
+    step, steps, dissipated = 1.0 / path.increments, 0, 0.0
+    while True:
+        t = min(now.t + step, 1.0)
+        if t > 1.0 - 1e-9:
+            t = 1.0
+        d.arc.move(*path.place(t))
+        touch = _touching_angle(before or _rigid_motion(now, d, path, t), now, t)
+        set_at_nodes(origin, along_wall(inner_wall(d).station, touch), d)
+        _guess(d, before, now, t, path, wrap_at)
+        report = newton(system, PATH_TOLERANCE * frictionless.force, most=25)
+        steps += report.steps
+        if not report.converged:
+            step /= 2.0
+            if step < 0.9 / path.increments / 2.0**MOST_HALVINGS:
+                return Failure(f"at {now.t:.0%} of the path, {report.reason}", steps)
+            continue
+        wall = inner_wall(d)
+        if t == 1.0:
+            break
+        dissipated += dissipation(wall, path.place(t), touch)
+        before, now = now, _moment(t, wall, path, d)
+        step = 1.0 / path.increments
+    edge = edge_of_contact(d)
+    if edge is None:
+        return Failure("the wall left the stone", steps)
+    stations, first = np.unique(wall.station, return_index=True)
+    return Start(d, edge, frictionless.force, steps, (stations, touch.ravel()[first]), dissipated)
+
+
+def dissipation(
+    wall: InnerWall, place: tuple[float, float], origin: Float[np.ndarray, "edges points"]
+) -> float:
+    """Energy that friction took in one increment, half tube: −2π ∫ λ_t slip R_a dZ."""
+    radius, offset = place
+    slip = radius * (np.arctan2(wall.z, wall.r - offset) - origin)
+    return float(-2.0 * np.pi * (wall.weight * wall.tangential * slip).sum())
+
+
+def along_wall(
+    station: Float[np.ndarray, "..."], values: Float[np.ndarray, "..."]
+) -> ng.CoefficientFunction:
+    """A function of Z, piecewise linear through values at stations (each exact)."""
+    Z, first = np.unique(station, return_index=True)
+    v = values.ravel()[first]
+    knots = [Z[0], *Z, Z[-1]]
+    return ng.BSpline(2, [float(k) for k in knots], [float(x) for x in v])(ng.y)
+
+
+def _form(d: Discrete, path: Path, origin: Any) -> Any:
+    space = d.state.space
+    residual = open_contact(
+        space.TrialFunction(), space.TestFunction(), d.arc, origin, path.friction, FRICTION_WEIGHT
+    )
+    form = wall_form(d)
+    form += residual.Compile() * ng.ds("closed|open", intrules={ng.SEGM: d.rule})
+    return form
+
+
+def _moment(t: float, wall: InnerWall, path: Path, d: Discrete) -> _Moment:
+    state = d.state.vec.CreateVector()
+    state.data = d.state.vec
+    return _seen(t, wall.r, wall.z, path.place(t), state)
+
+
+def _untouched(d: Discrete, path: Path) -> _Moment:
+    """The start: a uniform tube whose lumen is what the arc reaches."""
+    radius, offset = path.place(0.0)
+    Z = inner_wall(d).station
+    lumen = np.full_like(Z, radius + offset)
+    return _seen(0.0, lumen, d.tube.axial_stretch * Z, (radius, offset), None)
+
+
+def _rigid_motion(start: _Moment, d: Discrete, path: Path, t: float) -> _Moment:
+    """A moment before the start, made up: the wall at rest, the arc coming at its first speed."""
+    radius, offset = path.place(0.0)
+    next_radius, next_offset = path.place(t)
+    Z = inner_wall(d).station
+    lumen = np.full_like(Z, radius + offset)
+    past = (2.0 * radius - next_radius, 2.0 * offset - next_offset)
+    return _seen(-t, lumen, d.tube.axial_stretch * Z, past, None)
+
+
+def _seen(
+    t: float,
+    r: Float[np.ndarray, "edges points"],
+    z: Float[np.ndarray, "edges points"],
+    place: tuple[float, float],
+    state: Any,
+) -> _Moment:
+    radius, offset = place
+    return _Moment(t, np.hypot(r - offset, z) - radius, np.arctan2(z, r - offset), state)
+
+
+def _touching_angle(before: _Moment, now: _Moment, t: float) -> Float[np.ndarray, "edges points"]:
+    """Angle at which each wall point touches, if it does so before `t`; where it is, if it does.
+
+    Gap and angle of open points are taken to go on as between the last two moments.
+    """
+    ahead = (t - now.t) / (now.t - before.t)
+    closing = np.maximum((before.gap - now.gap) * ahead, 1e-15)
+    fraction = np.clip(np.maximum(now.gap, 0.0) / closing, 0.0, 1.0)
+    return now.angle + fraction * ahead * (now.angle - before.angle)
+
+
+def _guess(
+    d: Discrete, before: _Moment | None, now: _Moment, t: float, path: Path, wrap_at: WrapAt
+) -> None:
+    """First guess of an increment: the wall wrapped, or the motion so far continued."""
+    if now.state is None:
+        wrap_round(d, wrap_at(*path.place(t)))
+    elif before is None or before.state is None:
+        wrap_round(d, wrap_at(*path.place(now.t)))
+        change = d.state.vec.CreateVector()
+        change.data = -1.0 * d.state.vec
+        wrap_round(d, wrap_at(*path.place(t)))
+        change.data += d.state.vec
+        d.state.vec.data = now.state + change
+    else:
+        ahead = (t - now.t) / (now.t - before.t)
+        d.state.vec.data = now.state + ahead * (now.state - before.state)

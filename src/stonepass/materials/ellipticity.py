@@ -1,0 +1,161 @@
+"""Strong ellipticity: does every small shear band cost energy, in every direction of space?
+
+Superpose a shear on the deformation F: F(ε) = (1 + ε m⊗n) F with unit vectors m ⊥ n. Its
+determinant does not change, so for an incompressible law the pressure drops out, and the law is
+strongly elliptic at F where the energy's second derivative in ε is positive for every m and n.
+With a = Fᵀn and b = Fᵀm, C(ε) = C + ε (a⊗b + b⊗a) + ε² a⊗a; hence
+
+    d²U/dε² = Σ U,ᵢⱼ ċᵢ ċⱼ + 2 Σ U,ᵢ c̈ᵢ,   ċ = (2aᵣbᵣ, 2aₜbₜ, 2a_z b_z, aᵣb_z + bᵣa_z),
+                                          c̈ = (aᵣ², aₜ², a_z², aᵣa_z),
+
+the sums over the four components that the law is a function of. For given n this is a quadratic
+form in m, so its smallest value over m is an eigenvalue of a 2 × 2 matrix; n is scanned.
+
+A law given as a function of C_rr, C_tt, C_zz and C_rz says nothing of C_rt and C_tz, so shears out
+of the r–z plane are counted as if it did not depend on those two; that is exact for the
+neo-Hookean and the Fung law.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import autograd.numpy as anp
+import numpy as np
+from autograd import elementwise_grad
+from jaxtyping import Float
+
+from stonepass.materials.derivatives import rest_moduli
+from stonepass.materials.protocol import Law
+
+__all__ = ["Weakest", "shear_stiffness", "weakest"]
+
+COARSE = 7  # directions per quarter turn of n in the first scan
+REFINED = 24  # deformations, the weakest ones, whose direction is refined
+ZOOMS = 4  # refinements, each four times finer
+
+
+@dataclass(frozen=True)
+class Weakest:
+    """The weakest shear band: its stiffness in units of the rest r–z shear modulus, and where.
+
+    `stiffness` 1 is that of the unloaded wall across its softest plane, 0 the loss of ellipticity;
+    `index` says which of the given deformations it is; `normal` and `direction` are n and m, in
+    (r, t, z).
+    """
+
+    stiffness: float
+    index: int
+    normal: tuple[float, float, float]
+    direction: tuple[float, float, float]
+
+
+def weakest(law: Law, F: Float[np.ndarray, "points 5"]) -> Weakest:
+    """Find the weakest shear band among deformations F = (F_rr, F_rz, F_zr, F_zz, F_tt).
+
+    All directions are scanned for every deformation, and refined for the weakest of them.
+    """
+    angles = _scan()
+    values, _ = shear_stiffness(law, F, _normals(angles)[None])
+    some = np.argsort(values.min(axis=1))[:REFINED]
+    best, spacing = angles[np.argmin(values[some], axis=1)], np.pi / 2.0 / (COARSE - 1)
+    for _ in range(ZOOMS):
+        spacing /= 4.0
+        near = best[:, None, :] + spacing * _neighbourhood()
+        found, directions = shear_stiffness(law, F[some], _normals(near))
+        choice = np.argmin(found, axis=1)
+        best = np.take_along_axis(near, choice[:, None, None], axis=1)[:, 0]
+    least = found.min(axis=1)
+    k = int(np.argmin(least))
+    n, m = _normals(best[k]), directions[k, choice[k]]
+    return Weakest(
+        stiffness=float(least[k] / rest_moduli(law)[1]),
+        index=int(some[k]),
+        normal=(float(n[0]), float(n[1]), float(n[2])),
+        direction=(float(m[0]), float(m[1]), float(m[2])),
+    )
+
+
+def shear_stiffness(
+    law: Law, F: Float[np.ndarray, "points 5"], normals: Float[np.ndarray, "any ways 3"]
+) -> tuple[Float[np.ndarray, "points ways"], Float[np.ndarray, "points ways 3"]]:
+    """Smallest d²U/dε² over m, in Pa, for every deformation and every n; and the m it belongs to.
+
+    `normals` are the same for all points (first axis 1) or each point's own.
+    """
+    F_rr, F_rz, F_zr, F_zz, F_tt = F.T[:, :, None]
+    slope, curvature = _energy_derivatives(law, F)
+    n_r, n_t, n_z = np.moveaxis(normals, -1, 0)
+    a_r, a_t, a_z = F_rr * n_r + F_zr * n_z, F_tt * n_t, F_rz * n_r + F_zz * n_z  # Fᵀ n
+
+    def rate(m: Float[np.ndarray, "any ways 3"]) -> Float[np.ndarray, "points ways 4"]:
+        """ċ for one m."""
+        m_r, m_t, m_z = np.moveaxis(m, -1, 0)
+        b_r, b_t, b_z = F_rr * m_r + F_zr * m_z, F_tt * m_t, F_rz * m_r + F_zz * m_z
+        return np.stack(
+            [2.0 * a_r * b_r, 2.0 * a_t * b_t, 2.0 * a_z * b_z, a_r * b_z + b_r * a_z], axis=-1
+        )
+
+    second = np.stack([a_r * a_r, a_t * a_t, a_z * a_z, a_r * a_z], axis=-1)
+    constant = 2.0 * np.matmul(second, slope[:, :, None])[..., 0]
+    e, f = _tangents(normals)
+    along_e, along_f = rate(e), rate(f)
+    bent_e, bent_f = np.matmul(along_e, curvature), np.matmul(along_f, curvature)
+    A, B, D = (bent_e * along_e).sum(-1), (bent_e * along_f).sum(-1), (bent_f * along_f).sum(-1)
+    smallest = (A + D) / 2.0 - np.sqrt(((A - D) / 2.0) ** 2 + B**2)
+    turn = 0.5 * np.arctan2(2.0 * B, A - D) + np.pi / 2.0  # angle of the smaller eigenvector
+    m = np.cos(turn)[..., None] * e + np.sin(turn)[..., None] * f
+    return smallest + constant, m
+
+
+def _energy_derivatives(
+    law: Law, F: Float[np.ndarray, "points 5"]
+) -> tuple[Float[np.ndarray, "points 4"], Float[np.ndarray, "points 4 4"]]:
+    """U,ᵢ and U,ᵢⱼ for the components rr, tt, zz, rz of C."""
+    F_rr, F_rz, F_zr, F_zz, F_tt = F.T
+    C = (F_rr**2 + F_zr**2, F_tt**2, F_rz**2 + F_zz**2, F_rr * F_rz + F_zr * F_zz)
+
+    def energy(C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any) -> Any:
+        return law.energy(C_rr, C_tt, C_zz, C_rz, anp)
+
+    slopes = [elementwise_grad(_of_all(energy), i) for i in range(4)]
+    second = [[elementwise_grad(_of_all(slope), j)(*C) for j in range(4)] for slope in slopes]
+    curvature = np.moveaxis(np.array(second), -1, 0)
+    return np.stack([slope(*C) for slope in slopes], axis=-1), curvature
+
+
+def _of_all(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add zero times every argument, so that no derivative is missing where one is not used."""
+    return lambda *c: function(*c) + 0.0 * (c[0] + c[1] + c[2] + c[3])
+
+
+def _scan() -> Float[np.ndarray, "ways 2"]:
+    """Polar and azimuthal angles over a hemisphere of n."""
+    polar = np.linspace(0.0, np.pi / 2.0, COARSE)
+    around = np.linspace(0.0, np.pi, 2 * (COARSE - 1), endpoint=False)
+    p, q = np.meshgrid(polar, around, indexing="ij")
+    return np.column_stack([p.ravel(), q.ravel()])
+
+
+def _neighbourhood() -> Float[np.ndarray, "ways 2"]:
+    steps = np.arange(-4.0, 5.0)
+    p, q = np.meshgrid(steps, steps, indexing="ij")
+    return np.column_stack([p.ravel(), q.ravel()])
+
+
+def _normals(angles: Float[np.ndarray, "*any 2"]) -> Float[np.ndarray, "*any 3"]:
+    """Unit vectors (r, t, z): polar angle from the r–z plane, azimuth within it."""
+    p, q = angles[..., 0], angles[..., 1]
+    return np.stack([np.cos(p) * np.cos(q), np.sin(p), np.cos(p) * np.sin(q)], axis=-1)
+
+
+def _tangents(
+    normals: Float[np.ndarray, "any ways 3"],
+) -> tuple[Float[np.ndarray, "any ways 3"], Float[np.ndarray, "any ways 3"]]:
+    """Two unit vectors that complete each normal to an orthonormal frame."""
+    least = np.eye(3)[np.argmin(np.abs(normals), axis=-1)]
+    e = np.cross(normals, least)
+    e /= np.linalg.norm(e, axis=-1)[..., None]
+    return e, np.cross(normals, e)

@@ -1,0 +1,105 @@
+"""Is the solved wall one that a real wall of this law could be: stable, and not about to fold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Int
+
+from stonepass.fe.fit import Fitted
+from stonepass.fe.readout import Field, deformation
+from stonepass.materials.derivatives import rest_moduli
+from stonepass.materials.ellipticity import weakest
+from stonepass.model.case import Case
+from stonepass.model.far_field import lumen_ratio
+
+__all__ = ["Soundness", "far_field_hint", "soundness"]
+
+HINT_BELOW = 0.5  # margin of the far field below which a failure is put down to it
+
+
+@dataclass(frozen=True)
+class Soundness:
+    """Stability of the solved wall; places are reference coordinates R/R_a, Z/R_a.
+
+    Attributes
+    ----------
+    margin : float
+        Stiffness of the weakest shear band in units of the rest r–z shear modulus (the ground
+        matrix G of a Fung wall): 1 unloaded, 0 where strong ellipticity is lost.
+    weakest_at : (float, float)
+        Where that is.
+    hoop_compression : float
+        Largest σ_rr − σ_tt in the same units; above 1 a real tube would answer by folding.
+    compressed_at : (float, float)
+        Where that is.
+    """
+
+    margin: float
+    weakest_at: tuple[float, float]
+    hoop_compression: float
+    compressed_at: tuple[float, float]
+
+    def warnings(self) -> list[str]:
+        """One sentence for each thing that a real wall would not do."""
+        found = []
+        if self.margin <= 0.0:
+            R, Z = self.weakest_at
+            found.append(
+                f"the wall is not stable at R = {R:.3g}, Z = {Z:.3g} (inner radii): a shear band "
+                f"lowers its energy (stability margin {self.margin:.2g})"
+            )
+        if self.hoop_compression > 1.0:
+            R, Z = self.compressed_at
+            found.append(
+                f"the wall is under hoop compression of {self.hoop_compression:.2g} times its "
+                f"shear modulus at R = {R:.3g}, Z = {Z:.3g} (inner radii): a real tube would "
+                "fold, which no axisymmetric model sees"
+            )
+        return found
+
+
+def soundness(case: Case, solved: Fitted, wall: Field) -> Soundness:
+    """Check strong ellipticity and hoop compression at points of every element."""
+    law = case.ureter.material.law
+    F, some = deformation(solved), _some_points(wall)
+    columns = [getattr(F, name)[:, some].ravel() for name in ("F_rr", "F_rz", "F_zr", "F_zz")]
+    worst = weakest(law, np.column_stack([*columns, F.F_tt[:, some].ravel()]))
+    compression = wall.stress_rr - wall.stress_tt
+    most = int(np.argmax(compression))
+    return Soundness(
+        margin=worst.stiffness,
+        weakest_at=(
+            float(wall.R[:, some].flat[worst.index]),
+            float(wall.Z[:, some].flat[worst.index]),
+        ),
+        hoop_compression=float(compression.flat[most] / rest_moduli(law)[1]),
+        compressed_at=(float(wall.R.flat[most]), float(wall.Z.flat[most])),
+    )
+
+
+def far_field_hint(case: Case) -> str:
+    """Why the finite elements may have failed: the loaded tube itself is close to instability."""
+    law, eta, stretch = case.ureter.material.law, case.wall_ratio, case.load.prestretch
+    lumen = lumen_ratio(eta, law, case.load)
+    if lumen is None:
+        return ""
+    R = np.linspace(1.0, eta, 9)
+    hoop = np.sqrt(lumen**2 + (R**2 - 1.0) / stretch) / R
+    zero, axial = np.zeros_like(R), np.full_like(R, stretch)
+    margin = weakest(law, np.column_stack([1 / (hoop * axial), zero, zero, axial, hoop])).stiffness
+    if margin > HINT_BELOW:
+        return ""
+    state = "is close to losing" if margin > 0.0 else "has lost"
+    return (
+        f"; under this load the tube itself {state} its stability far from the stone "
+        f"(margin {margin:.2g}; 1 unloaded, 0 lost)"
+    )
+
+
+def _some_points(wall: Field) -> Int[np.ndarray, " some"]:
+    """First, middle and last Gauss–Lobatto point of each direction: nine of every element."""
+    count = round(np.sqrt(wall.R.shape[1]))
+    lines = np.array([0, count // 2, count - 1])
+    return (lines[:, None] * count + lines[None, :]).ravel()

@@ -37,12 +37,13 @@ NORMAL, TANGENTIAL = 3, 4  # components of the state after u, w, p
 
 @dataclass(frozen=True)
 class Discrete:
-    """Mesh, unknowns (u, w, p, λ_n, λ_t) and the arc of one discretisation."""
+    """Mesh, unknowns (u, w, p, λ_n, λ_t), arc and stiffening of one discretisation."""
 
     tube: Tube
     mesh: Any
     state: Any
     arc: Arc
+    stiffening: Any
     rule: Any
     order: int
 
@@ -91,14 +92,15 @@ def discretise(tube: Tube, arc: Arc, layout: Layout, order: int) -> Discrete:
             ng.H1(mesh, order=order, definedon=inner),
         ]
     )
-    return Discrete(tube, mesh, ng.GridFunction(space), arc, lobatto_rule(order), order)
+    state, stiffening = ng.GridFunction(space), ng.Parameter(0.0)
+    return Discrete(tube, mesh, state, arc, stiffening, lobatto_rule(order), order)
 
 
 def wall_form(d: Discrete) -> Any:
     """The wall's own part of the form; contact is added by the caller."""
     tube, (u, w, p, _, _) = d.tube, d.state.space.TrialFunction()
     form = ng.BilinearForm(d.state.space, condense=True)
-    energy = wall_energy(tube.energy, u, w, p)
+    energy = wall_energy(tube.energy, u, w, p, d.stiffening)
     form += ng.Variation(energy.Compile() * ng.dx(bonus_intorder=2))
     if tube.outside_pressure:
         work = outside_work(u, w, tube.outside_pressure, hydrostatic=tube.hydrostatic)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import ngsolve as ng
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from stonepass.fe.contact import Arc, bilateral
+from stonepass.fe.contact import Arc, bilateral, unilateral
 from stonepass.fe.discrete import (
     NORMAL,
     TANGENTIAL,
@@ -22,16 +22,18 @@ from stonepass.fe.discrete import (
     smallest_volume_ratio,
     wall_form,
 )
-from stonepass.fe.friction import closed_contact
+from stonepass.fe.friction import closed_contact, open_contact
 from stonepass.fe.mesh import Layout, graded, growing, intervals, place
-from stonepass.fe.newton import Bordered, newton
+from stonepass.fe.newton import Bordered, Plain, Report, newton_or_homotopy
 from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
 from stonepass.fe.problem import Failure, Resolution, Tube
-from stonepass.fe.scout import Start
+from stonepass.fe.scout import Start, edge_of_contact
 
-__all__ = ["Fitted", "fit"]
+__all__ = ["Fitted", "fit", "settle"]
 
 FIT_TOLERANCE = 1e-9  # of the contact force
+SETTLING_ROUNDS = 6
+INSIDE_OUT = "the wall found is turned inside out at a kink"
 ROUNDING = 1e-14  # residual norm that rounding leaves where the contact force is tiny
 
 
@@ -41,7 +43,8 @@ class Fitted:
 
     `steps` counts every Newton step on the way, failed attempts too; `residual` is relative to the
     norm of the contact forces; `dissipated` is the energy that friction took on the path (half
-    tube, units of modulus × inner radius³).
+    tube, units of modulus × inner radius³). `slack` is how far, along Z, the contact edge is known
+    where it could not be made an unknown, else 0.
     """
 
     discrete: Discrete
@@ -52,6 +55,7 @@ class Fitted:
     residual: float
     friction: float
     dissipated: float
+    slack: float = 0.0
 
 
 def fit(
@@ -70,45 +74,107 @@ def fit(
     _take_over(d, start)
     free = free_unknowns(d, friction=start.origin is not None, closed_only=True)
     system = Bordered(
-        _form(d, start, friction),
+        _closed_form(d, start, friction),
         d.state,
         free,
         value=start.edge,
         apply=lambda edge: place(d.mesh, layout(edge)),
         index=_edge_unknown(d, resolution.closed),
     )
-    report = newton(system, max(FIT_TOLERANCE * start.force, ROUNDING), most=30)
+    tolerance = max(FIT_TOLERANCE * start.force, ROUNDING)
+    report = newton_or_homotopy(system, d.stiffening.Set, tolerance)
     if not report.converged:
         return Failure(report.reason, report.steps)
     flaw = _flaw(d, radius)
     if flaw:
         return Failure(flaw, report.steps)
+    return _fitted(d, radius, layout(system.value), system, report, start, friction)
+
+
+def settle(
+    tube: Tube, radius: float, start: Start, resolution: Resolution, friction: float
+) -> Fitted | Failure:
+    """Solve with contact as an inequality on meshes that are moved to the edge they find.
+
+    The way out where `fit` fails, as at kinks of a wall that has lost its stability: the edge is
+    then known to the spacing of the nodes beside it.
+    """
+    edge, steps = start.edge, 0
+    for _ in range(SETTLING_ROUNDS):
+        layout = _layout(edge, start.edge, tube, resolution)
+        d = discretise(tube, Arc.at(radius), layout, resolution.order)
+        _take_over(d, start)
+        free = free_unknowns(d, friction=start.origin is not None, closed_only=False)
+        system = Plain(_open_form(d, start, friction), d.state, free)
+        tolerance = max(FIT_TOLERANCE * start.force, ROUNDING)
+        report = newton_or_homotopy(system, d.stiffening.Set, tolerance)
+        steps += report.steps
+        found = edge_of_contact(d) if report.converged else None
+        if found is None:
+            return Failure(report.reason or "the wall left the stone", steps)
+        slack = resolution.edge * edge
+        if abs(found - edge) <= slack:
+            if not smallest_volume_ratio(d) > 0.0:
+                return Failure(INSIDE_OUT, steps)
+            solved = _fitted(d, radius, layout, system, report, start, friction)
+            return replace(solved, slack=slack, steps=steps)
+        edge = found
+    return Failure("the contact edge does not settle", steps)
+
+
+def _fitted(
+    d: Discrete,
+    radius: float,
+    layout: Layout,
+    system: Plain,
+    report: Report,
+    start: Start,
+    friction: float,
+) -> Fitted:
     return Fitted(
         discrete=d,
         radius=radius,
-        layout=layout(system.value),
+        layout=layout,
         steps=report.steps,
-        dofs=int(sum(free)),
+        dofs=int(sum(system.free)),
         residual=report.residual / contact_force(d, system),
         friction=friction,
         dissipated=start.dissipated + _last_dissipation(d, start, radius),
     )
 
 
-def _form(d: Discrete, start: Start, friction: float) -> Any:
+def _closed_form(d: Discrete, start: Start, friction: float) -> Any:
+    """The wall held on the arc up to the edge."""
     where = ng.ds("closed", intrules={ng.SEGM: d.rule})
     form, space = wall_form(d), d.state.space
+    trial, test = space.TrialFunction(), space.TestFunction()
     if start.origin is None:
-        u, w, _, multiplier, _ = space.TrialFunction()
-        form += ng.Variation(bilateral(multiplier, d.arc.gap(u, w)).Compile() * where)
+        form += ng.Variation(bilateral(trial[NORMAL], d.arc.gap(*trial[:2])).Compile() * where)
         return form
-    spline = make_interp_spline(*start.origin, k=3)
-    origin = ng.BSpline(4, spline.t.tolist(), spline.c.tolist())(ng.y)
-    residual = closed_contact(
-        space.TrialFunction(), space.TestFunction(), d.arc, origin, friction, FRICTION_WEIGHT
-    )
-    form += residual.Compile() * where
+    origin = _origin(start)
+    form += closed_contact(trial, test, d.arc, origin, friction, FRICTION_WEIGHT).Compile() * where
     return form
+
+
+def _open_form(d: Discrete, start: Start, friction: float) -> Any:
+    """Contact as an inequality all along the inner wall."""
+    where = ng.ds("closed|open", intrules={ng.SEGM: d.rule})
+    form, space = wall_form(d), d.state.space
+    trial, test = space.TrialFunction(), space.TestFunction()
+    if start.origin is None:
+        gap = d.arc.gap(*trial[:2])
+        form += ng.Variation(unilateral(trial[NORMAL], gap, FRICTION_WEIGHT).Compile() * where)
+        return form
+    origin = _origin(start)
+    form += open_contact(trial, test, d.arc, origin, friction, FRICTION_WEIGHT).Compile() * where
+    return form
+
+
+def _origin(start: Start) -> Any:
+    """The angles from which the last increment slips, as a smooth function of Z."""
+    assert start.origin is not None
+    spline = make_interp_spline(*start.origin, k=3)
+    return ng.BSpline(4, spline.t.tolist(), spline.c.tolist())(ng.y)
 
 
 def _last_dissipation(d: Discrete, start: Start, radius: float) -> float:
@@ -155,7 +221,7 @@ def _edge_unknown(d: Discrete, closed: int) -> int:
 def _flaw(d: Discrete, radius: float) -> str:
     """Empty where λ_n ≥ 0 on the closed and gap ≥ 0 on the open part of the wall, and J > 0."""
     if not smallest_volume_ratio(d) > 0.0:  # NaN too
-        return "the wall found is turned inside out at a kink"
+        return INSIDE_OUT
     force = inner_wall(d, "closed").normal
     if force.min() < -1e-6 * force.max():
         return "the contact is not one closed band: the wall would lift off inside it"

@@ -9,10 +9,11 @@ from typing import Any, Protocol, runtime_checkable
 
 import ngsolve as ng
 
-__all__ = ["Bordered", "Plain", "Report", "newton"]
+__all__ = ["Bordered", "Plain", "Report", "SingularTangent", "newton", "newton_or_homotopy"]
 
 SMALLEST_STEP = 0.02
 SUFFICIENT_DECREASE = 0.05
+LADDER = (0.05, 0.02, 0.01, 0.005, 0.0)
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,10 @@ class Report:
     def converged(self) -> bool:
         """Whether the tolerance was met."""
         return not self.reason
+
+
+class SingularTangent(Exception):
+    """The engine could not factorise the tangent."""
 
 
 @runtime_checkable
@@ -56,7 +61,7 @@ def newton(system: System, tolerance: float, most: int = 40) -> Report:
             return Report(count, norm, "")
         try:
             system.direction()
-        except ng.ngstd.NgException:
+        except SingularTangent:
             return Report(count, norm, "the tangent matrix is singular")
         norm, last = _search(system, norm), norm
         if not math.isfinite(norm):
@@ -64,6 +69,30 @@ def newton(system: System, tolerance: float, most: int = 40) -> Report:
     if norm <= tolerance:
         return Report(most, norm, "")
     return Report(most, norm, f"no convergence in {most} Newton steps")
+
+
+def newton_or_homotopy(
+    system: Plain, stiffen: Callable[[float], None], tolerance: float, most: int = 30
+) -> Report:
+    """Iterate directly; where that fails, from the same start down a ladder of stiffer walls.
+
+    `stiffen` sets the shear modulus of the matrix that is added to the wall, in units of its
+    modulus; the last rung is the wall itself.
+    """
+    start = system.remember()
+    report = newton(system, tolerance, most)
+    if report.converged:
+        return report
+    steps = report.steps
+    system.recall(start)
+    for rung in LADDER:
+        stiffen(rung)
+        last = newton(system, tolerance, most)
+        steps += last.steps
+        if not last.converged:
+            break
+    stiffen(0.0)
+    return Report(steps, last.residual, last.reason)
 
 
 def _search(system: System, start: float) -> float:
@@ -82,7 +111,7 @@ class Plain:
     """The residual of a form in its free unknowns."""
 
     def __init__(self, form: Any, state: Any, free: Any) -> None:
-        self.form, self.state = form, state
+        self.form, self.state, self.free = form, state, free
         self._keep = ng.Projector(free, True)
         self._coupling = free & state.space.FreeDofs(True)
         self._force, self._change, self._origin = (state.vec.CreateVector() for _ in range(3))
@@ -108,10 +137,23 @@ class Plain:
         """Go to origin − step × change."""
         self.state.vec.data = self._origin - step * self._change
 
+    def remember(self) -> Any:
+        """Copy the current state."""
+        kept = self.state.vec.CreateVector()
+        kept.data = self.state.vec
+        return kept
+
+    def recall(self, kept: Any) -> None:
+        """Go back to a remembered state."""
+        self.state.vec.data = kept
+
     def factorise(self) -> None:
         """Assemble the tangent at the current state and factorise its condensed part."""
         self.form.AssembleLinearization(self.state.vec)
-        self._inverse = self.form.mat.Inverse(self._coupling, inverse="umfpack")
+        try:
+            self._inverse = self.form.mat.Inverse(self._coupling, inverse="umfpack")
+        except Exception as problem:  # the engine's own kinds have no public name
+            raise SingularTangent from problem
 
     def solve(self, rhs: Any, into: Any) -> None:
         """Solve tangent × into = rhs, element interiors included; overwrites `rhs`."""
@@ -144,6 +186,16 @@ class Bordered(Plain):
         self.value, self._apply, self._index = value, apply, index
         self._column, self._shifted = (state.vec.CreateVector() for _ in range(2))
         apply(value)
+
+    def remember(self) -> Any:
+        """Copy the current state and the scalar."""
+        return super().remember(), self.value
+
+    def recall(self, kept: Any) -> None:
+        """Go back to a remembered state and scalar."""
+        state, self.value = kept
+        super().recall(state)
+        self._apply(self.value)
 
     def residual(self) -> float:
         """Norm of the residual and the condition together."""

@@ -25,7 +25,7 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.friction import open_contact
-from stonepass.fe.newton import Plain, newton
+from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Path, Tube, Wrap
 from stonepass.fe.scout import SCOUT_ORDER, Start, edge_of_contact, scout_layout, wrap_round
 
@@ -73,7 +73,8 @@ def press(tube: Tube, path: Path, wrap_at: WrapAt, frictionless: Start) -> Start
         touch = _touching_angle(before or _rigid_motion(now, d, path, t), now, t)
         set_at_nodes(origin, along_wall(inner_wall(d).station, touch), d)
         _guess(d, before, now, t, path, wrap_at)
-        report = newton(system, PATH_TOLERANCE * frictionless.force, most=25)
+        tolerance = PATH_TOLERANCE * frictionless.force
+        report = newton_or_homotopy(system, d.stiffening.Set, tolerance)
         steps += report.steps
         if not report.converged:
             step /= 2.0

@@ -96,7 +96,9 @@ def contact_profile(solved: Fitted) -> ContactProfile:
     r, z = wall.r @ values.T, wall.z @ values.T
     area = r * np.hypot(wall.r @ slopes.T, wall.z @ slopes.T) / run
     station = (wall.station @ values.T).ravel()
-    keep = np.concatenate([[True], np.diff(station) > 0.0])
+    # The first sample of every column but the first is the last of the one before.
+    keep = np.arange(station.size) % SAMPLES_PER_COLUMN > 0
+    keep[0] = True
 
     def outwards(samples: Float[np.ndarray, "edges points"]) -> Float[np.ndarray, " n"]:
         return samples.ravel()[keep][::-1]

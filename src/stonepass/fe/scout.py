@@ -19,7 +19,7 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.mesh import Layout, growing
-from stonepass.fe.newton import Plain, newton
+from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Tube, Wrap
 from stonepass.fe.wall import SYMBOLS
 
@@ -61,7 +61,7 @@ def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) ->
     wrap_round(d, wrap)
     system = Plain(form, d.state, free_unknowns(d, friction=False, closed_only=False))
     force = contact_force(d, system)
-    report = newton(system, SCOUT_TOLERANCE * force, most=30)
+    report = newton_or_homotopy(system, d.stiffening.Set, SCOUT_TOLERANCE * force)
     if not report.converged:
         return Failure(report.reason, report.steps)
     edge = edge_of_contact(d)

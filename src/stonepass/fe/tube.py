@@ -14,7 +14,7 @@ from functools import lru_cache
 
 from threadpoolctl import ThreadpoolController
 
-from stonepass.fe.fit import Fitted, fit
+from stonepass.fe.fit import Fitted, fit, settle
 from stonepass.fe.press import WrapAt, press
 from stonepass.fe.problem import Failure, Path, Resolution, Tube
 from stonepass.fe.scout import Start, scout
@@ -38,35 +38,31 @@ def seat_on_sphere(
     which halves the processor time.
     """
     with _blas().limit(limits=1, user_api="blas"):
-        steps, reasons = 0, []
-        for columns, weight in SCOUTS:
-            result = _attempt(tube, radius, wrap_at, resolution, path, columns, weight)
+        start = _start(tube, radius, wrap_at, path)
+        if isinstance(start, Failure):
+            return start
+        friction, steps = 0.0 if path is None else path.friction, start.steps
+        for solve in (fit, settle):
+            result = solve(tube, radius, start, resolution, friction)
             steps += result.steps
             if isinstance(result, Fitted):
-                return replace(result, steps=steps)
-            reasons.append(result.reason)
-        return Failure(reasons[-1], steps)
+                break
+        return replace(result, steps=steps)
 
 
-def _attempt(
-    tube: Tube,
-    radius: float,
-    wrap_at: WrapAt,
-    resolution: Resolution,
-    path: Path | None,
-    columns: int,
-    weight: float,
-) -> Fitted | Failure:
-    start: Start | Failure = scout(tube, radius, wrap_at(radius, 0.0), columns, weight)
-    steps = start.steps
-    if isinstance(start, Start) and path is not None:
-        start = press(tube, path, wrap_at, start)
-        steps += start.steps
-    if isinstance(start, Failure):
-        return replace(start, steps=steps)
-    friction = 0.0 if path is None else path.friction
-    result = fit(tube, radius, start, resolution, friction)
-    return replace(result, steps=steps + result.steps)
+def _start(tube: Tube, radius: float, wrap_at: WrapAt, path: Path | None) -> Start | Failure:
+    """Scout, and with friction follow the path; once more with other settings where it fails."""
+    steps, failure = 0, Failure("", 0)
+    for columns, weight in SCOUTS:
+        found = scout(tube, radius, wrap_at(radius, 0.0), columns, weight)
+        steps += found.steps
+        if isinstance(found, Start) and path is not None:
+            found = press(tube, path, wrap_at, found)
+            steps += found.steps
+        if isinstance(found, Start):
+            return replace(found, steps=steps)
+        failure = found
+    return replace(failure, steps=steps)
 
 
 @lru_cache(maxsize=1)

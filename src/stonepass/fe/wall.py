@@ -64,10 +64,15 @@ def strain(u: Any, w: Any) -> Strain:
     return Strain(F_rr=1.0 + du[0], F_rz=du[1], F_zr=dw[0], F_zz=1.0 + dw[1], F_tt=1.0 + u / ng.x)
 
 
-def wall_energy(energy: Energy, u: Any, w: Any, p: Any) -> Any:
-    """Lagrangian per reference area of the meridian (2π left out): (U − p (J − 1)) R."""
+def wall_energy(energy: Energy, u: Any, w: Any, p: Any, stiffening: Any = 0.0) -> Any:
+    """Lagrangian per reference area of the meridian (2π left out): (U − p (J − 1)) R.
+
+    `stiffening` is the shear modulus of a matrix added for a homotopy, 0 for the wall itself.
+    """
     s = strain(u, w)
-    return (energy(*s.C, SYMBOLS) - p * (s.J - 1.0)) * ng.x
+    C_rr, C_tt, C_zz, _ = s.C
+    matrix = 0.5 * stiffening * (C_rr + C_tt + C_zz - 3.0)
+    return (energy(*s.C, SYMBOLS) + matrix - p * (s.J - 1.0)) * ng.x
 
 
 def outside_work(u: Any, w: Any, pressure: Any, *, hydrostatic: bool) -> Any:

@@ -138,7 +138,7 @@ def _balance(case: Case, seated: SeatedState) -> Answer:
         seated=seated,
         newton_steps=seated.solver.newton_steps,
         seconds=seated.solver.seconds,
-        warnings=(*_range_warnings(case), *seated.soundness.warnings()),
+        warnings=(*_range_warnings(case), *seated.warnings()),
     )
     found = _first_root(excess, first, last)
     if found is None:

@@ -71,6 +71,8 @@ class SeatedState:
     solver : SolverReport
     soundness : Soundness
         Stability of the wall, and whether it would fold.
+    contact_angle_slack : float
+        How far α₀ is known in rad where the contact edge could not be made an unknown, else 0.
     """
 
     case: Case
@@ -81,6 +83,17 @@ class SeatedState:
     wall: Field | None
     solver: SolverReport
     soundness: Soundness
+    contact_angle_slack: float = 0.0
+
+    def warnings(self) -> list[str]:
+        """What a reader of the state must know."""
+        found = self.soundness.warnings()
+        if self.contact_angle_slack > 0.0:
+            found.append(
+                f"the contact angle is known to {np.degrees(self.contact_angle_slack):.2f}° only, "
+                "because no smooth contact edge was found"
+            )
+        return found
 
     @property
     def equator_contact_pressure(self) -> float:
@@ -189,4 +202,5 @@ def _state(case: Case, solved: Fitted, modulus: float, started: float) -> Seated
             dissipated=2.0 * modulus * solved.dissipated,
         ),
         soundness=soundness(case, solved, in_pascals),
+        contact_angle_slack=solved.slack * case.load.prestretch / case.size_ratio,
     )

@@ -71,14 +71,14 @@ def test_confining_pressure_adds_about_itself():
 
 
 def test_confining_pressure_with_little_friction_moves_with_a_warning():
-    found = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("8 kPa"))
+    found = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("4 kPa"))
     assert found.outcome is sp.Outcome.MOVES
     alpha = found.seated.contact_angle
     force = float(resistance(found.seated).total(np.array(alpha)))
     assert found.pressure == pytest.approx(force / math.sin(alpha) ** 2, rel=1e-12)
-    assert "narrowed the lumen" in found.warnings[0]
-    lumen = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("8 kPa"), closure_start="lumen")
-    assert lumen.warnings == ()
+    assert any("narrowed the lumen" in warning for warning in found.warnings)
+    lumen = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("4 kPa"), closure_start="lumen")
+    assert not any("narrowed the lumen" in warning for warning in lumen.warnings)
     assert lumen.critical_angle > alpha
 
 
@@ -102,7 +102,37 @@ def test_failed_finite_elements_are_named():
     assert found.outcome is sp.Outcome.NO_SOLUTION
     assert found.pressure is None
     assert found.newton_steps > 0
-    assert found.message.startswith("The finite elements found no equilibrium: ")
+    assert found.message.startswith("No equilibrium was found: ")
+
+
+def test_without_friction_no_load_holds_the_stone():
+    for load in (sp.Load("4 kPa"), sp.Load(prestretch=0.98), sp.Load(prestretch=1.1)):
+        found = answer(1.2, friction=0.0, load=load)
+        assert (found.outcome, found.pressure) == (sp.Outcome.MOVES, 0.0)
+
+
+def test_a_stone_hardly_larger_than_the_lumen_is_named_at_once():
+    found = answer(1.00001)
+    assert found.outcome is sp.Outcome.NO_SOLUTION
+    assert "below what the finite elements resolve" in found.message
+    assert found.newton_steps == 0
+
+
+def test_the_peak_may_lie_off_the_equator():
+    # Thin stiff rubber at ξ = 1.2 presses hardest near the contact edge.
+    ureter = sp.Ureter(wall_ratio=1.3, material="latex")
+    seated = answer(1.2, ureter=ureter, seating="frictionless").seated
+    assert seated.peak_contact_pressure > 1.05 * seated.equator_contact_pressure
+
+
+def test_the_half_length_reaches_the_finite_elements():
+    # Held ends: σ(π/2) falls as the tube gets longer (docs/verification.md, half-length).
+    sigma = [
+        answer(1.2, half_length=L, seating="frictionless").seated.equator_contact_pressure
+        for L in (6.0, 10.0, 40.0)
+    ]
+    assert sigma[0] > sigma[1] > sigma[2]
+    assert sigma[0] / sigma[2] == pytest.approx(92.286 / 90.888, rel=2e-3)
 
 
 def test_pressure_scales_with_stiffness_end_to_end():
@@ -137,7 +167,7 @@ def test_pressure_grows_with_size_wall_and_friction():
 def test_the_printed_sign_lowers_the_pressure():
     # Erratum 3: the sign matters by 10–20 % of P_ucr.
     derived, printed = answer(1.2).pressure, answer(1.2, as_printed=True).pressure
-    assert 0.05 < 1.0 - printed / derived < 0.3
+    assert 0.1 < 1.0 - printed / derived < 0.2
 
 
 def test_the_ground_matrix_in_the_far_field_raises_the_pressure():
@@ -148,8 +178,10 @@ def test_the_ground_matrix_in_the_far_field_raises_the_pressure():
 
 
 def test_outside_its_strain_range_the_law_warns():
-    assert answer(1.29, ureter=THIN).warnings == ()
+    assert answer(1.25, ureter=THIN).warnings == ()
     assert "1 to 1.3 only" in answer(1.35, ureter=THIN).warnings[0]
+    loaded = answer(1.2, ureter=THIN, load=sp.Load("3 kPa"))
+    assert any("shrinks the lumen" in warning for warning in loaded.warnings)
 
 
 def test_the_unstable_law_is_refused_before_any_solve():

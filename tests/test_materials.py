@@ -99,6 +99,28 @@ def test_any_law_that_softens_a_strain_is_refused():
         check(as_material(Softening()))
 
 
+def test_a_law_that_couples_stretch_and_shear_into_instability_is_refused():
+    """U = I₁ term + 30 C_rz (C_zz − 1): each block of the Hessian is sound, together they are not."""
+
+    class Coupled(NeoHookean):
+        def energy(self, C_rr, C_tt, C_zz, C_rz, xp):
+            return self.C10 * (C_rr + C_tt + C_zz - 3.0 + 30.0 * C_rz * (C_zz - 1.0))
+
+    with pytest.raises(UnstableLaw, match="shear band"):
+        check(as_material(Coupled(1e5)))
+
+
+def test_a_law_without_shear_stiffness_is_refused():
+    with pytest.raises(UnstableLaw, match="ground matrix"):
+        check(as_material(Fung(4e5, 0.7091, 0.8892, 0.1856, G=0.0)))
+
+
+def test_the_ground_matrix_is_the_calibrated_one():
+    # docs/theory.md, "The wall": one G for both published critical sizes.
+    for name in ("ureter", "ureter-printed", "ureter-soft-cross"):
+        assert material(name).law.G == 12e3
+
+
 def test_a_law_stressed_at_rest_is_refused():
     class Stressed(NeoHookean):
         def energy(self, C_rr, C_tt, C_zz, C_rz, xp):

@@ -8,7 +8,6 @@ from typing import Any, NoReturn
 
 __all__ = [
     "BadInput",
-    "MissingPart",
     "Outcome",
     "StonepassError",
     "UnstableLaw",
@@ -45,10 +44,6 @@ class UnstableLaw(BadInput):
         return f"{self.argument} '{self.value}' is not stable: {self.allowed}{tail}."
 
 
-class MissingPart(StonepassError):
-    """A part of the installation that the request needs is not there."""
-
-
 class Outcome(enum.Enum):
     """How a question ended; the value is the sentence a person reads."""
 
@@ -59,7 +54,7 @@ class Outcome(enum.Enum):
         "Drive and resistance do not balance before the paper's closure ends (contact angle 90°): "
         "this model has no answer; the direct push-through model is the way on."
     )
-    NO_SOLUTION = "The finite elements found no equilibrium."
+    NO_SOLUTION = "No equilibrium was found."
     BELOW_RANGE = "Every stuck stone needs more than the pressure limit."
     BEYOND_RANGE = "The pressure limit is not reached within the strain range of the material."
 
@@ -78,5 +73,5 @@ def require(condition: bool, argument: str, value: Any, allowed: str, remedy: st
 def refuse_unknown(argument: str, value: str, known: list[str]) -> NoReturn:
     """Raise `BadInput` for a name that is not among `known`, naming the nearest one."""
     near = get_close_matches(value, known, n=1, cutoff=0.4)
-    remedy = f"did you mean '{near[0]}'?" if near else ""
-    raise BadInput(argument, value, "one of " + ", ".join(known), remedy.rstrip("?"))
+    remedy = f"did you mean '{near[0]}'" if near else ""
+    raise BadInput(argument, value, "one of " + ", ".join(known), remedy)

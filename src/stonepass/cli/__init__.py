@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 
 __all__ = ["main"]
 
@@ -25,6 +26,9 @@ def run(arguments: list[str]) -> int:
     from stonepass.cli.app import app
     from stonepass.errors import StonepassError
 
+    warnings.simplefilter("ignore")  # what matters is in the answer's own warnings
+    if arguments in ([], ["material"]):
+        arguments = [*arguments, "--help"]
     try:
         result = app(args=arguments, prog_name="stonepass", standalone_mode=False)
         return result if isinstance(result, int) else 0

@@ -15,7 +15,6 @@ app = typer.Typer(
     name="stonepass",
     help="At what urine pressure does a stone pass a ureter, and how large may it be? "
     "Research use only. Not a medical device.",
-    no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,

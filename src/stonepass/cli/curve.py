@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stonepass.cli.options import Json, Settings, takes_settings
 from stonepass.errors import BadInput
+
+if TYPE_CHECKING:
+    from stonepass.model.critical import Answer
 
 __all__ = ["command", "size_range"]
 
@@ -37,7 +41,10 @@ def command(
     where every size ratio has an answer.
     """
     sizes = size_range(xi)
-    from stonepass.cli.terminal import counting, print_json, show, warn
+    from stonepass.cli.terminal import FIGURES, counting, print_json, show, warn, writable
+
+    writable(out, (".csv",))
+    writable(figure, FIGURES)
     from stonepass.model.case import Case, Stone
     from stonepass.report.record import curve_rows, write_curve
     from stonepass.studies.curve import curve
@@ -60,8 +67,21 @@ def command(
         from stonepass.report.table import curve_table
 
         show(curve_table(answers))
-        warn(sorted({warning for answer in answers for warning in answer.warnings})[-1:])
+        warn(_grouped(answers))
     return 0 if all(answer.outcome.answered for answer in answers) else 1
+
+
+def _grouped(answers: list[Answer]) -> list[str]:
+    """One sentence per kind of warning: that of the largest size ratio, and from where on."""
+    kinds: dict[str, list[tuple[float, str]]] = {}
+    for answer in answers:
+        for warning in answer.warnings:
+            kind = re.sub(r"[-+.e\d]+", "#", warning)
+            kinds.setdefault(kind, []).append((answer.case.size_ratio, warning))
+    return [
+        f"at {len(found)} size ratios, {found[0][0]:.4g} to {found[-1][0]:.4g}: {found[-1][1]}"
+        for found in kinds.values()
+    ]
 
 
 def size_range(text: str) -> list[float]:

@@ -16,12 +16,13 @@ def command(
     ] = Path("headline.svg"),
 ) -> int:
     """Compute the paper's headline: critical sizes of the thin and the thick ureter at 12 kPa."""
-    from stonepass.cli.terminal import counting, show
+    from stonepass.cli.terminal import FIGURES, counting, show, writable
     from stonepass.paper.headline import headline
     from stonepass.paper.headline_report import headline_figure, headline_table
     from stonepass.report.record import DISCLAIMER
     from stonepass.report.style import save
 
+    writable(figure, FIGURES)
     with counting("cases") as progress:
         walls = headline(progress)
     save(headline_figure(walls), figure)

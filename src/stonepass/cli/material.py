@@ -8,9 +8,9 @@ import typer
 
 __all__ = ["app"]
 
-app = typer.Typer(
-    help="List, show and check material laws.", no_args_is_help=True, rich_markup_mode=None
-)
+MODULI = ("C10", "C", "G")
+
+app = typer.Typer(help="List, show and check material laws.", rich_markup_mode=None)
 
 Name = Annotated[
     str, typer.Argument(metavar="NAME", help="Catalogue name, law.toml or file.py:function.")
@@ -54,7 +54,7 @@ def show_material(name: Name) -> int:
     low, high = entry.strain_range
     rows = {
         "law": type(law).__name__,
-        **{key: _constant(value) for key, value in constants.items() if key != "function"},
+        **{key: _constant(key, value) for key, value in constants.items() if key != "function"},
         "stretches": f"{low:g} to {high:g} (circumferential)",
         "source": entry.source,
         "test": entry.test,
@@ -84,7 +84,7 @@ def check_material(name: Name) -> int:
     return 0
 
 
-def _constant(value: object) -> str:
-    if isinstance(value, float) and abs(value) >= 100.0:
+def _constant(name: str, value: object) -> str:
+    if name in MODULI and isinstance(value, float):
         return f"{value / 1e6:g} MPa"
     return f"{value:g}" if isinstance(value, float) else str(value)

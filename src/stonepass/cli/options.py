@@ -121,7 +121,7 @@ class Settings:
 
         base = self._base
         if self.stone is not None and self.xi is not None:
-            raise BadInput("--stone and --xi", "both given", "one of the two")
+            raise BadInput("combination of --stone and --xi", "ambiguous", "one of the two")
         if self.stone is None and self.xi is None:
             if base is None:
                 raise BadInput("size of the stone", "missing", "given as --stone or --xi")
@@ -134,17 +134,22 @@ class Settings:
         """Build the ureter alone (critical size, curve)."""
         from stonepass.model.case import Ureter
 
-        kept = None if self._base is None else self._base.ureter
-        material = self.material or ("ureter" if kept is None else kept.material)
         if self.outer is not None and self.eta is not None:
-            raise BadInput("--outer and --eta", "both given", "one of the two")
-        if self.inner is not None or self.outer is not None or self.eta is not None:
-            return Ureter(self.inner, self.outer, material, self.eta)
+            raise BadInput("combination of --outer and --eta", "ambiguous", "one of the two")
+        kept = None if self._base is None else self._base.ureter
         if kept is None:
-            raise BadInput(
-                "size of the ureter", "missing", "given as --inner and --outer, or as --eta"
-            )
-        return Ureter(kept.inner_diameter, kept.outer_diameter, material, kept.wall_ratio)
+            if self.inner is None and self.outer is None and self.eta is None:
+                raise BadInput(
+                    "size of the ureter", "missing", "given as --inner and --outer, or as --eta"
+                )
+            named = "ureter" if self.material is None else self.material
+            return Ureter(self.inner, self.outer, named, self.eta)
+        material = kept.material if self.material is None else self.material
+        inner = kept.inner_diameter if self.inner is None else self.inner
+        if self.eta is not None:
+            return Ureter(inner, None, material, self.eta)
+        outer = kept.outer_diameter if self.outer is None else self.outer
+        return Ureter(inner, outer, material, kept.wall_ratio if outer is None else None)
 
     def friction_value(self) -> float:
         """Friction coefficient of the options, of the case file, or the default."""

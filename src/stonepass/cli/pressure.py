@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stonepass.cli.options import Json, Settings, takes_settings
-from stonepass.errors import BadInput
 
 if TYPE_CHECKING:
     from stonepass.model.critical import Answer
@@ -37,8 +36,12 @@ def command(
 
     Give CASE.toml, or --stone with --inner and --outer, or --xi with --eta.
     """
+    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
+
+    writable(profile, (".csv",))
+    writable(figure, FIGURES)
+    writable(save, (".toml",))
     case = settings.case()
-    from stonepass.cli.terminal import print_json, show, warn, working
     from stonepass.model.critical import solve
     from stonepass.report.record import record
 
@@ -48,7 +51,7 @@ def command(
         write_case(case, save)
     with working("solving the seated state"):
         answer = solve(case)
-    _write(answer, profile, figure)
+    warn(_write(answer, profile, figure))
     if json:
         print_json(record(answer))
     else:
@@ -59,10 +62,13 @@ def command(
     return 0 if answer.outcome.answered else 1
 
 
-def _write(answer: Answer, profile: Path | None, figure: Path | None) -> None:
+def _write(answer: Answer, profile: Path | None, figure: Path | None) -> list[str]:
+    """Write what was asked for; where no stone is seated there is nothing, and that is said."""
+    if profile is None and figure is None:
+        return []
+    if answer.seated is None:
+        return ["no stone is seated, so neither profile nor figure was written"]
     if profile is not None:
-        if answer.seated is None:
-            raise BadInput("--profile", answer.outcome.name, "asked for where a stone is seated")
         from stonepass.report.record import write_profile
 
         write_profile(answer.seated, profile)
@@ -71,3 +77,4 @@ def _write(answer: Answer, profile: Path | None, figure: Path | None) -> None:
         from stonepass.report.style import save
 
         save(case_figure(answer), figure)
+    return []

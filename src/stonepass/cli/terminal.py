@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 
-__all__ = ["counting", "print_json", "show", "warn", "working"]
+from stonepass.errors import BadInput
 
+__all__ = ["FIGURES", "counting", "print_json", "show", "warn", "working", "writable"]
+
+FIGURES = (".svg", ".png", ".pdf")
 _OUT = Console(highlight=False, soft_wrap=False)
 _ERR = Console(stderr=True, highlight=False)
 PLAIN_INTERVAL = 2.0  # seconds between lines where stderr is not a terminal
@@ -37,12 +43,27 @@ def warn(sentences: tuple[str, ...] | list[str]) -> None:
 
 @contextmanager
 def working(what: str) -> Iterator[None]:
-    """Say what is being done, where stderr is a terminal."""
+    """Say what is being done: a spinner on a terminal, else one line after a second."""
     if _ERR.is_terminal:
         with _ERR.status(what):
             yield
-    else:
+        return
+    line = threading.Timer(1.0, print, (f"{what} …",), {"file": sys.stderr, "flush": True})
+    line.start()
+    try:
         yield
+    finally:
+        line.cancel()
+
+
+def writable(path: Path | None, endings: tuple[str, ...]) -> None:
+    """Refuse an output file that could not be written, before the work is done."""
+    if path is None:
+        return
+    if path.suffix.lower() not in endings:
+        raise BadInput("output file", str(path), "a name ending in " + ", ".join(endings))
+    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise BadInput("output file", str(path), "in a folder that can be written to")
 
 
 @contextmanager

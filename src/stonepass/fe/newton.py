@@ -149,8 +149,8 @@ class Plain:
 
     def factorise(self) -> None:
         """Assemble the tangent at the current state and factorise its condensed part."""
-        self.form.AssembleLinearization(self.state.vec)
         try:
+            self.form.AssembleLinearization(self.state.vec)
             self._inverse = self.form.mat.Inverse(self._coupling, inverse="umfpack")
         except Exception as problem:  # the engine's own kinds have no public name
             raise SingularTangent from problem

@@ -78,8 +78,8 @@ class Material:
     def __post_init__(self) -> None:
         low, high = self.strain_range
         require(
-            0.0 < low <= 1.0 < high <= 5.0,
+            0.0 < low <= 1.0 < high <= 3.0,
             "strain_range",
             list(self.strain_range),
-            "two circumferential stretches [low, high] with 0 < low <= 1 < high <= 5",
+            "two circumferential stretches [low, high] with 0 < low <= 1 < high <= 3",
         )

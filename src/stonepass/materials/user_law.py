@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import runpy
-import tomllib
+import sys
 from collections.abc import Callable
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import autograd.numpy as anp
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.materials.fung import Fung
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import NAMESPACE, Law, Material
+from stonepass.toml_file import read_toml
 from stonepass.units import pressure
 
 __all__ = ["UserLaw", "load_material", "looks_like_file"]
@@ -36,7 +38,8 @@ class UserLaw:
     def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
         """Call the user's function; whatever it raises becomes one sentence."""
         try:
-            value = self.function(C_rr, C_tt, C_zz, C_rz, xp)
+            with redirect_stdout(sys.stderr):  # stdout is for answers
+                value = self.function(C_rr, C_tt, C_zz, C_rz, xp)
         except Exception as problem:
             raise BadInput(
                 f"law '{self.label}'",
@@ -102,13 +105,20 @@ def _existing(text: str, folder: Path | None) -> Path:
 
 
 def _from_python(path: Path, name: str, text: str) -> Material:
+    folder = str(path.resolve().parent)
+    sys.path.insert(0, folder)  # a law may import what lies beside it
     try:
-        module = runpy.run_path(str(path))
+        with redirect_stdout(sys.stderr):
+            module = runpy.run_path(str(path))
     except (Exception, SystemExit) as problem:
         raise BadInput(
             "material", text, f"Python that runs, not {type(problem).__name__}: {problem}"
         ) from problem
+    finally:
+        sys.path.remove(folder)
     function = module.get(name)
+    if name in module and not callable(function):
+        raise BadInput(f"'{name}' in {path.name}", function, "a function")
     if not callable(function):
         known = [key for key, value in module.items() if callable(value) and key[:1] != "_"]
         refuse_unknown(f"function in {path.name}", name, known or ["energy"])
@@ -135,12 +145,15 @@ def _from_python(path: Path, name: str, text: str) -> Material:
 def _try_out(law: UserLaw) -> None:
     """Evaluate the law on arrays of plausible strains and refuse what is not a finite energy."""
     t, z = (np.array(column) for column in zip(*_TRIAL, strict=True))
-    value = law.energy(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t, anp)
+    with np.errstate(all="ignore"):  # what is not finite is refused below
+        value = law.energy(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t, anp)
     try:
+        if np.iscomplexobj(value):
+            raise TypeError("complex energies")
         energies = np.broadcast_to(np.asarray(value, dtype=float), t.shape)
     except (TypeError, ValueError) as problem:
         raise BadInput(
-            f"value of law '{law.label}'", value, "one energy in J/m³ per strain"
+            f"value of law '{law.label}'", value, "one real energy in J/m³ per strain"
         ) from problem
     if not np.all(np.isfinite(energies)):
         bad = int(np.flatnonzero(~np.isfinite(energies))[0])
@@ -156,31 +169,15 @@ def _try_out(law: UserLaw) -> None:
 
 
 def _from_toml(path: Path, text: str) -> Material:
-    try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise BadInput("material", text, f"valid TOML ({problem})") from problem
-    for key in raw:
-        if key not in _Constants.model_fields:
-            refuse_unknown(f"key in {path.name}", key, list(_Constants.model_fields))
-    try:
-        constants = _Constants.model_validate(raw)
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        raise BadInput(
-            f"'{key}' in {path.name}",
-            "missing" if first["type"] == "missing" else first["input"],
-            first["msg"][:1].lower() + first["msg"][1:],
-        ) from problem
+    constants = read_toml(path, _Constants)
     return Material(
         name=constants.name or text,
-        reference=text,
         law=_known_law(constants, path.name),
         source=constants.source,
         test=constants.test,
         verified="a user's constants: not verified",
         strain_range=constants.strain_range,
+        reference=text,
     )
 
 

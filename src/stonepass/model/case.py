@@ -236,6 +236,14 @@ class Case:
         return self.stone.diameter / self.ureter.inner_diameter
 
     @property
+    def stone_diameter(self) -> Length | None:
+        """Diameter of the stone in m, where the ureter has lengths."""
+        inner = self.ureter.inner_diameter
+        if self.stone.diameter is not None or inner is None:
+            return self.stone.diameter
+        return Length(self.size_ratio * inner)
+
+    @property
     def seating_friction(self) -> float:
         """Coulomb coefficient on the way to the seated state."""
         if self.method.seating == "frictionless":

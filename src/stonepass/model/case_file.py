@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from pathlib import Path
 from typing import Any
 
 import tomli_w
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
-from stonepass.errors import BadInput, refuse_unknown
+from stonepass.errors import BadInput
 from stonepass.materials.user_law import looks_like_file
 from stonepass.model.case import Case, Load, Method, Stone, Ureter, find_material
+from stonepass.toml_file import read_toml
 from stonepass.units import format_length, format_pressure
 
 __all__ = ["read_case", "write_case"]
-
-LARGEST_FILE = 1_000_000  # bytes
 
 
 class _Section(BaseModel):
@@ -69,7 +67,7 @@ def read_case(path: Path) -> Case:
         Naming the file and the key: missing file, broken TOML, unknown key (with the nearest
         known one), wrong type, or a value that a `Case` refuses.
     """
-    parsed = _parse(path)
+    parsed = read_toml(path, _CaseFile)
     ureter = parsed.ureter.model_dump()
     try:
         ureter["material"] = find_material(parsed.ureter.material, path.parent)
@@ -124,42 +122,3 @@ def write_case(case: Case, path: Path) -> None:
 
 def _length(value: float | None) -> str | None:
     return None if value is None else format_length(value)
-
-
-def _parse(path: Path) -> _CaseFile:
-    if not path.is_file():
-        raise BadInput("case file", str(path), "a file that exists", "check the path")
-    if path.stat().st_size > LARGEST_FILE:
-        raise BadInput("case file", str(path), "smaller than 1 MB")
-    try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as problem:
-        raise BadInput("case file", str(path), f"valid TOML ({problem})") from problem
-    _refuse_stray_keys(raw, path.name)
-    try:
-        return _CaseFile.model_validate(raw)
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        missing = first["type"] == "missing"
-        allowed = "given" if missing else first["msg"][:1].lower() + first["msg"][1:]
-        value = "missing" if missing else first["input"]
-        raise BadInput(f"in {path.name}, '{key}'", value, allowed) from problem
-
-
-def _refuse_stray_keys(raw: dict[str, Any], file: str) -> None:
-    sections: dict[str, type[_Section]] = {
-        "stone": _Stone,
-        "ureter": _Ureter,
-        "load": _Load,
-        "method": _Method,
-    }
-    for section, keys in raw.items():
-        if section not in sections:
-            refuse_unknown(f"in {file}, section", section, list(sections))
-        if not isinstance(keys, dict):
-            raise BadInput(f"in {file}, '{section}'", keys, f"a section, written [{section}]")
-        known = list(sections[section].model_fields)
-        for key in keys:
-            if key not in known:
-                refuse_unknown(f"in {file}, key of [{section}]", key, known)

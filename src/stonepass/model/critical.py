@@ -21,6 +21,7 @@ from stonepass.units import Values
 __all__ = ["Answer", "critical_pressure", "pressure_of_angle", "solve"]
 
 SCAN_POINTS = 721
+SMALLEST_OVERSIZE = 1e-4
 
 
 @dataclass(frozen=True)
@@ -93,6 +94,12 @@ def solve(case: Case, resolution: Resolution = Resolution()) -> Answer:
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
     if case.size_ratio <= lumen:
         return Answer(case, Outcome.LOOSE, Outcome.LOOSE.value, pressure=0.0)
+    if case.size_ratio < lumen * (1.0 + SMALLEST_OVERSIZE):
+        reason = (
+            f"the stone exceeds the lumen by less than {SMALLEST_OVERSIZE:.0e} of it, "
+            "which is below what the finite elements resolve"
+        )
+        return _unanswered(case, Outcome.NO_SOLUTION, reason)
     seated = seat(case, resolution)
     if isinstance(seated, NoSeat):
         return _unanswered(
@@ -140,7 +147,8 @@ def _balance(case: Case, seated: SeatedState) -> Answer:
         seconds=seated.solver.seconds,
         warnings=(*_range_warnings(case), *seated.warnings()),
     )
-    found = _first_root(excess, first, last)
+    # Without friction nothing holds the stone, whatever the load: the root is α₀, and P_ucr = 0.
+    found = first if case.stone.friction == 0.0 else _first_root(excess, first, last)
     if found is None:
         return unbalanced
     moves = replace(
@@ -152,11 +160,10 @@ def _balance(case: Case, seated: SeatedState) -> Answer:
     )
     if found > first:
         return moves
-    # Without load this is μ_f = 0, where nothing holds the stone: P_ucr = 0 and no warning.
-    at_edge = replace(moves, pressure=_at_contact_edge(forces, first))
-    if case.load == Load():
-        return at_edge
-    return replace(at_edge, warnings=(*at_edge.warnings, _EDGE_WARNING))
+    if case.stone.friction == 0.0:
+        return replace(moves, pressure=0.0)
+    pressure_at_edge = _at_contact_edge(forces, first)
+    return replace(moves, pressure=pressure_at_edge, warnings=(*moves.warnings, _EDGE_WARNING))
 
 
 _EDGE_WARNING = (
@@ -195,9 +202,17 @@ def _closure_start(case: Case) -> float | None:
 def _range_warnings(case: Case) -> list[str]:
     material = case.ureter.material
     low, high = material.strain_range
-    if case.size_ratio <= high:
-        return []
-    return [
-        f"the stone stretches the wall to {case.size_ratio:.3g} times its circumference, but the "
-        f"constants of material '{material.name}' were used for stretches {low:g} to {high:g} only"
-    ]
+    known = (
+        f"but the constants of material '{material.name}' were used for stretches "
+        f"{low:g} to {high:g} only"
+    )
+    warnings = []
+    if case.size_ratio > high:
+        warnings.append(
+            f"the stone stretches the wall to {case.size_ratio:.3g} times its circumference, "
+            + known
+        )
+    lumen = lumen_ratio(case.wall_ratio, material.law, case.load)
+    if lumen is not None and lumen < low:
+        warnings.append(f"the load shrinks the lumen to {lumen:.3g} times its width, {known}")
+    return warnings

@@ -18,6 +18,7 @@ __all__ = ["SizeAnswer", "critical_size"]
 SIZE_TOLERANCE = 1e-6
 # Stones less than this fraction above the lumen are not told from the lumen itself.
 SMALLEST_OVERSIZE = 2e-4
+SMALL_LIMIT = 100.0  # Pa; only below it can a limit lie under every stuck stone
 LIMIT = (1.0, 1e6)
 
 
@@ -96,12 +97,20 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
             return _beyond_range(case, limit, tried[high])
         lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
         assert lumen is not None, "solve() answers NO_SOLUTION where there is no lumen"
+        smallest = lumen * (1.0 + SMALLEST_OVERSIZE)
+        if limit < SMALL_LIMIT and excess(smallest) > 0.0:
+            return _below_range(case, limit)
         known = {lumen: -float(limit), high: top}
-        root = float(
-            brentq(
-                lambda x: known[x] if x in known else excess(x), lumen, high, xtol=SIZE_TOLERANCE
-            )
-        )
+
+        def bracketed(size_ratio: float) -> float:
+            if size_ratio in known:
+                return known[size_ratio]
+            if size_ratio < smallest:  # P_ucr vanishes at the lumen: a straight line from there
+                share = (size_ratio - lumen) / (smallest - lumen)
+                return share * (excess(smallest) + limit) - limit
+            return excess(size_ratio)
+
+        root = float(brentq(bracketed, lumen, high, xtol=SIZE_TOLERANCE))
     except _Unanswered as stop:
         answer = stop.answer
         where = f" (at size ratio {answer.case.size_ratio:.4g})"
@@ -115,11 +124,7 @@ def _found(
     case: Case, limit: Pressure, root: float, lumen: float, tried: dict[float, Answer]
 ) -> SizeAnswer:
     if root <= lumen * (1.0 + SMALLEST_OVERSIZE):
-        message = (
-            f"{Outcome.BELOW_RANGE.value[:-1]}, {limit / 1e3:.4g} kPa, "
-            f"if it is more than {SMALLEST_OVERSIZE:.2%} larger than the lumen."
-        )
-        return SizeAnswer(case, Outcome.BELOW_RANGE, message, limit)
+        return _below_range(case, limit)
     nearest = min(tried, key=lambda x: abs(x - root))
     at_size = tried[nearest] if nearest == root else solve(case.with_size_ratio(root))
     if at_size.outcome is not Outcome.MOVES:
@@ -138,8 +143,21 @@ def _found(
     )
 
 
+def _below_range(case: Case, limit: Pressure) -> SizeAnswer:
+    message = (
+        f"{Outcome.BELOW_RANGE.value[:-1]}, {limit / 1e3:.4g} kPa, "
+        f"if it is more than {SMALLEST_OVERSIZE:.2%} larger than the lumen."
+    )
+    return SizeAnswer(case, Outcome.BELOW_RANGE, message, limit)
+
+
 def _beyond_range(case: Case, limit: Pressure, top: Answer) -> SizeAnswer:
     assert top.pressure is not None
+    if case.stone.friction == 0.0:
+        message = (
+            "Without friction nothing holds the stone: every size moves, and none is critical."
+        )
+        return SizeAnswer(case, Outcome.BEYOND_RANGE, message, limit, at_size=top)
     message = (
         f"{Outcome.BEYOND_RANGE.value[:-1]}: at its end, size ratio {case.size_ratio:.4g}, the "
         f"critical pressure is {top.pressure / 1e3:.4g} kPa, so the critical size lies above it."

@@ -32,10 +32,9 @@ def curve_figure(answers: Sequence[Answer]) -> Figure:
 
 def draw_curve(axes: Axes, answers: Sequence[Answer], colour: str, label: str) -> None:
     """Add the answered part as a line, the rest as crosses at the bottom."""
-    found = [a for a in answers if a.pressure is not None]
     axes.plot(
-        [a.case.size_ratio for a in found],
-        [(a.pressure or 0.0) / 1e3 for a in found],
+        [a.case.size_ratio for a in answers],
+        [np.nan if a.pressure is None else a.pressure / 1e3 for a in answers],
         color=colour,
         marker="o",
         markersize=2.5,

@@ -41,6 +41,7 @@ _CURVE_COLUMNS = (
     "wall_ratio",
     "model",
     "material",
+    "warnings",
 )
 
 
@@ -128,7 +129,7 @@ def _inputs(case: Case) -> dict[str, Any]:
     constants: dict[str, Any] = asdict(law) if is_dataclass(law) else {}
     constants.pop("function", None)
     return {
-        "stone_diameter_m": case.stone.diameter,
+        "stone_diameter_m": case.stone_diameter,
         "size_ratio": case.size_ratio,
         "friction": case.stone.friction,
         "inner_diameter_m": ureter.inner_diameter,
@@ -155,6 +156,8 @@ def _degrees(value: float | None) -> float | None:
 def _cell(value: Any) -> str:
     if value is None:
         return ""
+    if isinstance(value, list):
+        return "; ".join(value)
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 

@@ -1,0 +1,104 @@
+"""Strong ellipticity against finite differences of the energy, and the solved state's margin."""
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.materials.catalogue import CATALOGUE, material
+from stonepass.materials.ellipticity import shear_stiffness, weakest
+from stonepass.materials.fung import Fung
+from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.model.soundness import far_field_hint
+
+REST = np.array([[1.0, 0.0, 0.0, 1.0, 1.0]])
+
+
+def tensor(F):
+    return np.array([[F[0], 0.0, F[1]], [0.0, F[4], 0.0], [F[2], 0.0, F[3]]])
+
+
+def second_derivative(law, F, n, m, h=1e-4):
+    """d²U/dε² of U((1 + ε m⊗n) F) by central differences."""
+
+    def energy(e):
+        G = (np.eye(3) + e * np.outer(m, n)) @ tensor(F)
+        C = G.T @ G
+        return law.energy(C[0, 0], C[1, 1], C[2, 2], C[0, 2], np)
+
+    return (energy(h) - 2.0 * energy(0.0) + energy(-h)) / h**2
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_shear_stiffness_against_finite_differences(name):
+    law, random = CATALOGUE[name].law, np.random.default_rng(3)
+    F = np.array([0.9, 0.1, -0.05, 1.05, 1.0 / (0.9 * 1.05 + 0.005)])
+    for _ in range(10):
+        n = random.normal(size=3)
+        n /= np.linalg.norm(n)
+        values, directions = shear_stiffness(law, F[None], n[None, None])
+        m = directions[0, 0]
+        assert m @ n == pytest.approx(0.0, abs=1e-12)
+        scale = abs(values[0, 0]) + 1e4
+        assert second_derivative(law, F, n, m) == pytest.approx(values[0, 0], abs=1e-4 * scale)
+        other = np.cross(n, m)
+        for turn in np.linspace(0.0, np.pi, 13):
+            trial = np.cos(turn) * m + np.sin(turn) * other
+            assert second_derivative(law, F, n, trial) >= values[0, 0] - 1e-4 * scale
+
+
+def test_rest_is_the_unit():
+    # Unloaded, the softest plane has the shear modulus itself: rubber in all, Fung in its matrix.
+    for law in (NeoHookean(1.0), material("ureter").law):
+        assert weakest(law, REST).stiffness == pytest.approx(1.0, rel=1e-6)
+
+
+def test_rubber_by_hand():
+    # U = μ/2 tr C: d²U/dε² = μ |Fᵀn|², smallest along the shortest stretch: 0.5² = 0.25.
+    F = np.array([[0.5, 0.0, 0.0, 1.0, 2.0]])
+    found = weakest(NeoHookean(1.0), F)
+    assert found.stiffness == pytest.approx(0.25, rel=1e-3)
+    assert abs(found.normal[0]) == pytest.approx(1.0, abs=1e-2)
+
+
+def test_axial_compression_of_the_fibres_loses_ellipticity_at_minus_g():
+    """Uniform axial stretch: ∂U/∂E_zz + G is the stiffness of the kinking shear m = r, n = z."""
+    G = 1e4
+    law = Fung(0.4056e6, 0.7091, 0.8892, 0.1856, G)
+    stiffness = []
+    for axial in (1.0, 0.99, 0.97, 0.95):
+        radial = 1.0 / np.sqrt(axial)
+        F = np.array([[radial, 0.0, 0.0, axial, radial]])
+        values, _ = shear_stiffness(law, F, np.array([[[0.0, 0.0, 1.0]]]))
+        E_zz, E_tt = (axial**2 - 1.0) / 2.0, (radial**2 - 1.0) / 2.0
+        Q = law.a1111 * E_tt**2 + law.a2222 * E_zz**2 + 2.0 * law.a1122 * E_tt * E_zz
+        fibre = law.C * np.exp(Q) * (law.a2222 * E_zz + law.a1122 * E_tt)
+        assert values[0, 0] == pytest.approx((fibre + G) * axial**2, rel=1e-9)
+        stiffness.append(values[0, 0])
+    assert stiffness[0] > 0.0 > stiffness[-1]  # lost between strains 0 and −0.05
+
+
+def test_the_solved_state_reports_its_margin_and_where():
+    thin = sp.seat(sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3)))
+    assert 0.0 < thin.soundness.margin < 1.0
+    R, Z = thin.soundness.weakest_at
+    assert 1.0 <= R <= 1.3
+    assert 0.0 <= Z <= 3.0
+    assert thin.warnings() == []
+
+
+def test_confining_pressure_brings_warnings_that_say_where():
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3), sp.Load("5 kPa"))
+    sentences = sp.solve(case).warnings
+    unstable = next(s for s in sentences if "not stable" in s)
+    folding = next(s for s in sentences if "fold" in s)
+    for sentence in (unstable, folding):
+        assert "R = " in sentence
+        assert "Z = " in sentence
+    assert "margin -" in unstable
+
+
+def test_a_failure_is_put_down_to_the_far_field_where_it_is():
+    loaded = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3), sp.Load("9 kPa"))
+    assert "has lost its stability far from the stone" in far_field_hint(loaded)
+    unloaded = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3))
+    assert far_field_hint(unloaded) == ""

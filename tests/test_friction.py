@@ -1,0 +1,145 @@
+"""Seating with friction: Coulomb's law, both limits, energy, balance, independence of increments."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.model import seated as seated_module
+from stonepass.model.seated import SeatedState, seat
+
+LATEX = sp.Case(
+    sp.Stone(size_ratio=1.2, friction=0.475), sp.Ureter(wall_ratio=1.5, material="latex")
+)
+THIN = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3))
+
+
+@pytest.fixture(scope="module")
+def latex():
+    return seat(LATEX)
+
+
+def with_method(case, **changes):
+    return replace(case, method=replace(case.method, **changes))
+
+
+def test_pressed_is_the_default(latex):
+    assert LATEX.method.seating == "pressed"
+    assert LATEX.seating_friction == 0.475
+    assert isinstance(latex, SeatedState)
+
+
+def test_friction_stays_inside_its_cone(latex):
+    excess = np.abs(latex.friction_traction) - 0.475 * latex.contact_pressure
+    assert excess.max() <= 1e-9 * latex.peak_contact_pressure
+    assert np.abs(latex.friction_traction).max() > 0.1 * latex.peak_contact_pressure
+
+
+def test_friction_takes_energy_and_gives_none(latex):
+    assert latex.solver.dissipated > 0.0
+    assert seat(with_method(LATEX, seating="growing")).solver.dissipated > 0.0
+    assert seat(with_method(LATEX, seating="frictionless")).solver.dissipated == 0.0
+
+
+@pytest.mark.parametrize("case", [LATEX, THIN], ids=["latex", "ureter"])
+def test_each_half_is_in_axial_balance(case):
+    # Stress at both sections, contact forces and the bath; no equation of the solver says so.
+    bath = replace(case, load=sp.Load("3 kPa", "hydrostatic"))
+    for seating, bound in (("frictionless", 1e-4), ("pressed", 2e-3)):
+        for loaded in (case, bath):
+            assert seat(with_method(loaded, seating=seating)).solver.axial_balance < bound
+
+
+def test_no_friction_is_the_frictionless_state():
+    smooth = seat(with_method(LATEX, seating="frictionless"))
+    none = seat(with_method(LATEX, seating_friction=0.0))
+    np.testing.assert_allclose(none.contact_pressure, smooth.contact_pressure, rtol=1e-12)
+    # And the limit is reached: the change falls with the friction.
+    changes = [
+        abs(seat(with_method(LATEX, seating_friction=mu)).contact_angle - smooth.contact_angle)
+        for mu in (0.1, 0.01, 0.001)
+    ]
+    assert changes[0] > 2.0 * changes[1] > 4.0 * changes[2]
+    assert changes[2] < 2e-4
+
+
+def test_much_friction_is_full_stick():
+    """Beyond some friction nothing slips but the very edge, and more friction changes nothing."""
+    one, two = (seat(with_method(LATEX, seating_friction=mu)) for mu in (1.0, 2.0))
+    assert one.contact_angle == pytest.approx(two.contact_angle, abs=1e-5)
+    middle = one.theta > one.contact_angle + 0.05
+    slipping = np.abs(two.friction_traction) >= 1.999 * two.contact_pressure
+    assert not slipping[middle].any()
+    assert two.solver.dissipated < 1e-3 * seat(LATEX).equator_contact_pressure
+
+
+def test_pressed_and_growing_differ_but_little_in_the_critical_pressure():
+    # Friction has a path: the pressures near the equator differ, P_ucr by about 1 %.
+    pressures = [sp.solve(with_method(LATEX, seating=s)).pressure for s in ("pressed", "growing")]
+    assert pressures[0] == pytest.approx(pressures[1], rel=0.02)
+    assert pressures[0] != pytest.approx(pressures[1], rel=1e-4)
+
+
+@pytest.mark.parametrize("case", [LATEX, THIN], ids=["latex", "ureter"])
+def test_the_result_does_not_depend_on_the_increments(case, monkeypatch):
+    found = []
+    for increments in (8, 20):
+        monkeypatch.setattr(
+            seated_module, "Path", lambda f, place, n=increments: _path(f, place, n)
+        )
+        found.append(sp.solve(case).pressure)
+    assert found[0] == pytest.approx(found[1], rel=3e-3)
+    assert found[0] != found[1]  # the increments were really changed
+
+
+def _path(friction, place, increments):
+    from stonepass.fe.problem import Path
+
+    return Path(friction, place, increments)
+
+
+def test_an_increment_that_fails_is_halved(monkeypatch):
+    """Make the first attempt of the second increment fail and see the path end all the same."""
+    import stonepass.fe.press as module
+
+    calls = {"count": 0}
+    original = module.newton_or_homotopy
+
+    def flaky(system, stiffen, tolerance):
+        calls["count"] += 1
+        report = original(system, stiffen, tolerance)
+        return replace(report, reason="made to fail") if calls["count"] == 2 else report
+
+    monkeypatch.setattr(module, "newton_or_homotopy", flaky)
+    state = seat(LATEX)
+    assert isinstance(state, SeatedState)
+    assert calls["count"] >= 10  # eight increments, one halved, one tried twice
+    monkeypatch.undo()
+    assert state.contact_angle == pytest.approx(seat(LATEX).contact_angle, abs=1e-3)
+
+
+def test_a_path_that_cannot_go_on_is_named(monkeypatch):
+    import stonepass.fe.press as module
+    from stonepass.fe.newton import Report
+
+    monkeypatch.setattr(module, "newton_or_homotopy", lambda *_: Report(1, 1.0, "made to fail"))
+    answer = sp.solve(LATEX)
+    assert answer.outcome is sp.Outcome.NO_SOLUTION
+    assert "at 0% of the path, made to fail" in answer.message
+
+
+def test_where_no_smooth_edge_is_found_the_state_says_so(monkeypatch):
+    """The fallback on an ordinary case: same answer, with the slack of its edge stated."""
+    import stonepass.fe.tube as module
+    from stonepass.fe.problem import Failure
+
+    good = sp.solve(LATEX)
+    monkeypatch.setattr(module, "fit", lambda *_: Failure("made to fail", 1))
+    answer = sp.solve(LATEX)
+    assert answer.outcome is sp.Outcome.MOVES
+    assert any("contact angle is known to" in warning for warning in answer.warnings)
+    slack = answer.seated.contact_angle_slack
+    assert 0.0 < slack < 0.02
+    assert answer.seated.contact_angle == pytest.approx(good.seated.contact_angle, abs=slack)
+    assert answer.pressure == pytest.approx(good.pressure, rel=3e-3)

@@ -400,7 +400,7 @@ def test_headline(cli, tmp_path, monkeypatch):
     figure = tmp_path / "h.svg"
     code, out, _ = cli("headline", "--figure", figure)
     assert code == 0
-    for part in ("1.22", "1.11", "published", "η = 1.30", "Research use only"):
+    for part in ("1.22", "1.11", "published", "η = 1.30", "8 kPa", "added", "Research use only"):
         assert part in out
     assert figure.read_text().startswith("<?xml")
 

@@ -16,7 +16,15 @@ import ngsolve
 
 import stonepass
 
-SECTIONS = ("far_field", "refinement", "accuracy", "half_length", "robustness")
+SECTIONS = (
+    "far_field",
+    "refinement",
+    "accuracy",
+    "half_length",
+    "robustness",
+    "pressed",
+    "calibration",
+)
 PAGE = Path(__file__).parents[1] / "docs" / "verification.md"
 
 

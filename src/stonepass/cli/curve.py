@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import re
+import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from stonepass.cli.options import Json, Settings, takes_settings
 from stonepass.errors import BadInput
-
-if TYPE_CHECKING:
-    from stonepass.model.critical import Answer
 
 __all__ = ["command", "size_range"]
 
@@ -53,7 +50,8 @@ def command(
     case = Case(stone, settings.ureter(), settings.load(), settings.method())
     case.with_size_ratio(sizes[0])  # both ends are checked before the first solve
     with counting("size ratios") as progress:
-        answers = curve(case, sizes, progress)
+        workers = min(os.cpu_count() or 1, max(1, len(sizes) // 6))
+        answers = curve(case, sizes, progress, workers)
     if out is not None:
         write_curve(answers, out)
     if figure is not None:
@@ -64,24 +62,11 @@ def command(
     if json:
         print_json(curve_rows(answers))
     else:
-        from stonepass.report.table import curve_table
+        from stonepass.report.table import curve_table, grouped_warnings
 
         show(curve_table(answers))
-        warn(_grouped(answers))
+        warn(grouped_warnings(answers))
     return 0 if all(answer.outcome.answered for answer in answers) else 1
-
-
-def _grouped(answers: list[Answer]) -> list[str]:
-    """One sentence per kind of warning: that of the largest size ratio, and from where on."""
-    kinds: dict[str, list[tuple[float, str]]] = {}
-    for answer in answers:
-        for warning in answer.warnings:
-            kind = re.sub(r"[-+.e\d]+", "#", warning)
-            kinds.setdefault(kind, []).append((answer.case.size_ratio, warning))
-    return [
-        f"at {len(found)} size ratios, {found[0][0]:.4g} to {found[-1][0]:.4g}: {found[-1][1]}"
-        for found in kinds.values()
-    ]
 
 
 def size_range(text: str) -> list[float]:

@@ -3,33 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future, as_completed
 from dataclasses import dataclass
+from itertools import chain
+from typing import Any
 
 import numpy as np
 
-from stonepass.model.case import Case, Stone, Ureter
+from stonepass.model.case import Case, Load, Stone, Ureter
 from stonepass.model.critical import Answer
 from stonepass.model.size import SizeAnswer, critical_size
-from stonepass.studies.curve import curve
+from stonepass.studies.curve import solve_slim
+from stonepass.studies.executor import executor
 from stonepass.units import Pressure
 
-__all__ = ["FRICTION", "LIMIT", "PUBLISHED", "Wall", "headline"]
+__all__ = ["CONFINING", "FRICTION", "LIMIT", "PUBLISHED", "Wall", "headline"]
 
 LIMIT = Pressure(12e3)  # the paper's bearable pressure, a pig study; see the theory page
 FRICTION = 0.5
 # wall ratio η: published ξ_cr, Fung wall, friction 0.5, no confining pressure (paper, Fig. 8a)
 PUBLISHED = {1.30: 1.22, 3.40: 1.11}
-SIZE_RATIOS = tuple(float(x) for x in np.round(np.linspace(1.0, 1.3, 16), 10))
+SIZE_RATIOS = tuple(float(x) for x in np.round(np.linspace(1.0, 1.3, 11), 10))
+CONFINING = (Pressure(4e3), Pressure(8e3))  # beside none (paper, Fig. 8c)
 
 
 @dataclass(frozen=True)
 class Wall:
-    """One of the two limiting walls: its curve, its critical size, the published one."""
+    """One of the two limiting walls.
+
+    Attributes
+    ----------
+    wall_ratio, published : float
+        η, and the published ξ_cr.
+    size : SizeAnswer
+        Our ξ_cr at 12 kPa.
+    curve : list of Answer
+        P_ucr over ξ.
+    confined : list of Answer
+        P_ucr at the published ξ_cr without and with each of `CONFINING`.
+    """
 
     wall_ratio: float
     published: float
     size: SizeAnswer
     curve: list[Answer]
+    confined: list[Answer]
 
     @property
     def deviation(self) -> float | None:
@@ -37,26 +55,45 @@ class Wall:
         return None if self.size.size_ratio is None else self.size.size_ratio - self.published
 
 
-def headline(progress: Callable[[int, int], None] | None = None) -> list[Wall]:
-    """Compute P_ucr(ξ), ξ = 1–1.3, and ξ_cr at 12 kPa for both walls.
+def headline(progress: Callable[[int, int], None] | None = None, workers: int = 1) -> list[Wall]:
+    """Compute P_ucr(ξ), ξ_cr at 12 kPa, and what confining pressure adds, for both walls.
 
-    `progress` is told (done, all) after every curve point and every critical size.
+    `progress` is told (done, all) after every case and every critical size.
     """
-    total = len(PUBLISHED) * (len(SIZE_RATIOS) + 1)
-    done = 0
+    loads = [Load(), *(Load(p) for p in CONFINING)]
+    with executor(workers) as pool:
+        sizes = {
+            eta: pool.submit(critical_size, Ureter(wall_ratio=eta), LIMIT, FRICTION)
+            for eta in PUBLISHED
+        }
+        curves = {
+            eta: [pool.submit(solve_slim, _case(eta, xi, Load())) for xi in SIZE_RATIOS]
+            for eta in PUBLISHED
+        }
+        confined = {
+            eta: [pool.submit(solve_slim, _case(eta, xi, load)) for load in loads]
+            for eta, xi in PUBLISHED.items()
+        }
+        everything: list[Future[Any]] = [
+            *sizes.values(),
+            *chain.from_iterable([*curves.values(), *confined.values()]),
+        ]
+        for done, _ in enumerate(as_completed(everything), start=1):
+            if progress is not None:
+                progress(done, len(everything))
+        return [
+            Wall(
+                eta,
+                published,
+                sizes[eta].result(),
+                [future.result() for future in curves[eta]],
+                [future.result() for future in confined[eta]],
+            )
+            for eta, published in PUBLISHED.items()
+        ]
 
-    def tick(*_: int) -> None:
-        nonlocal done
-        done += 1
-        if progress is not None:
-            progress(done, total)
 
-    walls = []
-    for wall_ratio, published in PUBLISHED.items():
-        ureter = Ureter(wall_ratio=wall_ratio)
-        case = Case(Stone(size_ratio=1.0, friction=FRICTION), ureter)
-        answers = curve(case, SIZE_RATIOS, tick)
-        size = critical_size(ureter, LIMIT, FRICTION)
-        tick()
-        walls.append(Wall(wall_ratio, published, size, answers))
-    return walls
+def _case(wall_ratio: float, size_ratio: float, load: Load) -> Case:
+    return Case(
+        Stone(size_ratio=size_ratio, friction=FRICTION), Ureter(wall_ratio=wall_ratio), load
+    )

@@ -12,7 +12,7 @@ from stonepass.paper.headline import FRICTION, LIMIT, Wall
 from stonepass.report.curve_figure import draw_curve, frame_curve
 from stonepass.report.style import COLOURS, new_figure
 
-__all__ = ["headline_figure", "headline_table"]
+__all__ = ["confining_table", "headline_figure", "headline_table"]
 
 
 def headline_table(walls: Sequence[Wall]) -> Table:
@@ -32,6 +32,29 @@ def headline_table(walls: Sequence[Wall]) -> Table:
     table.add_row(f"ξ_cr at {LIMIT / 1e3:g} kPa", *(_ratio(w.size.size_ratio) for w in walls))
     table.add_row("published", *(f"{wall.published:.2f}" for wall in walls))
     table.add_row("deviation", *(_ratio(wall.deviation, sign="+") for wall in walls))
+    return table
+
+
+def confining_table(walls: Sequence[Wall]) -> Table:
+    """What confining pressure adds to the critical pressure at the published critical sizes."""
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        title="Critical pressure (kPa) under confining pressure, dead load",
+        title_justify="left",
+    )
+    table.add_column("P_out", justify="right")
+    for wall in walls:
+        table.add_column(f"η = {wall.wall_ratio:.2f}, ξ = {wall.published:.2f}", justify="right")
+        table.add_column("added", justify="right")
+    for row in zip(*(wall.confined for wall in walls), strict=True):
+        cells = [f"{row[0].case.load.confining_pressure / 1e3:g} kPa"]
+        for answer, wall in zip(row, walls, strict=True):
+            base = wall.confined[0].pressure
+            if answer.pressure is None or base is None:
+                cells += [answer.outcome.name, "–"]
+            else:
+                cells += [f"{answer.pressure / 1e3:.2f}", f"{(answer.pressure - base) / 1e3:+.2f}"]
+        table.add_row(*cells)
     return table
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 
 from rich import box
@@ -14,7 +15,7 @@ from stonepass.model.critical import Answer
 from stonepass.model.size import SizeAnswer
 from stonepass.units import PASCAL_PER
 
-__all__ = ["curve_table", "pressure_table", "size_table"]
+__all__ = ["curve_table", "grouped_warnings", "pressure_table", "size_table"]
 
 
 def pressure_table(answer: Answer) -> Table:
@@ -56,6 +57,20 @@ def curve_table(answers: Sequence[Answer]) -> Table:
         angle = "–" if answer.seated is None else f"{_deg(answer.seated.contact_angle):.2f}°"
         table.add_row(f"{answer.case.size_ratio:.4g}", answer.outcome.name, *pressures, angle)
     return table
+
+
+def grouped_warnings(answers: Sequence[Answer]) -> list[str]:
+    """One sentence for each kind of warning: in how many cases, and that of the last one."""
+    kinds: dict[str, list[tuple[float, str]]] = {}
+    for answer in answers:
+        for warning in answer.warnings:
+            kind = re.sub(r"[-+.e\d]+", "#", warning)
+            kinds.setdefault(kind, []).append((answer.case.size_ratio, warning))
+    return [
+        f"in {len(found)} of {len(answers)} cases, the last one ξ = {found[-1][0]:.4g}: "
+        f"{found[-1][1]}"
+        for found in kinds.values()
+    ]
 
 
 def _pressures(title: str) -> Table:

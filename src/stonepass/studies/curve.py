@@ -2,33 +2,49 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Sequence
+from concurrent.futures import as_completed
 from dataclasses import replace
 
 from stonepass.model.case import Case
 from stonepass.model.critical import Answer, solve
+from stonepass.studies.executor import executor
 
-__all__ = ["curve"]
+__all__ = ["curve", "solve_slim"]
 
 
 def curve(
     case: Case,
     size_ratios: Sequence[float],
     progress: Callable[[int, int], None] | None = None,
+    workers: int = 1,
 ) -> list[Answer]:
     """Answer `case` for every size ratio ξ; `progress` is told (done, all) after each.
 
     The answers keep their seated states without the stress field, which a curve does not need.
+    A case that cannot be sent to another process (a user's own function) is solved in this one.
     """
-    answers = []
-    for count, size_ratio in enumerate(size_ratios, start=1):
-        answers.append(_slim(solve(case.with_size_ratio(float(size_ratio)))))
-        if progress is not None:
-            progress(count, len(size_ratios))
-    return answers
+    cases = [case.with_size_ratio(float(size_ratio)) for size_ratio in size_ratios]
+    with executor(workers if _can_travel(case) else 1) as pool:
+        futures = [pool.submit(solve_slim, each) for each in cases]
+        for done, _ in enumerate(as_completed(futures), start=1):
+            if progress is not None:
+                progress(done, len(cases))
+        return [future.result() for future in futures]
 
 
-def _slim(answer: Answer) -> Answer:
+def solve_slim(case: Case) -> Answer:
+    """Solve, and leave the stress field behind."""
+    answer = solve(case)
     if answer.seated is None:
         return answer
     return replace(answer, seated=replace(answer.seated, wall=None))
+
+
+def _can_travel(case: Case) -> bool:
+    try:
+        pickle.dumps(case)
+    except Exception:  # whatever a user's law holds
+        return False
+    return True

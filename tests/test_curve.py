@@ -1,0 +1,41 @@
+"""Many cases: order, progress, processes, and what cannot travel to another one."""
+
+import pytest
+
+import stonepass as sp
+from stonepass.studies.curve import curve
+from stonepass.studies.executor import executor
+
+CASE = sp.Case(
+    sp.Stone(size_ratio=1.2),
+    sp.Ureter(wall_ratio=1.5, material="latex"),
+    method=sp.Method(seating="frictionless"),
+)
+
+
+def test_processes_give_the_same_answers_in_the_same_order():
+    sizes = [1.2, 1.0, 1.1]
+    told = []
+    here = curve(CASE, sizes)
+    there = curve(CASE, sizes, lambda done, total: told.append((done, total)), workers=2)
+    assert [a.case.size_ratio for a in there] == sizes
+    assert [a.pressure for a in there] == [a.pressure for a in here]
+    assert told == [(1, 3), (2, 3), (3, 3)]
+    assert there[0].seated.wall is None
+
+
+def test_a_law_that_cannot_travel_is_solved_here(tmp_path):
+    (tmp_path / "law.py").write_text(
+        "def energy(C_rr, C_tt, C_zz, C_rz, xp):\n    return 146.5e3 * (C_rr + C_tt + C_zz - 3.0)\n"
+    )
+    wall = sp.Ureter(wall_ratio=1.5, material=f"{tmp_path / 'law.py'}:energy")
+    case = sp.Case(CASE.stone, wall, method=CASE.method)
+    answers = curve(case, [1.1, 1.2], workers=2)
+    assert answers[1].pressure == pytest.approx(sp.solve(CASE).pressure, rel=1e-9)
+
+
+def test_an_error_in_a_case_is_raised_to_the_caller():
+    with executor(1) as pool:
+        future = pool.submit(sp.Stone, size_ratio=40.0)
+    with pytest.raises(sp.BadInput, match=r"0\.1 to 3"):
+        future.result()

@@ -46,14 +46,21 @@ def machine() -> str:
 def in_process() -> list[dict]:
     import stonepass as sp
 
-    def solve(material: str, eta: float, xi: float) -> Callable[[], object]:
-        case = sp.Case(sp.Stone(size_ratio=xi), sp.Ureter(wall_ratio=eta, material=material))
+    def solve(
+        seating: str, material: str, eta: float, xi: float, friction: float = 0.5
+    ) -> Callable[[], object]:
+        case = sp.Case(
+            sp.Stone(size_ratio=xi, friction=friction),
+            sp.Ureter(wall_ratio=eta, material=material),
+            method=sp.Method(seating=seating),
+        )
         return lambda: sp.solve(case)
 
     cases = [
-        ("seated latex, η 1.5, ξ 1.2", solve("latex", 1.5, 1.2), 0.3),
-        ("seated ureter, η 1.3, ξ 1.22", solve("ureter", 1.3, 1.22), 0.5),
-        ("seated ureter, η 3.4, ξ 1.11", solve("ureter", 3.4, 1.11), 0.5),
+        ("frictionless latex, η 1.5, ξ 1.2", solve("frictionless", "latex", 1.5, 1.2), 0.3),
+        ("pressed latex, η 1.5, ξ 1.2, μ 0.475", solve("pressed", "latex", 1.5, 1.2, 0.475), 1.2),
+        ("pressed ureter, η 1.3, ξ 1.212", solve("pressed", "ureter", 1.3, 1.212), 4.0),
+        ("pressed ureter, η 3.4, ξ 1.109", solve("pressed", "ureter", 3.4, 1.109), 4.0),
     ]
     return [row(f"{what} (after import)", timed(call), target) for what, call, target in cases]
 
@@ -62,9 +69,16 @@ def processes() -> list[dict]:
     command = [sys.executable, "-m", "stonepass"]
     latex = ["pressure", "--xi", "1.2", "--eta", "1.5", "--material", "latex"]
     ureter = ["pressure", "--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.54mm"]
+    smooth = ["--seating", "frictionless"]
     rows = [
-        row("stonepass pressure, latex (process)", timed(process(command + latex)), 2.5),
-        row("stonepass pressure, ureter (process)", timed(process(command + ureter)), 4.0),
+        row(
+            "stonepass pressure, frictionless latex", timed(process(command + latex + smooth)), 2.5
+        ),
+        row(
+            "stonepass pressure, frictionless ureter", timed(process(command + ureter + smooth)), 4
+        ),
+        row("stonepass pressure, pressed latex", timed(process(command + latex)), 2.5),
+        row("stonepass pressure, pressed ureter", timed(process(command + ureter)), 4.0),
         row("stonepass --help (process)", timed(process([*command, "--help"])), 0.4),
     ]
     peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024.0

@@ -83,19 +83,27 @@ def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:
     theta = np.unique(np.concatenate([theta, np.pi - theta]))
     pressure = seated.pressure_at(theta) / 1e3
     axes.fill_between(np.degrees(theta), pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
-    axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"])
+    axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"], label="pressure σ")
+    if np.any(seated.friction_traction != 0.0):
+        traction = np.abs(seated.friction_traction) / 1e3
+        for side in (np.degrees(seated.theta), 180.0 - np.degrees(seated.theta)):
+            label = None if side[0] > 90.0 else "friction while seated"
+            axes.plot(side, traction, color=COLOURS["grey"], linewidth=0.9, label=label)
+        axes.legend(fontsize=8, loc="center")
     if answer.critical_angle is not None:
         axes.axvline(np.degrees(answer.critical_angle), color=COLOURS["orange"], linewidth=1.0)
         axes.annotate(
-            f"opens to α = {np.degrees(answer.critical_angle):.1f}°",
-            (np.degrees(answer.critical_angle), 0.04),
+            f"opens to {np.degrees(answer.critical_angle):.1f}°",
+            (np.degrees(answer.critical_angle), 0.97),
             xycoords=("data", "axes fraction"),
-            xytext=(4, 0),
+            xytext=(-4, 0),
             textcoords="offset points",
+            ha="right",
+            va="top",
             color=COLOURS["orange"],
         )
     axes.set(
-        xlabel="θ from the upstream axis (°)", ylabel="contact pressure σ (kPa)", ylim=(0, None)
+        xlabel="θ from the upstream axis (°)", ylabel="stress on the stone (kPa)", ylim=(0, None)
     )
     axes.set_title("Contact pressure")
     tidy(axes)

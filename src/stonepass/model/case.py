@@ -191,6 +191,12 @@ class Method:
         _choice("seating", self.seating, ("pressed", "frictionless", "growing"))
         if self.seating_friction is not None:
             _number(self.seating_friction, "seating_friction", *FRICTION)
+            require(
+                self.seating != "frictionless" or self.seating_friction == 0.0,
+                "seating_friction",
+                self.seating_friction,
+                "left out where the seating is frictionless",
+            )
         _choice("closure_start", self.closure_start, ("inner-radius", "lumen"))
         _number(self.half_length, "half_length", *HALF_LENGTH)
         for name in ("as_printed", "far_field_ground"):

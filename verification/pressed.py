@@ -9,17 +9,28 @@ import numpy as np
 from page import Check, Section
 
 import stonepass as sp
-from stonepass.fe.problem import Path
+from stonepass.fe import press as press_module
+from stonepass.fe.problem import Path, Resolution
 from stonepass.model import seated as seated_module
 from stonepass.model.seated import NoSeat, SeatedState
 
 SEED, CASES = 20223, 160
+ACCURACY = (
+    ("latex", 1.5, 1.2, 0.475),
+    ("latex", 3.0, 1.4, 0.3),
+    ("latex", 1.2, 1.05, 0.2),
+    ("ureter", 1.3, 1.1, 0.5),
+    ("ureter", 1.3, 1.28, 0.5),
+    ("ureter", 3.4, 1.11, 0.5),
+    ("ureter", 3.4, 1.25, 0.2),
+)
 INCREMENTS = (2, 4, 8, 16, 32, 64)
 THREE = (("latex", 1.5, 1.2, 0.475), ("ureter", 1.3, 1.21, 0.5), ("ureter", 3.4, 1.11, 0.5))
 
 
 def section() -> Section:
     increments, increment_checks = increment_table()
+    accuracy, accuracy_checks = accuracy_table()
     limits, limit_checks = limit_table()
     text, failures, grid_checks = random_grid()
     return Section(
@@ -36,13 +47,19 @@ def section() -> Section:
                 increments,
             ),
             (
+                "Default settings against 32 increments, twice the columns on the path, and order "
+                "5 on a finer fitted mesh:",
+                ("material η/ξ/μ", "α₀ (°)", "error α₀ (°)", "error P_ucr"),
+                accuracy,
+            ),
+            (
                 "Latex η 1.5, ξ 1.2: from no friction to full stick (σ in kPa, energy per R_a³):",
                 ("μ while seated", "α₀ (°)", "σ(π/2)", "slipping share", "dissipated (Pa)"),
                 limits,
             ),
             ("Random cases without a solution:", ("reason", "cases"), failures),
         ],
-        checks=[*increment_checks, *limit_checks, *grid_checks],
+        checks=[*increment_checks, *accuracy_checks, *limit_checks, *grid_checks],
     )
 
 
@@ -63,6 +80,34 @@ def increment_table() -> tuple[list[list[str]], list[Check]]:
             )
         )
     return rows, checks
+
+
+def accuracy_table() -> tuple[list[list[str]], list[Check]]:
+    rows, angles, pressures = [], [], []
+    for material, eta, xi, mu in ACCURACY:
+        case = sp.Case(
+            sp.Stone(size_ratio=xi, friction=mu), sp.Ureter(wall_ratio=eta, material=material)
+        )
+        default, fine = sp.solve(case), reference(case)
+        angles.append(np.degrees(abs(default.seated.contact_angle - fine.seated.contact_angle)))
+        pressures.append(abs(default.pressure / fine.pressure - 1.0))
+        alpha = np.degrees(default.seated.contact_angle)
+        rows.append([f"{material} {eta:g}/{xi:g}/{mu:g}", f"{alpha:.3f}"])
+        rows[-1] += [f"{angles[-1]:.4f}", f"{pressures[-1]:.1e}"]
+    return rows, [
+        Check("α₀ within 0.05°", f"{max(angles):.4f}°", max(angles) <= 0.05),
+        Check("P_ucr within 0.3 %", f"{max(pressures):.2%}", max(pressures) <= 3e-3),
+    ]
+
+
+def reference(case: sp.Case) -> sp.Answer:
+    kept = press_module.PATH_COLUMNS
+    press_module.PATH_COLUMNS = 2 * kept
+    seated_module.Path = lambda friction, place: Path(friction, place, 32)
+    try:
+        return sp.solve(case, Resolution(order=5, closed=16, edge=0.008, growth=1.5))
+    finally:
+        seated_module.Path, press_module.PATH_COLUMNS = Path, kept
 
 
 def with_increments(case: sp.Case, count: int) -> float:

@@ -87,7 +87,8 @@ def processes() -> list[dict]:
 
 
 def process(command: list[str]) -> Callable[[], object]:
-    return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    null = subprocess.DEVNULL
+    return lambda: subprocess.run(command, check=True, stdout=null, stderr=null)
 
 
 def timed(call: Callable[[], object]) -> float:

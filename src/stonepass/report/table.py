@@ -98,6 +98,7 @@ def _state_rows(table: Table, answer: Answer) -> None:
     _pressure_row(table, "contact pressure, equator", seated.equator_contact_pressure)
     _pressure_row(table, "contact pressure, peak", seated.peak_contact_pressure)
     _angle_row(table, "contact angle", seated.contact_angle)
+    table.add_row("stability margin", f"{seated.soundness.margin:.2f}")
 
 
 def _title(case: Case, *, with_stone: bool = True) -> str:

@@ -21,7 +21,7 @@ def uniform(sigma=7.0, friction=0.4, as_printed=False):
         method=Method(as_printed=as_printed),
     )
     theta = np.linspace(EDGE, np.pi / 2, 400)
-    report = SolverReport(0, 0, 0.0, 0.0, Volume(0.0, 0.0, 1.0), 0.0, 0.0)
+    report = SolverReport(0, 0, 0.0, 0.0, Volume(0.0, 0.0, 1.0), 0.0, 0.0, 0.0)
     sound = Soundness(1.0, (1.0, 0.0), 0.0, (1.0, 0.0))
     none = np.zeros(400)
     return SeatedState(case, EDGE, theta, np.full(400, sigma), none, None, report, sound)

@@ -190,6 +190,14 @@ def test_single_sizes_of_a_case_file_can_be_changed(cli, tmp_path):
     assert inner["size_ratio"] == pytest.approx(3.4 / 3.45)
 
 
+def test_another_seating_leaves_the_files_friction_behind(cli, tmp_path):
+    path = tmp_path / "c.toml"
+    small = ["--xi", "0.9", "--eta", "1.5"]
+    assert cli("pressure", *small, "--seating-friction", "0.3", "--save", path)[0] == 0
+    code, out, _ = cli("pressure", path, "--seating", "frictionless", "--json")
+    assert (code, json.loads(out)["inputs"]["seating_friction"]) == (0, 0.0)
+
+
 def test_every_kind_of_warning_of_a_curve_is_told(cli):
     code, out, err = cli(
         "curve", "--eta", 1.3, "--friction", 0.02, "--confining", "4kPa", "--xi", "1.2:1.35:0.15",

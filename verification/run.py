@@ -10,9 +10,12 @@ import importlib
 import platform
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import ngsolve
+from page import Section
 
 import stonepass
 
@@ -33,13 +36,11 @@ def main(names: list[str]) -> int:
     if unknown:
         print(f"no section {unknown[0]}; there are: {', '.join(SECTIONS)}", file=sys.stderr)
         return 2
-    written, failed = [], []
-    for name in names or SECTIONS:
-        started = time.perf_counter()
-        section = importlib.import_module(name).section()
-        print(f"{name}: {time.perf_counter() - started:.0f} s", file=sys.stderr)
-        written.append(section.markdown())
-        failed += [f"{name}: {check.claim}" for check in section.checks if not check.holds]
+    wanted, written, failed = names or SECTIONS, [], []
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        for name, section in zip(wanted, pool.map(run, wanted), strict=True):
+            written.append(section.markdown())
+            failed += [f"{name}: {check.claim}" for check in section.checks if not check.holds]
     head = (
         "# Verification\n\nWritten by `make verify`; every number below was measured by that run "
         f"(stonepass {stonepass.__version__}, NGSolve {ngsolve.__version__}, "
@@ -53,6 +54,13 @@ def main(names: list[str]) -> int:
     for line in failed:
         print(f"FAILS: {line}", file=sys.stderr)
     return 1 if failed else 0
+
+
+def run(name: str) -> Section:
+    started = time.perf_counter()
+    section = importlib.import_module(name).section()
+    print(f"{name}: {time.perf_counter() - started:.0f} s", file=sys.stderr)
+    return section
 
 
 if __name__ == "__main__":

@@ -75,7 +75,8 @@ def check_material(name: Name) -> int:
     entry = find_material(name)
     state = check(entry)
     show(
-        f"{entry.name}: no stress at rest, strongly elliptic over its strain range.",
+        f"{entry.name}: no stress at rest, strongly elliptic over its strain range at axial "
+        "stretch 1.",
         f"  circumferential modulus      {state.hoop / 1e6:.4g} MPa",
         f"  axial modulus                {state.axial / 1e6:.4g} MPa",
         f"  circumferential, axis held   {state.plane_hoop / 1e6:.4g} MPa",

@@ -167,7 +167,10 @@ class Settings:
         """Build the method."""
         from stonepass.model.case import Method
 
-        return Method(**self._merged(_METHOD_OPTIONS, "method"))
+        merged = self._merged(_METHOD_OPTIONS, "method")
+        if self.seating == "frictionless" and self.seating_friction is None:
+            merged.pop("seating_friction", None)  # the file's friction goes with its seating
+        return Method(**merged)
 
     @property
     def _base(self) -> Case | None:

@@ -12,7 +12,7 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from stonepass.fe.contact import Arc
 from stonepass.fe.discrete import (
@@ -36,6 +36,7 @@ FRICTION_WEIGHT = 8.0  # factor of gap and slip in the augmented forms, in units
 PATH_COLUMNS = 10
 MARGIN = 1.15  # the equal columns reach this much beyond the frictionless contact edge
 MOST_HALVINGS = 4
+CARRIES = 1e-6  # share of the largest contact force that a point in contact carries at least
 
 # (radius, offset of the centre) of the arc to a first guess for it.
 WrapAt = Callable[[float, float], Wrap]
@@ -43,9 +44,10 @@ WrapAt = Callable[[float, float], Wrap]
 
 @dataclass(frozen=True)
 class _Moment:
-    """Gap and angle of the inner wall seen from the arc's centre; the state, None at t = 0."""
+    """The inner wall seen from the arc's centre: gap, angle, which points touch; the state."""
 
     t: float
+    touching: Bool[np.ndarray, "edges points"]
     gap: Float[np.ndarray, "edges points"]
     angle: Float[np.ndarray, "edges points"]
     state: Any
@@ -126,7 +128,8 @@ def _form(d: Discrete, path: Path, origin: Any) -> Any:
 def _moment(t: float, wall: InnerWall, path: Path, d: Discrete) -> _Moment:
     state = d.state.vec.CreateVector()
     state.data = d.state.vec
-    return _seen(t, wall.r, wall.z, path.place(t), state)
+    touching = wall.normal > CARRIES * wall.normal.max()
+    return _seen(t, wall.r, wall.z, path.place(t), state, touching)
 
 
 def _untouched(d: Discrete, path: Path) -> _Moment:
@@ -134,7 +137,7 @@ def _untouched(d: Discrete, path: Path) -> _Moment:
     radius, offset = path.place(0.0)
     Z = inner_wall(d).station
     lumen = np.full_like(Z, radius + offset)
-    return _seen(0.0, lumen, d.tube.axial_stretch * Z, (radius, offset), None)
+    return _seen(0.0, lumen, d.tube.axial_stretch * Z, (radius, offset))
 
 
 def _rigid_motion(start: _Moment, d: Discrete, path: Path, t: float) -> _Moment:
@@ -144,7 +147,7 @@ def _rigid_motion(start: _Moment, d: Discrete, path: Path, t: float) -> _Moment:
     Z = inner_wall(d).station
     lumen = np.full_like(Z, radius + offset)
     past = (2.0 * radius - next_radius, 2.0 * offset - next_offset)
-    return _seen(-t, lumen, d.tube.axial_stretch * Z, past, None)
+    return _seen(-t, lumen, d.tube.axial_stretch * Z, past)
 
 
 def _seen(
@@ -152,20 +155,25 @@ def _seen(
     r: Float[np.ndarray, "edges points"],
     z: Float[np.ndarray, "edges points"],
     place: tuple[float, float],
-    state: Any,
+    state: Any = None,
+    touching: Bool[np.ndarray, "edges points"] | None = None,
 ) -> _Moment:
     radius, offset = place
-    return _Moment(t, np.hypot(r - offset, z) - radius, np.arctan2(z, r - offset), state)
+    if touching is None:
+        touching = np.zeros(r.shape, dtype=bool)
+    gap = np.hypot(r - offset, z) - radius
+    return _Moment(t, touching, gap, np.arctan2(z, r - offset), state)
 
 
 def _touching_angle(before: _Moment, now: _Moment, t: float) -> Float[np.ndarray, "edges points"]:
-    """Angle at which each wall point touches, if it does so before `t`; where it is, if it does.
+    """Angle at which each wall point touches before `t`; where it is, if it touches already.
 
     Gap and angle of open points are taken to go on as between the last two moments.
     """
     ahead = (t - now.t) / (now.t - before.t)
     closing = np.maximum((before.gap - now.gap) * ahead, 1e-15)
     fraction = np.clip(np.maximum(now.gap, 0.0) / closing, 0.0, 1.0)
+    fraction[now.touching] = 0.0
     return now.angle + fraction * ahead * (now.angle - before.angle)
 
 

@@ -20,6 +20,7 @@ __all__ = [
     "Field",
     "Volume",
     "axial_balance",
+    "cone_excess",
     "contact_profile",
     "deformation",
     "field",
@@ -163,6 +164,13 @@ def axial_balance(solved: Fitted) -> float:
     end, outer_end = _section_force(solved, tube.half_length)
     bath = np.pi * (outer_end**2 - outer_middle**2) * tube.outside_pressure * tube.hydrostatic
     return float(abs(end - middle + contact + bath) / scale)
+
+
+def cone_excess(solved: Fitted) -> float:
+    """Largest |λ_t| − μ λ_n at the nodes, where Coulomb's law is solved, over the largest λ_n."""
+    wall = inner_wall(solved.discrete)
+    excess = np.abs(wall.tangential) - solved.friction * np.maximum(wall.normal, 0.0)
+    return float(excess.max() / wall.normal.max())
 
 
 def _section_force(solved: Fitted, Z: float) -> tuple[float, float]:

@@ -18,8 +18,8 @@ _TABLE_UNSEEN = "the parameter table of Rassoli et al. was not reachable"
 
 # Shear modulus of the ground matrix in Pa. The paper does not give one. Calibrated once: with
 # pressed seating and friction 0.5, every G from 5 to 14 kPa meets both published critical sizes at
-# 12 kPa (1.22 and 1.11) within 0.01; of these the stiffer ones keep the thin wall in equilibrium
-# under the 8 kPa of confining pressure that the paper applies. See docs/theory.md, "The wall".
+# 12 kPa (1.22 and 1.11) within 0.01; below 10 kPa the thin wall loses strong ellipticity within the
+# paper's own range, ξ ≤ 1.3, so a value with some margin is taken. See docs/theory.md, "The wall".
 G_CALIBRATED = 1.2e4
 
 _ENTRIES = (

@@ -16,6 +16,7 @@ from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
 from stonepass.model.seated import NoSeat, SeatedState, seat
+from stonepass.model.soundness import folding_warning
 from stonepass.units import Values
 
 __all__ = ["Answer", "critical_pressure", "pressure_of_angle", "solve"]
@@ -145,7 +146,7 @@ def _balance(case: Case, seated: SeatedState) -> Answer:
         seated=seated,
         newton_steps=seated.solver.newton_steps,
         seconds=seated.solver.seconds,
-        warnings=(*_range_warnings(case), *seated.warnings()),
+        warnings=(*_range_warnings(case), *folding_warning(case), *seated.warnings()),
     )
     # Without friction nothing holds the stone, whatever the load: the root is α₀, and P_ucr = 0.
     found = first if case.stone.friction == 0.0 else _first_root(excess, first, last)

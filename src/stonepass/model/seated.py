@@ -12,7 +12,15 @@ from jaxtyping import Float
 from stonepass.errors import BadInput
 from stonepass.fe.fit import Fitted
 from stonepass.fe.problem import Failure, Path, Resolution, Tube
-from stonepass.fe.readout import Field, Volume, axial_balance, contact_profile, field, volume
+from stonepass.fe.readout import (
+    Field,
+    Volume,
+    axial_balance,
+    cone_excess,
+    contact_profile,
+    field,
+    volume,
+)
 from stonepass.fe.tube import seat_on_sphere
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
@@ -22,6 +30,10 @@ from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.soundness import Soundness, far_field_hint, soundness
 
 __all__ = ["NoSeat", "SeatedState", "SolverReport", "seat"]
+
+
+IMBALANCE = 0.02
+CONE_EXCESS = 1e-6
 
 
 @dataclass(frozen=True)
@@ -38,6 +50,9 @@ class SolverReport:
         How well volume is kept.
     axial_balance : float
         Axial force left over on a half of the tube, relative to the normal contact force.
+    cone_excess : float
+        Largest excess of friction over its coefficient times the pressure, at the nodes, relative
+        to the largest pressure.
     dissipated : float
         Energy that friction took, whole tube, per cube of the inner radius (J/m³ = Pa).
     """
@@ -48,6 +63,7 @@ class SolverReport:
     residual: float
     volume: Volume
     axial_balance: float
+    cone_excess: float
     dissipated: float
 
 
@@ -88,6 +104,13 @@ class SeatedState:
     def warnings(self) -> list[str]:
         """What a reader of the state must know."""
         found = self.soundness.warnings()
+        if self.solver.axial_balance > IMBALANCE:
+            found.append(
+                f"the axial forces on half the tube miss their balance by "
+                f"{self.solver.axial_balance:.1%} of the contact force"
+            )
+        if self.solver.cone_excess > CONE_EXCESS:
+            found.append("friction exceeds its coefficient somewhere: Coulomb's law is violated")
         if self.contact_angle_slack > 0.0:
             found.append(
                 f"the contact angle is known to {np.degrees(self.contact_angle_slack):.2f}° only, "
@@ -199,6 +222,7 @@ def _state(case: Case, solved: Fitted, modulus: float, started: float) -> Seated
             residual=solved.residual,
             volume=kept,
             axial_balance=axial_balance(solved),
+            cone_excess=cone_excess(solved),
             dissipated=2.0 * modulus * solved.dissipated,
         ),
         soundness=soundness(case, solved, in_pascals),

@@ -9,12 +9,12 @@ from jaxtyping import Int
 
 from stonepass.fe.fit import Fitted
 from stonepass.fe.readout import Field, deformation
-from stonepass.materials.derivatives import rest_moduli
+from stonepass.materials.derivatives import hoop_modulus, rest_moduli
 from stonepass.materials.ellipticity import weakest
 from stonepass.model.case import Case
 from stonepass.model.far_field import lumen_ratio
 
-__all__ = ["Soundness", "far_field_hint", "soundness"]
+__all__ = ["Soundness", "far_field_hint", "folding_warning", "soundness"]
 
 HINT_BELOW = 0.5  # margin of the far field below which a failure is put down to it
 
@@ -31,7 +31,7 @@ class Soundness:
     weakest_at : (float, float)
         Where that is.
     hoop_compression : float
-        Largest σ_rr − σ_tt in the same units; above 1 a real tube would answer by folding.
+        Largest σ_rr − σ_tt in the same units.
     compressed_at : (float, float)
         Where that is.
     """
@@ -54,10 +54,28 @@ class Soundness:
             R, Z = self.compressed_at
             found.append(
                 f"the wall is under hoop compression of {self.hoop_compression:.2g} times its "
-                f"shear modulus at R = {R:.3g}, Z = {Z:.3g} (inner radii): a real tube would "
+                f"shear modulus at R = {R:.3g}, Z = {Z:.3g} (inner radii): a real tube may "
                 "fold, which no axisymmetric model sees"
             )
         return found
+
+
+def folding_warning(case: Case) -> list[str]:
+    """A sentence where the confining pressure alone would fold the tube into two lobes.
+
+    The ring buckles under an outside pressure of w″(1) h³/(4 R_m³) (Lévy; plane strain, wall
+    thickness h, mean radius R_m), which no axisymmetric model sees.
+    """
+    eta, pressure = case.wall_ratio, case.load.confining_pressure
+    slenderness = (eta - 1.0) / ((eta + 1.0) / 2.0)
+    folding = hoop_modulus(case.ureter.material.law) * slenderness**3 / 4.0
+    if pressure <= folding:
+        return []
+    return [
+        f"a confining pressure of {pressure / 1e3:.3g} kPa would fold this tube where neither "
+        f"stone nor urine holds it open (ring buckling at about {folding / 1e3:.2g} kPa), which no "
+        "axisymmetric model sees"
+    ]
 
 
 def soundness(case: Case, solved: Fitted, wall: Field) -> Soundness:

@@ -38,6 +38,7 @@ _CURVE_COLUMNS = (
     "equator_contact_pressure_kPa",
     "peak_contact_pressure_kPa",
     "closure_end_pressure_kPa",
+    "stability_margin",
     "wall_ratio",
     "model",
     "material",

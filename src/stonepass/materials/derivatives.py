@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import autograd.numpy as anp
 import numpy as np
-from autograd import elementwise_grad, hessian
+from autograd import elementwise_grad, grad, hessian
 from jaxtyping import Float
 
 from stonepass.materials.protocol import Law
 from stonepass.units import Values
 
-__all__ = ["hoop_energy_slope", "hoop_modulus", "rest_gradient", "rest_moduli"]
+__all__ = [
+    "energy_derivatives",
+    "hoop_energy_slope",
+    "hoop_modulus",
+    "rest_gradient",
+    "rest_moduli",
+]
 
 
 def hoop_energy_slope(law: Law, stretch: Values, axial: float = 1.0) -> Values:
@@ -45,6 +52,34 @@ def rest_gradient(law: Law) -> Float[np.ndarray, 4]:
     return gradient
 
 
+def energy_derivatives(
+    law: Law,
+    C_rr: Float[np.ndarray, " points"],
+    C_tt: Float[np.ndarray, " points"],
+    C_zz: Float[np.ndarray, " points"],
+    C_rz: Float[np.ndarray, " points"],
+) -> tuple[Float[np.ndarray, "points 4"], Float[np.ndarray, "points 4 4"]]:
+    """U,ᵢ and U,ᵢⱼ in Pa at many points, i and j over the components rr, tt, zz, rz of C.
+
+    One pass gives all four slopes and one more each row of second derivatives, since the energy
+    at a point depends on that point alone.
+    """
+    C = np.stack([C_rr, C_tt, C_zz, C_rz])
+
+    def total(c: Any) -> Any:
+        # Zero times every component, so that no derivative is missing where one is not used.
+        return anp.sum(law.energy(c[0], c[1], c[2], c[3], anp) + 0.0 * anp.sum(c, axis=0))
+
+    slopes = grad(total)
+
+    def row(i: int) -> Float[np.ndarray, "4 points"]:
+        return np.asarray(grad(lambda c: anp.sum(slopes(c)[i] + 0.0 * anp.sum(c, axis=0)))(C))
+
+    curvature = np.stack([row(i) for i in range(4)])
+    return np.asarray(slopes(C)).T, np.moveaxis(curvature, -1, 0)
+
+
+@lru_cache(maxsize=64)
 def rest_moduli(law: Law) -> tuple[Float[np.ndarray, "2 2"], float]:
     """Small-strain moduli in Pa at rest: the (hoop, axial) matrix and the r–z shear modulus.
 

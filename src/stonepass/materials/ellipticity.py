@@ -18,16 +18,12 @@ neo-Hookean and the Fung law.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
-import autograd.numpy as anp
 import numpy as np
-from autograd import elementwise_grad
 from jaxtyping import Float
 
-from stonepass.materials.derivatives import rest_moduli
+from stonepass.materials.derivatives import energy_derivatives, rest_moduli
 from stonepass.materials.protocol import Law
 
 __all__ = ["Weakest", "shear_stiffness", "weakest"]
@@ -57,14 +53,15 @@ def weakest(law: Law, F: Float[np.ndarray, "points 5"]) -> Weakest:
 
     All directions are scanned for every deformation, and refined for the weakest of them.
     """
-    angles = _scan()
-    values, _ = shear_stiffness(law, F, _normals(angles)[None])
+    angles, derivatives = _scan(), energy_derivatives(law, *_right_cauchy_green(F))
+    values, _ = shear_stiffness(F, derivatives, _normals(angles)[None])
     some = np.argsort(values.min(axis=1))[:REFINED]
+    F, derivatives = F[some], (derivatives[0][some], derivatives[1][some])
     best, spacing = angles[np.argmin(values[some], axis=1)], np.pi / 2.0 / (COARSE - 1)
     for _ in range(ZOOMS):
         spacing /= 4.0
         near = best[:, None, :] + spacing * _neighbourhood()
-        found, directions = shear_stiffness(law, F[some], _normals(near))
+        found, directions = shear_stiffness(F, derivatives, _normals(near))
         choice = np.argmin(found, axis=1)
         best = np.take_along_axis(near, choice[:, None, None], axis=1)[:, 0]
     least = found.min(axis=1)
@@ -79,14 +76,17 @@ def weakest(law: Law, F: Float[np.ndarray, "points 5"]) -> Weakest:
 
 
 def shear_stiffness(
-    law: Law, F: Float[np.ndarray, "points 5"], normals: Float[np.ndarray, "any ways 3"]
+    F: Float[np.ndarray, "points 5"],
+    derivatives: tuple[Float[np.ndarray, "points 4"], Float[np.ndarray, "points 4 4"]],
+    normals: Float[np.ndarray, "any ways 3"],
 ) -> tuple[Float[np.ndarray, "points ways"], Float[np.ndarray, "points ways 3"]]:
     """Smallest d²U/dε² over m, in Pa, for every deformation and every n; and the m it belongs to.
 
-    `normals` are the same for all points (first axis 1) or each point's own.
+    `derivatives` are U,ᵢ and U,ᵢⱼ at the points; `normals` are the same for all points (first axis
+    1) or each point's own.
     """
     F_rr, F_rz, F_zr, F_zz, F_tt = F.T[:, :, None]
-    slope, curvature = _energy_derivatives(law, F)
+    slope, curvature = derivatives
     n_r, n_t, n_z = np.moveaxis(normals, -1, 0)
     a_r, a_t, a_z = F_rr * n_r + F_zr * n_z, F_tt * n_t, F_rz * n_r + F_zz * n_z  # Fᵀ n
 
@@ -110,25 +110,12 @@ def shear_stiffness(
     return smallest + constant, m
 
 
-def _energy_derivatives(
-    law: Law, F: Float[np.ndarray, "points 5"]
-) -> tuple[Float[np.ndarray, "points 4"], Float[np.ndarray, "points 4 4"]]:
-    """U,ᵢ and U,ᵢⱼ for the components rr, tt, zz, rz of C."""
+def _right_cauchy_green(
+    F: Float[np.ndarray, "points 5"],
+) -> tuple[Float[np.ndarray, " points"], ...]:
+    """(C_rr, C_tt, C_zz, C_rz) of F."""
     F_rr, F_rz, F_zr, F_zz, F_tt = F.T
-    C = (F_rr**2 + F_zr**2, F_tt**2, F_rz**2 + F_zz**2, F_rr * F_rz + F_zr * F_zz)
-
-    def energy(C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any) -> Any:
-        return law.energy(C_rr, C_tt, C_zz, C_rz, anp)
-
-    slopes = [elementwise_grad(_of_all(energy), i) for i in range(4)]
-    second = [[elementwise_grad(_of_all(slope), j)(*C) for j in range(4)] for slope in slopes]
-    curvature = np.moveaxis(np.array(second), -1, 0)
-    return np.stack([slope(*C) for slope in slopes], axis=-1), curvature
-
-
-def _of_all(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add zero times every argument, so that no derivative is missing where one is not used."""
-    return lambda *c: function(*c) + 0.0 * (c[0] + c[1] + c[2] + c[3])
+    return F_rr**2 + F_zr**2, F_tt**2, F_rz**2 + F_zz**2, F_rr * F_rz + F_zr * F_zz
 
 
 def _scan() -> Float[np.ndarray, "ways 2"]:

@@ -23,7 +23,12 @@ NAMESPACE = (
 
 @runtime_checkable
 class Law(Protocol):
-    """A hyperelastic, incompressible wall, cylindrically orthotropic at most."""
+    """A hyperelastic, incompressible wall, cylindrically orthotropic at most.
+
+    A law is a value: what follows from it alone is computed once, so it must hash by its constants.
+    """
+
+    def __hash__(self) -> int: ...
 
     def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
         """Strain energy in J/m³ of reference volume.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass.model import seated as seated_module
+from stonepass.fe.problem import Resolution
 from stonepass.model.seated import SeatedState, seat
 
 LATEX = sp.Case(
@@ -42,14 +42,11 @@ def test_friction_takes_energy_and_gives_none(latex):
     assert seat(with_method(LATEX, seating="frictionless")).solver.dissipated == 0.0
 
 
-def test_the_dissipated_energy_converges_with_the_increments(monkeypatch):
+def test_the_dissipated_energy_converges_with_the_increments():
     """Points in contact must keep where they stuck: else energy drifts with the increments."""
     case, found = with_method(LATEX, seating_friction=0.1), []
     for increments in (6, 12, 24):
-        monkeypatch.setattr(
-            seated_module, "Path", lambda f, place, n=increments: _path(f, place, n)
-        )
-        found.append(seat(case).solver.dissipated)
+        found.append(seat(case, Resolution(increments=increments)).solver.dissipated)
     assert abs(found[2] - found[1]) < abs(found[1] - found[0])
     assert found[1] == pytest.approx(found[2], rel=0.1)
 
@@ -96,21 +93,10 @@ def test_pressed_and_growing_differ_but_little_in_the_critical_pressure():
 
 
 @pytest.mark.parametrize("case", [LATEX, THIN], ids=["latex", "ureter"])
-def test_the_result_does_not_depend_on_the_increments(case, monkeypatch):
-    found = []
-    for increments in (8, 20):
-        monkeypatch.setattr(
-            seated_module, "Path", lambda f, place, n=increments: _path(f, place, n)
-        )
-        found.append(sp.solve(case).pressure)
+def test_the_result_does_not_depend_on_the_increments(case):
+    found = [sp.solve(case, Resolution(increments=n)).pressure for n in (8, 20)]
     assert found[0] == pytest.approx(found[1], rel=3e-3)
     assert found[0] != found[1]  # the increments were really changed
-
-
-def _path(friction, place, increments):
-    from stonepass.fe.problem import Path
-
-    return Path(friction, place, increments)
 
 
 def test_an_increment_that_fails_is_halved(monkeypatch):

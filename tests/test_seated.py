@@ -32,7 +32,7 @@ def fitted(case):
 
     modulus = hoop_modulus(law)
     tube = Tube(lambda *C: law.energy(*C) / modulus, case.wall_ratio, case.method.half_length)
-    return seat_on_sphere(tube, case.size_ratio, partial(wrap_round_arc, case, 1.0, modulus))
+    return seat_on_sphere(tube, case.size_ratio, partial(wrap_round_arc, case, 1.0, modulus))[0]
 
 
 @pytest.mark.parametrize(

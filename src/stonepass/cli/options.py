@@ -29,6 +29,7 @@ _METHOD_OPTIONS = (
     "as_printed",
     "closure_start",
     "far_field_ground",
+    "accuracy",
 )
 
 
@@ -112,6 +113,13 @@ class Settings:
         typer.Option(
             "--far-field-ground/--far-field-fibres",
             help="Ground matrix in the far field too.  [default: fibres only, Eq. 22]",
+        ),
+    ] = None
+    accuracy: Annotated[
+        str | None,
+        typer.Option(
+            "--accuracy",
+            help="fast, standard or reference: how finely to solve.  [default: standard]",
         ),
     ] = None
 

@@ -96,10 +96,10 @@ def discretise(tube: Tube, arc: Arc, layout: Layout, order: int) -> Discrete:
     return Discrete(tube, mesh, state, arc, stiffening, lobatto_rule(order), order)
 
 
-def wall_form(d: Discrete) -> Any:
+def wall_form(d: Discrete, *, condense: bool = True) -> Any:
     """The wall's own part of the form; contact is added by the caller."""
     tube, (u, w, p, _, _) = d.tube, d.state.space.TrialFunction()
-    form = ng.BilinearForm(d.state.space, condense=True)
+    form = ng.BilinearForm(d.state.space, condense=condense)
     energy = wall_energy(tube.energy, u, w, p, d.stiffening)
     form += ng.Variation(energy.Compile() * ng.dx(bonus_intorder=2))
     if tube.outside_pressure:

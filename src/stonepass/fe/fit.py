@@ -23,7 +23,7 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.friction import closed_contact, open_contact
-from stonepass.fe.mesh import Layout, graded, growing, intervals, place
+from stonepass.fe.mesh import Beyond, Layout, graded, growing, place
 from stonepass.fe.newton import Bordered, Plain, Report, newton_or_homotopy
 from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
 from stonepass.fe.problem import Failure, Resolution, Tube
@@ -41,10 +41,10 @@ ROUNDING = 1e-14  # residual norm that rounding leaves where the contact force i
 class Fitted:
     """A solved state: the engine's objects, for reading values off (see `fe.readout`).
 
-    `steps` counts every Newton step on the way, failed attempts too; `residual` is relative to the
-    norm of the contact forces; `dissipated` is the energy that friction took on the path (half
-    tube, units of modulus × inner radius³). `slack` is how far, along Z, the contact edge is known
-    where it could not be made an unknown, else 0.
+    `steps` counts every Newton step on the way, failed attempts too; `force` is the norm of the
+    contact forces, `residual` relative to it; `dissipated` is the energy that friction took on the
+    path (half tube, units of modulus × inner radius³). `slack` is how far, along Z, the contact
+    edge is known where it could not be made an unknown, else 0.
     """
 
     discrete: Discrete
@@ -53,6 +53,7 @@ class Fitted:
     steps: int
     dofs: int
     residual: float
+    force: float
     friction: float
     dissipated: float
     slack: float = 0.0
@@ -131,13 +132,15 @@ def _fitted(
     start: Start,
     friction: float,
 ) -> Fitted:
+    force = contact_force(d, system)
     return Fitted(
         discrete=d,
         radius=radius,
         layout=layout,
         steps=report.steps,
         dofs=int(sum(system.free)),
-        residual=report.residual / contact_force(d, system),
+        residual=report.residual / force,
+        force=force,
         friction=friction,
         dissipated=start.dissipated + _last_dissipation(d, start, radius),
     )
@@ -189,8 +192,9 @@ def _layout(edge: float, reference: float, tube: Tube, resolution: Resolution) -
     """Grid lines for a contact edge at `edge`; counts and rows are fixed by `reference`."""
     n, fraction = resolution.closed, resolution.edge
     inside = 1.0 - graded(n, fraction, 1.0)[::-1]
-    beyond = intervals(fraction * reference, tube.half_length - reference, resolution.growth)
-    outside = graded(beyond, fraction * edge, tube.half_length - edge)
+    first, total = fraction * reference, tube.half_length - reference
+    beyond = Beyond.plan(first, total, resolution.growth, tube.longest_column)
+    outside = beyond.points(fraction * edge, tube.half_length - edge)
     first_row = min(4.0 * fraction, 0.5) * reference
     return Layout(
         radial=1.0 + growing(first_row, tube.wall_ratio - 1.0, 1.5 * resolution.growth),

@@ -10,7 +10,16 @@ import numpy as np
 from jaxtyping import Float
 from scipy.optimize import brentq
 
-__all__ = ["BOUNDARIES", "Layout", "graded", "growing", "intervals", "place", "structured_mesh"]
+__all__ = [
+    "BOUNDARIES",
+    "Beyond",
+    "Layout",
+    "graded",
+    "growing",
+    "intervals",
+    "place",
+    "structured_mesh",
+]
 
 # closed: inner wall that touches the profile; open: inner wall beyond the contact edge.
 BOUNDARIES = ("closed", "open", "outer", "middle", "end")
@@ -93,3 +102,28 @@ def growing(
 ) -> Float[np.ndarray, " points"]:
     """Points 0 … `total`, the first interval `first`, as few as the largest `growth` allows."""
     return graded(intervals(first, total, growth, least), first, total)
+
+
+@dataclass(frozen=True)
+class Beyond:
+    """Columns beyond the contact: `growing` ones over the length `span`, then `even` ones."""
+
+    growing: int
+    span: float
+    even: int
+
+    @classmethod
+    def plan(cls, first: float, total: float, growth: float, longest: float) -> Beyond:
+        """As few columns as `growth` allows; those longer than `longest` are cut to it."""
+        span = first + longest / (1.0 - 1.0 / growth)  # where intervals have grown to the longest
+        if span >= total:
+            return cls(intervals(first, total, growth), total, 0)
+        even = int(np.ceil((total - span) / longest))
+        return cls(intervals(first, span, growth), span, even)
+
+    def points(self, first: float, total: float) -> Float[np.ndarray, " points"]:
+        """Points 0 … `total`, the first interval `first`."""
+        if self.even == 0:
+            return graded(self.growing, first, total)
+        even = np.linspace(self.span, total, self.even + 1)
+        return np.concatenate([graded(self.growing, first, self.span), even[1:]])

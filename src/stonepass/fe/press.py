@@ -1,7 +1,9 @@
 """The path with friction: the arc moves in increments, wall points stick or slip on it.
 
-Wall points remember where they stuck. A point that comes into contact within an increment starts
-from the angle at which it touches, extrapolated from its free motion in the increment before.
+Contact grows with the square root of the way, so t = s² with equal increments of s: each adds about
+as much contact as the others. Wall points remember where they stuck. A point that comes into
+contact within an increment starts from the angle at which it touches, extrapolated from its free
+motion in the increment before.
 """
 
 from __future__ import annotations
@@ -26,14 +28,13 @@ from stonepass.fe.discrete import (
 )
 from stonepass.fe.friction import open_contact
 from stonepass.fe.newton import Plain, newton_or_homotopy
-from stonepass.fe.problem import Failure, Path, Tube, Wrap
+from stonepass.fe.problem import Failure, Path, Resolution, Tube, Wrap
 from stonepass.fe.scout import SCOUT_ORDER, Start, edge_of_contact, scout_layout, wrap_round
 
 __all__ = ["FRICTION_WEIGHT", "WrapAt", "along_wall", "dissipation", "press"]
 
 PATH_TOLERANCE = 1e-5  # of the contact force
 FRICTION_WEIGHT = 8.0  # factor of gap and slip in the augmented forms, in units of the modulus
-PATH_COLUMNS = 10
 MARGIN = 1.15  # the equal columns reach this much beyond the frictionless contact edge
 MOST_HALVINGS = 4
 CARRIES = 1e-6  # share of the largest contact force that a point in contact carries at least
@@ -53,24 +54,27 @@ class _Moment:
     state: Any
 
 
-def press(tube: Tube, path: Path, wrap_at: WrapAt, frictionless: Start) -> Start | Failure:
+def press(
+    tube: Tube, path: Path, wrap_at: WrapAt, frictionless: Start, resolution: Resolution
+) -> Start | Failure:
     """Follow the path, from the unloaded wall that the arc just touches to the arc's last place.
 
     The mesh has equal columns up to beyond the contact edge of the frictionless solution. An
     increment that does not converge is halved, down to 1/16 of its size.
     """
-    layout = scout_layout(tube, MARGIN * frictionless.edge, PATH_COLUMNS, growth=1.7)
+    reach = MARGIN * frictionless.edge
+    layout = scout_layout(tube, reach, resolution.path_columns, growth=1.7)
     d = discretise(tube, Arc.at(*path.place(0.0)), layout, SCOUT_ORDER)
     origin = ng.GridFunction(d.nodal[0])
     system = Plain(
         _form(d, path, origin), d.state, free_unknowns(d, friction=True, closed_only=False)
     )
     before, now = None, _untouched(d, path)
-    step, steps, dissipated = 1.0 / path.increments, 0, 0.0
+    usual = step = 1.0 / resolution.increments
+    s, steps, dissipated = 0.0, 0, 0.0
     while True:
-        t = min(now.t + step, 1.0)
-        if t > 1.0 - 1e-9:
-            t = 1.0
+        ahead = s + step if s + step < 1.0 - 1e-9 else 1.0
+        t = ahead**2
         d.arc.move(*path.place(t))
         touch = _touching_angle(before or _rigid_motion(now, d, path, t), now, t)
         set_at_nodes(origin, along_wall(inner_wall(d).station, touch), d)
@@ -80,7 +84,7 @@ def press(tube: Tube, path: Path, wrap_at: WrapAt, frictionless: Start) -> Start
         steps += report.steps
         if not report.converged:
             step /= 2.0
-            if step < 0.9 / path.increments / 2.0**MOST_HALVINGS:
+            if step < 0.9 * usual / 2.0**MOST_HALVINGS:
                 return Failure(f"at {now.t:.0%} of the path, {report.reason}", steps)
             continue
         wall = inner_wall(d)
@@ -88,7 +92,7 @@ def press(tube: Tube, path: Path, wrap_at: WrapAt, frictionless: Start) -> Start
             break
         dissipated += dissipation(wall, path.place(t), touch)
         before, now = now, _moment(t, wall, path, d)
-        step = 1.0 / path.increments
+        s, step = ahead, usual
     edge = edge_of_contact(d)
     if edge is None:
         return Failure("the wall left the stone", steps)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -28,6 +29,18 @@ class Tube:
     outside_pressure: float = 0.0
     hydrostatic: bool = False
 
+    @property
+    def longest_column(self) -> float:
+        """Longest column of elements far from the stone, in inner radii.
+
+        A wall under axial thrust answers the stone with waves along the tube, longer lasting the
+        nearer the thrust is to the one that wrinkles it; columns are kept to 0.7 of a half-wave,
+        that of a thin rubber shell, π √(h R_m/3). Without thrust the wall settles at once.
+        """
+        if self.outside_pressure == 0.0 and self.axial_stretch >= 1.0:
+            return math.inf
+        return 0.7 * math.pi * math.sqrt((self.wall_ratio - 1.0) * (self.wall_ratio + 1.0) / 6.0)
+
 
 @dataclass(frozen=True)
 class Wrap:
@@ -53,13 +66,10 @@ class Path:
     place : callable
         ``place(t)`` gives (radius, offset of the centre) of the arc, t from 0, where it just
         touches the unloaded lumen, to 1.
-    increments : int
-        Equal increments of t, at least 2.
     """
 
     friction: float
     place: Callable[[float], tuple[float, float]]
-    increments: int = 8
 
 
 @dataclass(frozen=True)
@@ -76,20 +86,28 @@ class Resolution:
         Length of the columns next to the edge, as a fraction of the contact length.
     growth : float
         Largest ratio of neighbouring columns beyond the edge and of rows through the wall.
+    increments : int
+        Increments of a path with friction, at least 2.
+    path_columns : int
+        Columns in contact at the end of that path.
     """
 
     order: int = 4
     closed: int = 10
     edge: float = 0.02
     growth: float = 1.6
+    increments: int = 8
+    path_columns: int = 10
 
     def refined(self, factor: float = 2.0) -> Resolution:
-        """Return a finer mesh of the same kind: more columns, a finer edge, gentler growth."""
+        """Return a finer mesh of the same kind, and a path of more increments."""
         return replace(
             self,
             closed=round(self.closed * factor),
             edge=self.edge / factor,
             growth=self.growth ** (1.0 / factor),
+            increments=round(self.increments * factor),
+            path_columns=round(self.path_columns * factor),
         )
 
 

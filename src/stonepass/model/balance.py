@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from stonepass.model.seated import SeatedState
+from stonepass.model.seated import Contact
 from stonepass.units import Values
 
 __all__ = ["Resistance", "drive", "resistance"]
@@ -54,13 +54,13 @@ class Resistance:
         return self.friction(alpha) + self.wall(alpha)
 
 
-def resistance(seated: SeatedState) -> Resistance:
+def resistance(contact: Contact) -> Resistance:
     """Integrate the seated contact pressure into the resistance of every contact angle."""
-    theta, sigma = seated.theta, seated.contact_pressure
+    theta, sigma = contact.theta, contact.contact_pressure
     return Resistance(
-        contact_angle=seated.contact_angle,
-        friction_coefficient=seated.case.stone.friction,
-        wall_sign=-1.0 if seated.case.method.as_printed else 1.0,
+        contact_angle=contact.contact_angle,
+        friction_coefficient=contact.case.stone.friction,
+        wall_sign=-1.0 if contact.case.method.as_printed else 1.0,
         _shear=PchipInterpolator(theta, sigma * np.sin(theta) ** 2).antiderivative(),
         _axial=PchipInterpolator(theta, sigma * np.sin(2.0 * theta)).antiderivative(),
     )

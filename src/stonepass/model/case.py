@@ -176,6 +176,8 @@ class Method:
         Where Eq. 15 starts: at R_a as in the paper, or at the lumen that load leaves open.
     far_field_ground : bool
         Whether the far field contains the ground matrix of the law (Eq. 22 does not).
+    accuracy : {"standard", "fast", "reference"}
+        How finely the finite elements are solved; every answer carries an estimate of its error.
     """
 
     model: str = "paper"
@@ -185,6 +187,7 @@ class Method:
     as_printed: bool = False
     closure_start: str = "inner-radius"
     far_field_ground: bool = False
+    accuracy: str = "standard"
 
     def __post_init__(self) -> None:
         _choice("model", self.model, ("paper",))
@@ -197,6 +200,7 @@ class Method:
                 self.seating_friction,
                 "left out where the seating is frictionless",
             )
+        _choice("accuracy", self.accuracy, ("fast", "standard", "reference"))
         _choice("closure_start", self.closure_start, ("inner-radius", "lumen"))
         _number(self.half_length, "half_length", *HALF_LENGTH)
         for name in ("as_printed", "far_field_ground"):

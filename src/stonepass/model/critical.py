@@ -11,11 +11,12 @@ from scipy.optimize import brentq
 from stonepass.errors import Outcome
 from stonepass.fe.problem import Resolution
 from stonepass.materials.stability import check
+from stonepass.model.accuracy import LEVELS, ErrorEstimate
 from stonepass.model.balance import Resistance, drive, resistance
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
-from stonepass.model.seated import NoSeat, SeatedState, seat
+from stonepass.model.seated import Contact, NoSeat, SeatedState, seat
 from stonepass.model.soundness import folding_warning
 from stonepass.units import Values
 
@@ -42,6 +43,9 @@ class Answer:
         P_u in Pa at which the closure ends (r_a = R_s), not a physical bound.
     seated : SeatedState or None
         The finite-element state behind it.
+    error : ErrorEstimate or None
+        Estimated discretisation error of α₀, σ(π/2) and P_ucr; None where no stone is seated or
+        no second solve could be made.
     newton_steps, seconds : int, float
         Work of the finite elements, also where they failed.
     warnings : tuple of str
@@ -55,6 +59,7 @@ class Answer:
     critical_angle: float | None = None
     closure_end_pressure: float | None = None
     seated: SeatedState | None = None
+    error: ErrorEstimate | None = None
     newton_steps: int = 0
     seconds: float = 0.0
     warnings: tuple[str, ...] = ()
@@ -86,8 +91,11 @@ def critical_pressure(
     return solve(Case(stone, ureter, load or Load(), method or Method()))
 
 
-def solve(case: Case, resolution: Resolution = Resolution()) -> Answer:
-    """Answer one case; every way it can end is an `Outcome` (model: section 6)."""
+def solve(case: Case, resolution: Resolution | None = None) -> Answer:
+    """Answer one case; every way it can end is an `Outcome` (model: section 6).
+
+    With a `resolution` the finite elements use that mesh alone, and no error is estimated.
+    """
     check(case.ureter.material)
     lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
     if lumen is None:
@@ -109,11 +117,11 @@ def solve(case: Case, resolution: Resolution = Resolution()) -> Answer:
     return _balance(case, seated)
 
 
-def pressure_of_angle(seated: SeatedState, alpha: Values) -> Values:
+def pressure_of_angle(contact: Contact, alpha: Values) -> Values:
     """P_u(α) in Pa (Eq. 16): the far field at the radius the closure gives to the angle α."""
-    case, start = seated.case, _closure_start(seated.case)
+    case, start = contact.case, _closure_start(contact.case)
     assert start is not None, "a seated stone under a load that closes the far field"
-    radius = linear_closure(alpha, seated.contact_angle, case.size_ratio, start)
+    radius = linear_closure(alpha, contact.contact_angle, case.size_ratio, start)
     return urine_pressure(radius, case.wall_ratio, far_field_law(case), case.load)
 
 
@@ -125,46 +133,77 @@ def _unanswered(
 
 
 def _balance(case: Case, seated: SeatedState) -> Answer:
-    """Smallest α in [α₀, π/2] with F_re = F_dr: scan first, since it need not be the only one."""
-    forces = resistance(seated)
+    """The answer of a seated state."""
     if _closure_start(case) is None:
         reason = "the far field without the ground matrix has no lumen under this load"
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
-
-    def pressure(alpha: Values) -> Values:
-        return pressure_of_angle(seated, alpha)
-
-    def excess(alpha: Values) -> Values:
-        return forces.total(alpha) - drive(pressure(alpha), alpha)
-
-    first, last = seated.contact_angle, np.pi / 2
-    unbalanced = Answer(
+    found = _critical(seated)
+    answer = Answer(
         case=case,
         outcome=Outcome.BEYOND_CLOSURE,
         message=Outcome.BEYOND_CLOSURE.value,
-        closure_end_pressure=float(pressure(np.array(last))),
+        closure_end_pressure=_closure_end(seated),
         seated=seated,
+        error=_error(seated, found),
         newton_steps=seated.solver.newton_steps,
         seconds=seated.solver.seconds,
         warnings=(*_range_warnings(case), *folding_warning(case), *seated.warnings()),
     )
-    # Without friction nothing holds the stone, whatever the load: the root is α₀, and P_ucr = 0.
-    found = first if case.stone.friction == 0.0 else _first_root(excess, first, last)
     if found is None:
-        return unbalanced
-    moves = replace(
-        unbalanced,
+        return answer
+    return replace(
+        answer,
         outcome=Outcome.MOVES,
         message=Outcome.MOVES.value,
-        pressure=float(pressure(np.array(found))),
-        critical_angle=found,
+        pressure=found.pressure,
+        critical_angle=found.angle,
+        warnings=(*answer.warnings, *([_EDGE_WARNING] if found.at_edge else [])),
     )
-    if found > first:
-        return moves
-    if case.stone.friction == 0.0:
-        return replace(moves, pressure=0.0)
-    pressure_at_edge = _at_contact_edge(forces, first)
-    return replace(moves, pressure=pressure_at_edge, warnings=(*moves.warnings, _EDGE_WARNING))
+
+
+@dataclass(frozen=True)
+class _Critical:
+    """Where drive and resistance balance; `at_edge` where the drive wins from the first angle."""
+
+    angle: float
+    pressure: float
+    at_edge: bool = False
+
+
+def _critical(contact: Contact) -> _Critical | None:
+    """Smallest α in [α₀, π/2] with F_re = F_dr: scan first, since it need not be the only one."""
+    forces = resistance(contact)
+    first, last = contact.contact_angle, np.pi / 2
+    # Without friction nothing holds the stone, whatever the load: the root is α₀, and P_ucr = 0.
+    if contact.case.stone.friction == 0.0:
+        return _Critical(first, 0.0)
+
+    def excess(alpha: Values) -> Values:
+        return forces.total(alpha) - drive(pressure_of_angle(contact, alpha), alpha)
+
+    found = _first_root(excess, first, last)
+    if found is None:
+        return None
+    if found == first:
+        return _Critical(first, _at_contact_edge(forces, first), at_edge=True)
+    return _Critical(found, float(pressure_of_angle(contact, np.array(found))))
+
+
+def _closure_end(contact: Contact) -> float:
+    return float(pressure_of_angle(contact, np.array(np.pi / 2)))
+
+
+def _error(seated: SeatedState, found: _Critical | None) -> ErrorEstimate | None:
+    """The error of the contact, with that of P_ucr, from the balance of the coarser contact.
+
+    Where that one has no balance, its pressure lies beyond the end of its closure.
+    """
+    if seated.error is None or seated.coarse is None or found is None:
+        return seated.error
+    coarse = _critical(seated.coarse)
+    pressure = _closure_end(seated.coarse) if coarse is None else coarse.pressure
+    factor = LEVELS[seated.case.method.accuracy].factor
+    return replace(seated.error, critical_pressure=factor * abs(pressure - found.pressure))
 
 
 _EDGE_WARNING = (

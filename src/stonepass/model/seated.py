@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -11,7 +12,7 @@ from jaxtyping import Float
 
 from stonepass.errors import BadInput
 from stonepass.fe.fit import Fitted
-from stonepass.fe.problem import Failure, Path, Resolution, Tube
+from stonepass.fe.problem import Failure, Path, Resolution
 from stonepass.fe.readout import (
     Field,
     Volume,
@@ -24,12 +25,14 @@ from stonepass.fe.readout import (
 from stonepass.fe.tube import seat_on_sphere
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
+from stonepass.model.accuracy import LEVELS, ErrorEstimate
 from stonepass.model.case import Case
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.first_guess import wrap_round_arc
-from stonepass.model.soundness import Soundness, far_field_hint, soundness
+from stonepass.model.soundness import Soundness, soundness, waves
+from stonepass.model.tube import tube_of
 
-__all__ = ["NoSeat", "SeatedState", "SolverReport", "seat"]
+__all__ = ["Contact", "NoSeat", "SeatedState", "SolverReport", "seat"]
 
 
 IMBALANCE = 0.02
@@ -68,8 +71,8 @@ class SolverReport:
 
 
 @dataclass(frozen=True)
-class SeatedState:
-    """The solved seated state, in SI.
+class Contact:
+    """Where stone and wall touch in the seated state, and how hard: all that the balance needs.
 
     Attributes
     ----------
@@ -78,45 +81,12 @@ class SeatedState:
     theta, contact_pressure : arrays
         σ(θ) in Pa, true stress on the deformed wall, compression positive, on a fine grid of the
         upstream half, θ from α₀ to π/2; the downstream half is its mirror image.
-    friction_traction : array
-        Traction of the stone on the wall along it in Pa, positive away from the equator; zero
-        where the seating is frictionless.
-    wall : Field
-        Deformed wall and Cauchy stress (Pa, tension positive) of the half Z ≥ 0, lengths in
-        inner radii; None where it was not kept (curves).
-    solver : SolverReport
-    soundness : Soundness
-        Stability of the wall, and whether it would fold.
-    contact_angle_slack : float
-        How far α₀ is known in rad where the contact edge could not be made an unknown, else 0.
     """
 
     case: Case
     contact_angle: float
     theta: Float[np.ndarray, " n"]
     contact_pressure: Float[np.ndarray, " n"]
-    friction_traction: Float[np.ndarray, " n"]
-    wall: Field | None
-    solver: SolverReport
-    soundness: Soundness
-    contact_angle_slack: float = 0.0
-
-    def warnings(self) -> list[str]:
-        """What a reader of the state must know."""
-        found = self.soundness.warnings()
-        if self.solver.axial_balance > IMBALANCE:
-            found.append(
-                f"the axial forces on half the tube miss their balance by "
-                f"{self.solver.axial_balance:.1%} of the contact force"
-            )
-        if self.solver.cone_excess > CONE_EXCESS:
-            found.append("friction exceeds its coefficient somewhere: Coulomb's law is violated")
-        if self.contact_angle_slack > 0.0:
-            found.append(
-                f"the contact angle is known to {np.degrees(self.contact_angle_slack):.2f}° only, "
-                "because no smooth contact edge was found"
-            )
-        return found
 
     @property
     def equator_contact_pressure(self) -> float:
@@ -136,6 +106,57 @@ class SeatedState:
 
 
 @dataclass(frozen=True)
+class SeatedState(Contact):
+    """The solved seated state, in SI.
+
+    Attributes
+    ----------
+    friction_traction : array
+        Traction of the stone on the wall along it in Pa at `theta`, positive away from the
+        equator; zero where the seating is frictionless.
+    wall : Field
+        Deformed wall and Cauchy stress (Pa, tension positive) of the half Z ≥ 0, lengths in
+        inner radii; None where it was not kept (curves).
+    solver : SolverReport
+    soundness : Soundness
+        Stability of the wall, and whether it would fold.
+    contact_angle_slack : float
+        How far α₀ is known in rad where the contact edge could not be made an unknown, else 0.
+    coarse : Contact or None
+        The same contact from a coarser solve; None where none was asked for, or none was found.
+    error : ErrorEstimate or None
+        What the two say of the error of α₀ and σ(π/2).
+    """
+
+    friction_traction: Float[np.ndarray, " n"]
+    wall: Field | None
+    solver: SolverReport
+    soundness: Soundness
+    contact_angle_slack: float = 0.0
+    coarse: Contact | None = None
+    error: ErrorEstimate | None = None
+
+    def warnings(self) -> list[str]:
+        """What a reader of the state must know."""
+        found = self.soundness.warnings()
+        if self.solver.axial_balance > IMBALANCE:
+            found.append(
+                f"the axial forces on half the tube miss their balance by "
+                f"{self.solver.axial_balance:.1%} of the contact force"
+            )
+        if self.solver.cone_excess > CONE_EXCESS:
+            found.append("friction exceeds its coefficient somewhere: Coulomb's law is violated")
+        if self.error is None:
+            found.append("the error is not estimated: no coarser solve stands beside this one")
+        if self.contact_angle_slack > 0.0:
+            found.append(
+                f"the contact angle is known to {np.degrees(self.contact_angle_slack):.2f}° only, "
+                "because no smooth contact edge was found"
+            )
+        return found
+
+
+@dataclass(frozen=True)
 class NoSeat:
     """The finite elements found no seated state."""
 
@@ -144,8 +165,11 @@ class NoSeat:
     seconds: float
 
 
-def seat(case: Case, resolution: Resolution = Resolution()) -> SeatedState | NoSeat:
+def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSeat:
     """Solve the seated state of a stone that is larger than the lumen.
+
+    By default at the accuracy the case asks for, with an estimate of the error from a second,
+    coarser solve; with a `resolution` on that mesh alone, without an estimate.
 
     Raises
     ------
@@ -156,27 +180,46 @@ def seat(case: Case, resolution: Resolution = Resolution()) -> SeatedState | NoS
     """
     check(case.ureter.material)
     started = time.perf_counter()
-    law, load, radius = case.ureter.material.law, case.load, case.size_ratio
-    modulus = hoop_modulus(law)
     lumen = _smaller_lumen(case)
-
-    def energy(C_rr, C_tt, C_zz, C_rz, xp):  # type: ignore[no-untyped-def]
-        return law.energy(C_rr, C_tt, C_zz, C_rz, xp) / modulus
-
-    tube = Tube(
-        energy=energy,
-        wall_ratio=case.wall_ratio,
-        half_length=case.method.half_length,
-        axial_stretch=load.prestretch,
-        outside_pressure=load.confining_pressure / modulus,
-        hydrostatic=load.hydrostatic,
-    )
-    wrap_at = partial(wrap_round_arc, case, lumen, modulus)
-    solved = seat_on_sphere(tube, radius, wrap_at, resolution, _path(case, lumen))
+    unstable = waves(case)
+    if unstable:
+        return NoSeat(unstable, 0, time.perf_counter() - started)
+    level = LEVELS[case.method.accuracy]
+    wanted = (level.companion, level.resolution) if resolution is None else (resolution,)
+    *coarser, solved = _solve(case, lumen, wanted)
+    steps = sum(result.steps for result in (*coarser, solved))
     if isinstance(solved, Failure):
-        reason = solved.reason + far_field_hint(case)
-        return NoSeat(reason, solved.steps, time.perf_counter() - started)
-    return _state(case, solved, modulus, started)
+        reason = solved.reason + _oversize(case)
+        return NoSeat(reason, steps, time.perf_counter() - started)
+    state = _state(case, replace(solved, steps=steps), started)
+    if coarser and isinstance(coarser[0], Fitted):
+        coarse = _contact(case, coarser[0])
+        return replace(state, coarse=coarse, error=_error(state, coarse, level.factor))
+    return state
+
+
+def _solve(case: Case, lumen: float, wanted: Sequence[Resolution]) -> list[Fitted | Failure]:
+    law, load = case.ureter.material.law, case.load
+    tube = tube_of(law, case.wall_ratio, load, case.method.half_length)
+    wrap_at = partial(wrap_round_arc, case, lumen, hoop_modulus(law))
+    return seat_on_sphere(tube, case.size_ratio, wrap_at, wanted, _path(case, lumen))
+
+
+def _error(state: SeatedState, coarse: Contact, factor: float) -> ErrorEstimate:
+    angle = factor * abs(state.contact_angle - coarse.contact_angle)
+    pressure = factor * abs(state.equator_contact_pressure - coarse.equator_contact_pressure)
+    return ErrorEstimate(angle + state.contact_angle_slack, pressure)
+
+
+def _oversize(case: Case) -> str:
+    """What to think of first where a stone is too large to be solved for."""
+    material = case.ureter.material
+    if case.size_ratio <= material.strain_range[1]:
+        return ""
+    return (
+        f"; the stone stretches the wall to {case.size_ratio:.3g} times its circumference, while "
+        f"the constants of '{material.name}' were used to {material.strain_range[1]:g}"
+    )
 
 
 def _smaller_lumen(case: Case) -> float:
@@ -202,7 +245,14 @@ def _path(case: Case, lumen: float) -> Path | None:
     return Path(friction, lambda t: (radius, (1.0 - t) * (lumen - radius)))
 
 
-def _state(case: Case, solved: Fitted, modulus: float, started: float) -> SeatedState:
+def _contact(case: Case, solved: Fitted) -> Contact:
+    profile = contact_profile(solved)
+    pressure = hoop_modulus(case.ureter.material.law) * np.maximum(profile.pressure, 0.0)
+    return Contact(case, float(profile.theta[0]), profile.theta, pressure)
+
+
+def _state(case: Case, solved: Fitted, started: float) -> SeatedState:
+    modulus = hoop_modulus(case.ureter.material.law)
     profile, wall, kept = contact_profile(solved), field(solved), volume(solved)
     stresses = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
     in_pascals = replace(wall, **{name: modulus * getattr(wall, name) for name in stresses})

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from scipy.optimize import brentq
 
 from stonepass.errors import Outcome, require
+from stonepass.model.accuracy import LEVELS
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.critical import Answer, solve
 from stonepass.model.far_field import lumen_ratio
@@ -16,6 +17,7 @@ from stonepass.units import Length, Pressure, pressure
 __all__ = ["SizeAnswer", "critical_size"]
 
 SIZE_TOLERANCE = 1e-6
+SLOPE_BASE = 1e-4  # sizes nearer than this say too little of the slope
 # Stones less than this fraction above the lumen are not told from the lumen itself.
 SMALLEST_OVERSIZE = 2e-4
 SMALL_LIMIT = 100.0  # Pa; only below it can a limit lie under every stuck stone
@@ -38,6 +40,8 @@ class SizeAnswer:
         The pressure limit in Pa.
     at_size : Answer or None
         The answer at the critical size; without one, at the size where the search ended.
+    size_ratio_error : float or None
+        Estimated discretisation error of ξ_cr: that of P_ucr over its slope dP_ucr/dξ.
     """
 
     case: Case
@@ -47,6 +51,7 @@ class SizeAnswer:
     size_ratio: float | None = None
     diameter: Length | None = None
     at_size: Answer | None = None
+    size_ratio_error: float | None = None
     warnings: tuple[str, ...] = ()
 
 
@@ -79,10 +84,14 @@ def critical_size(
 
 def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> SizeAnswer:
     tried: dict[float, Answer] = {}
+    # The search needs no estimate of the error; the answer at the size that it finds has one.
+    resolution = LEVELS[case.method.accuracy].resolution
 
     def excess(size_ratio: float) -> float:
         progress(size_ratio)
-        answer = tried.setdefault(size_ratio, solve(case.with_size_ratio(size_ratio)))
+        if size_ratio not in tried:
+            tried[size_ratio] = solve(case.with_size_ratio(size_ratio), resolution)
+        answer = tried[size_ratio]
         if answer.pressure is not None:
             return answer.pressure - limit
         end = answer.closure_end_pressure
@@ -94,7 +103,7 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
     try:
         top = excess(high)
         if top < 0.0:
-            return _beyond_range(case, limit, tried[high])
+            return _beyond_range(case, limit, solve(case))
         lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
         assert lumen is not None, "solve() answers NO_SOLUTION where there is no lumen"
         smallest = lumen * (1.0 + SMALLEST_OVERSIZE)
@@ -125,8 +134,7 @@ def _found(
 ) -> SizeAnswer:
     if root <= lumen * (1.0 + SMALLEST_OVERSIZE):
         return _below_range(case, limit)
-    nearest = min(tried, key=lambda x: abs(x - root))
-    at_size = tried[nearest] if nearest == root else solve(case.with_size_ratio(root))
+    at_size = solve(case.with_size_ratio(root))
     if at_size.outcome is not Outcome.MOVES:
         message = f"{at_size.message[:-1]} (at size ratio {root:.4g}, where the limit is reached)."
         return SizeAnswer(case, at_size.outcome, message, limit, at_size=at_size)
@@ -139,8 +147,24 @@ def _found(
         size_ratio=root,
         diameter=None if inner is None else Length(root * inner),
         at_size=at_size,
+        size_ratio_error=_size_ratio_error(at_size, tried),
         warnings=at_size.warnings,
     )
+
+
+def _size_ratio_error(at_size: Answer, tried: dict[float, Answer]) -> float | None:
+    """The error of P_ucr over its slope between the two sizes tried nearest to the root."""
+    if at_size.error is None or at_size.error.critical_pressure is None:
+        return None
+    root = at_size.case.size_ratio
+    near = sorted(tried, key=lambda x: abs(x - root))
+    known = [(x, tried[x].pressure) for x in near if abs(x - root) > SLOPE_BASE]
+    pressures = [(x, p) for x, p in known if p is not None]
+    if not pressures or at_size.pressure is None:
+        return None
+    size_ratio, pressure = pressures[0]
+    slope = (pressure - at_size.pressure) / (size_ratio - root)
+    return abs(at_size.error.critical_pressure / slope) + SIZE_TOLERANCE
 
 
 def _below_range(case: Case, limit: Pressure) -> SizeAnswer:

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Int
 
 from stonepass.fe.fit import Fitted
 from stonepass.fe.readout import Field, deformation
+from stonepass.fe.waves import unstable_wave
 from stonepass.materials.derivatives import hoop_modulus, rest_moduli
 from stonepass.materials.ellipticity import weakest
-from stonepass.model.case import Case
+from stonepass.materials.protocol import Law
+from stonepass.model.case import Case, Load
 from stonepass.model.far_field import lumen_ratio
+from stonepass.model.tube import tube_of
 
-__all__ = ["Soundness", "far_field_hint", "folding_warning", "soundness"]
-
-HINT_BELOW = 0.5  # margin of the far field below which a failure is put down to it
+__all__ = ["Soundness", "folding_warning", "soundness", "waves"]
 
 
 @dataclass(frozen=True)
@@ -97,23 +99,25 @@ def soundness(case: Case, solved: Fitted, wall: Field) -> Soundness:
     )
 
 
-def far_field_hint(case: Case) -> str:
-    """Why the finite elements may have failed: the loaded tube itself is close to instability."""
-    law, eta, stretch = case.ureter.material.law, case.wall_ratio, case.load.prestretch
-    lumen = lumen_ratio(eta, law, case.load)
-    if lumen is None:
+def waves(case: Case) -> str:
+    """Why the loaded tube does not stay straight, or nothing where it does."""
+    load = case.load
+    if load.confining_pressure == 0.0 and load.prestretch >= 1.0:
         return ""
-    R = np.linspace(1.0, eta, 9)
-    hoop = np.sqrt(lumen**2 + (R**2 - 1.0) / stretch) / R
-    zero, axial = np.zeros_like(R), np.full_like(R, stretch)
-    margin = weakest(law, np.column_stack([1 / (hoop * axial), zero, zero, axial, hoop])).stiffness
-    if margin > HINT_BELOW:
+    length = _wave(case.ureter.material.law, case.wall_ratio, load, case.method.half_length)
+    if length is None:
         return ""
-    state = "is close to losing" if margin > 0.0 else "has lost"
     return (
-        f"; under this load the tube itself {state} its stability far from the stone "
-        f"(margin {margin:.2g}; 1 unloaded, 0 lost)"
+        "the tube itself is not stable under this load: far from the stone axisymmetric waves of "
+        f"half-length {length:.2g} inner radii lower its energy, so it wrinkles or kinks all along"
     )
+
+
+@lru_cache(maxsize=64)
+def _wave(law: Law, wall_ratio: float, load: Load, half_length: float) -> float | None:
+    lumen = lumen_ratio(wall_ratio, law, load)
+    assert lumen is not None, "asked before a case without a lumen is answered"
+    return unstable_wave(tube_of(law, wall_ratio, load, half_length), lumen)
 
 
 def _some_points(wall: Field) -> Int[np.ndarray, " some"]:

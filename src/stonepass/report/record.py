@@ -33,9 +33,12 @@ _CURVE_COLUMNS = (
     "size_ratio",
     "outcome",
     "critical_pressure_kPa",
+    "critical_pressure_error_kPa",
     "critical_angle_deg",
     "contact_angle_deg",
+    "contact_angle_error_deg",
     "equator_contact_pressure_kPa",
+    "equator_contact_pressure_error_kPa",
     "peak_contact_pressure_kPa",
     "closure_end_pressure_kPa",
     "stability_margin",
@@ -48,14 +51,19 @@ _CURVE_COLUMNS = (
 
 def record(answer: Answer) -> dict[str, Any]:
     """One answer as a JSON-ready record; a number that does not exist is None."""
-    seated, case = answer.seated, answer.case
+    seated, case, error = answer.seated, answer.case, answer.error
     return {
         "outcome": answer.outcome.name,
         "message": answer.message,
         "critical_pressure_kPa": _kilo(answer.pressure),
+        "critical_pressure_error_kPa": _kilo(error.critical_pressure if error else None),
         "critical_angle_deg": _degrees(answer.critical_angle),
         "contact_angle_deg": _degrees(seated.contact_angle if seated else None),
+        "contact_angle_error_deg": _degrees(error.contact_angle if error else None),
         "equator_contact_pressure_kPa": _kilo(seated.equator_contact_pressure if seated else None),
+        "equator_contact_pressure_error_kPa": _kilo(
+            error.equator_contact_pressure if error else None
+        ),
         "peak_contact_pressure_kPa": _kilo(seated.peak_contact_pressure if seated else None),
         "closure_end_pressure_kPa": _kilo(answer.closure_end_pressure),
         "stability_margin": seated.soundness.margin if seated else None,
@@ -97,6 +105,7 @@ def size_record(answer: SizeAnswer) -> dict[str, Any]:
         "outcome": answer.outcome.name,
         "message": answer.message,
         "critical_size_ratio": answer.size_ratio,
+        "critical_size_ratio_error": answer.size_ratio_error,
         "critical_diameter_mm": None if answer.diameter is None else answer.diameter * 1e3,
         "limit_kPa": _kilo(answer.limit),
         "warnings": list(answer.warnings),

@@ -22,7 +22,8 @@ def pressure_table(answer: Answer) -> Table:
     """One answer: what was asked, then the pressures."""
     table = _pressures(_title(answer.case))
     if answer.pressure is not None:
-        _pressure_row(table, "[bold]critical pressure[/bold]", answer.pressure)
+        error = None if answer.error is None else answer.error.critical_pressure
+        _pressure_row(table, "[bold]critical pressure[/bold]", answer.pressure, error)
     _state_rows(table, answer)
     if answer.outcome is Outcome.MOVES and answer.critical_angle is not None:
         _angle_row(table, "critical angle", answer.critical_angle)
@@ -36,7 +37,9 @@ def size_table(answer: SizeAnswer) -> Table:
     _pressure_row(table, "pressure limit", answer.limit)
     if answer.size_ratio is None or answer.at_size is None:
         return table
-    table.add_row("[bold]critical size ratio[/bold]", f"[bold]{answer.size_ratio:.4f}[/bold]")
+    error = "" if answer.size_ratio_error is None else f"± {answer.size_ratio_error:.1g}"
+    size = f"[bold]{answer.size_ratio:.4f}[/bold]"
+    table.add_row("[bold]critical size ratio[/bold]", size, "", "", error)
     if answer.diameter is not None:
         table.add_row("[bold]critical diameter[/bold]", f"[bold]{answer.diameter * 1e3:.3f} mm")
     _state_rows(table, answer.at_size)
@@ -76,17 +79,26 @@ def grouped_warnings(answers: Sequence[Answer]) -> list[str]:
 def _pressures(title: str) -> Table:
     table = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left")
     table.add_column("")
-    for unit in ("kPa", "mmHg", "cmH₂O"):
-        table.add_column(unit, justify="right")
+    for column in ("kPa", "mmHg", "cmH₂O", "solver error"):
+        table.add_column(column, justify="right")
     return table
 
 
-def _pressure_row(table: Table, name: str, pascals: float) -> None:
-    table.add_row(name, *(_significant(pascals / scale) for scale in PASCAL_PER.values()))
+def _pressure_row(table: Table, name: str, pascals: float, error: float | None = None) -> None:
+    shown = "" if error is None or pascals <= 0.0 else f"± {_percent(error / pascals)}"
+    values = (_significant(pascals / scale) for scale in PASCAL_PER.values())
+    table.add_row(name, *values, shown)
 
 
-def _angle_row(table: Table, name: str, radians: float) -> None:
-    table.add_row(name, f"{_deg(radians):.2f}°")
+def _angle_row(table: Table, name: str, radians: float, error: float | None = None) -> None:
+    shown = "" if error is None else f"± {max(_deg(error), 0.001):.1g}°"
+    table.add_row(name, f"{_deg(radians):.2f}°", "", "", shown)
+
+
+def _percent(share: float) -> str:
+    """One significant digit, 0.001 % at least: 0.3 %, 0.02 %, 12 %."""
+    percent = max(100.0 * share, 0.001)
+    return f"{percent:.0f} %" if percent >= 1.0 else f"{percent:.1g} %"
 
 
 def _state_rows(table: Table, answer: Answer) -> None:
@@ -95,9 +107,12 @@ def _state_rows(table: Table, answer: Answer) -> None:
         _pressure_row(table, "closure end", answer.closure_end_pressure)
     if seated is None:
         return
-    _pressure_row(table, "contact pressure, equator", seated.equator_contact_pressure)
+    error = answer.error
+    equator = None if error is None else error.equator_contact_pressure
+    _pressure_row(table, "contact pressure, equator", seated.equator_contact_pressure, equator)
     _pressure_row(table, "contact pressure, peak", seated.peak_contact_pressure)
-    _angle_row(table, "contact angle", seated.contact_angle)
+    angle = None if error is None else error.contact_angle
+    _angle_row(table, "contact angle", seated.contact_angle, angle)
     table.add_row("stability margin", f"{seated.soundness.margin:.2f}")
 
 

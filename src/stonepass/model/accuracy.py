@@ -1,0 +1,56 @@
+"""How finely a case is solved, and how far its numbers may be from the limit of fine meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from stonepass.fe.problem import Resolution
+
+__all__ = ["LEVELS", "ErrorEstimate", "Level"]
+
+
+@dataclass(frozen=True)
+class Level:
+    """A resolution, a coarser companion, and what their difference says of the error.
+
+    Every case is solved with both; the error of the finer answer is estimated as `factor` × their
+    difference. The path with friction converges with the first order of the increments, so at half
+    of them the difference equals the error left; twice that is claimed. `calibration` of the
+    verification page measures how often that holds.
+    """
+
+    resolution: Resolution
+    companion: Resolution
+    factor: float
+
+
+_DRAFT = Resolution(order=4, closed=4, edge=0.1, growth=2.5, increments=2, path_columns=5)
+_FAST = Resolution(order=4, closed=6, edge=0.05, growth=2.0, increments=4, path_columns=7)
+_STANDARD = Resolution()
+_REFERENCE = Resolution(order=5, closed=16, edge=0.008, growth=1.5, increments=32, path_columns=20)
+
+LEVELS = {
+    "fast": Level(_FAST, _DRAFT, 2.0),
+    "standard": Level(_STANDARD, _FAST, 2.0),
+    # Four times the increments of its companion: a third of the difference is left.
+    "reference": Level(_REFERENCE, _STANDARD, 2.0 / 3.0),
+}
+
+
+@dataclass(frozen=True)
+class ErrorEstimate:
+    """Estimated discretisation error, as absolute values: the limit lies within ± of the number.
+
+    Attributes
+    ----------
+    contact_angle : float
+        Of α₀, in rad.
+    equator_contact_pressure : float
+        Of σ(π/2), in Pa.
+    critical_pressure : float or None
+        Of P_ucr, in Pa, where there is one.
+    """
+
+    contact_angle: float
+    equator_contact_pressure: float
+    critical_pressure: float | None = None

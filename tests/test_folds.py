@@ -28,7 +28,7 @@ def test_a_fold_that_bends_back_without_touching_is_none():
 
 
 def test_a_state_that_touches_itself_is_no_answer(monkeypatch):
-    import stonepass.model.seated as module
+    import stonepass.fe.tube as module
 
     monkeypatch.setattr(module, "self_contact", lambda solved: 1.5)
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"))

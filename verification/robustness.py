@@ -1,85 +1,244 @@
-"""Does every case of a seeded random grid end in an answer?"""
+"""A hard grid: does every case end in a sound answer, or in a cause that is physics?"""
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
 
 import numpy as np
 from page import Check, Section
 
 import stonepass as sp
+from stonepass.errors import Outcome
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
-from stonepass.model.seated import NoSeat, SeatedState
+from stonepass.model.soundness import waves
 
-SEED = 20221
-LATEX_CASES, URETER_CASES = 150, 80
+SEED, FAMILIES, SIZES = 20244, 200, 3
+TOP = {"latex": 0.6, "ureter": 0.35}  # largest ξ − 1
+SMALLEST = 5e-4
+BALANCE = 0.02
 
 
-def cases() -> list[sp.Case]:
-    """Latex ξ 1.001–1.5, η 1.1–3.5; ureter G 0.001–0.03 MPa, ξ to 1.3, both walls."""
-    random = np.random.default_rng(SEED)
-    found = []
-    for _ in range(LATEX_CASES):
-        xi = 1.0 + 10.0 ** random.uniform(-3.0, np.log10(0.5))
-        found.append(_case(xi, random.uniform(1.1, 3.5), material("latex")))
-    ureter = material("ureter")
-    assert isinstance(ureter.law, Fung)
-    for k in range(URETER_CASES):
-        G = 10.0 ** random.uniform(3.0, np.log10(3e4))
-        law = Fung(ureter.law.C, ureter.law.a1111, ureter.law.a2222, ureter.law.a1122, G)
-        wall = sp.Material("ureter", law, "", "", "", ureter.strain_range)
-        xi = 1.0 + 10.0 ** random.uniform(-3.0, np.log10(0.3))
-        found.append(_case(xi, (1.3, 3.4)[k % 2], wall))
-    return found
+@dataclass(frozen=True)
+class Row:
+    """What one case came to; `flaws` are the checks it fails, `cause` why it has no state."""
+
+    family: int
+    law: str
+    outcome: str
+    pressure: float | None
+    at_edge: bool
+    cause: str
+    unstable_tube: bool
+    estimated: bool
+    slack: bool
+    flaws: tuple[str, ...]
+    case: str
+    seconds: float
 
 
 def section() -> Section:
-    started = time.process_time()
-    grid = cases()
-    states = [sp.seat(case) for case in grid]
-    seconds = time.process_time() - started
-    solved = [s for s in states if isinstance(s, SeatedState)]
-    lost = Counter(s.reason for s in states if isinstance(s, NoSeat))
-    sound = [s for s in solved if is_sound(s)]
-    steps = sorted(s.solver.newton_steps for s in solved)
-    failures = [[reason, str(count)] for reason, count in lost.most_common()] or [["none", "0"]]
-    return Section(
-        title="Robustness: random frictionless cases",
-        text=(
-            f"{LATEX_CASES} latex cases (ξ 1.001–1.5, η 1.1–3.5) and {URETER_CASES} ureter cases "
-            f"(G 0.001–0.03 MPa, ξ 1.001–1.3, η 1.3 and 3.4), seed {SEED}, solved directly, "
-            f"without load stepping: {seconds / len(grid):.2f} s of one core per case, "
-            f"{steps[len(steps) // 2]} Newton steps in the median, {steps[-1]} at most."
+    started = time.perf_counter()
+    grid = list(enumerate(families()))
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        rows = list(itertools.chain.from_iterable(pool.map(run_family, grid)))
+    elapsed = time.perf_counter() - started
+    seconds = sorted(row.seconds for row in rows)
+    tables = [
+        (
+            "Outcomes:",
+            ("law", "cases", "`MOVES`", "`BEYOND_CLOSURE`", "tube unstable by itself", "failed"),
+            [outcome_row(rows, law) for law in TOP],
         ),
-        tables=[("Without a solution:", ("reason", "cases"), failures)],
-        checks=[
-            Check("every case solved", f"{len(solved)} of {len(grid)}", len(solved) == len(grid)),
+        ("Tubes that no state exists of, with the case that asked:", ("cause", "cases"),
+         causes([row for row in rows if row.unstable_tube])),
+        ("Failures of the finite elements:", ("cause and case", "cases"),
+         causes([row for row in rows if failed(row)])),
+    ]  # fmt: skip
+    return Section(
+        title="Robustness: a hard random grid",
+        text=(
+            f"{len(rows)} cases, seed {SEED}: {FAMILIES} families of one tube, one load, one "
+            f"friction and {SIZES} sizes. Latex ξ 1.0005–1.6, and both stable readings of the "
+            "ureter with G 5–100 kPa, ξ 1.0005–1.35; η 1.05–4; friction 0–1; P_out none in two "
+            "families of five, else 0–10 kPa, dead or hydrostatic; L 6–40; all seatings. "
+            f"{elapsed / 60.0:.0f} minutes; {seconds[len(seconds) // 2]:.1f} s per case in the "
+            f"median, {seconds[-1]:.0f} s at most (error estimate included). A tube that the "
+            "confining pressure makes unstable by itself has no seated state to be found: waves "
+            "of the uniform tube lower its energy, which is checked before the solve. Those cases "
+            "are counted apart; without that check every one of them fails in the iteration."
+        ),
+        tables=tables,
+        checks=checks(rows),
+    )
+
+
+def checks(rows: list[Row]) -> list[Check]:
+    found = [Check("at least 500 cases", str(len(rows)), len(rows) >= 500)]
+    for law, share in (("latex", 0.998), ("ureter", 0.99)):
+        asked = [row for row in rows if row.law == law and not row.unstable_tube]
+        solved = [row for row in asked if not failed(row)]
+        found.append(
             Check(
-                "every solved state is sound: finite, pressure ≥ 0, J > 0, volume to 1e-8",
-                f"{len(sound)} of {len(solved)}",
-                len(sound) == len(solved) > 0,
-            ),
-        ],
+                f"{law}: ≥ {share:.1%} of the tubes that stand by themselves solved",
+                f"{len(solved)} of {len(asked)}",
+                len(solved) >= share * len(asked) > 0,
+            )
+        )
+    seated = [row for row in rows if row.outcome in ("MOVES", "BEYOND_CLOSURE")]
+    for flaw in ("gap ≥ 0", "pressure ≥ 0", "complementarity", "wall volume to 1e-8", "J > 0",
+                 f"axial balance to {BALANCE:.0%}", "friction in its cone"):  # fmt: skip
+        bad = [row for row in seated if flaw in row.flaws]
+        shown = f"{len(seated) - len(bad)} of {len(seated)}"
+        found.append(Check(flaw, "; ".join([shown, *(r.case for r in bad)]), not bad))
+    pairs = monotone_pairs(rows)
+    wrong = [b.case for a, b in pairs if b.pressure <= a.pressure]
+    found.append(
+        Check(
+            "P_ucr rises with ξ among MOVES of a family",
+            "; ".join([f"{len(pairs) - len(wrong)} of {len(pairs)} pairs", *wrong]),
+            len(pairs) > 100 and not wrong,
+        )
+    )
+    named = [row for row in rows if row.outcome == "NO_SOLUTION"]
+    found.append(
+        Check("every failure names its cause", str(len(named)), all(row.cause for row in named))
+    )
+    estimated = sum(row.estimated for row in seated)
+    found.append(
+        Check(
+            "≥ 99 % of the seated answers carry an error estimate",
+            f"{estimated} of {len(seated)}",
+            estimated >= 0.99 * len(seated),
+        )
+    )
+    return found
+
+
+def run_family(numbered: tuple[int, list[sp.Case]]) -> list[Row]:
+    number, family = numbered
+    return [run_case(number, case) for case in family]
+
+
+def run_case(number: int, case: sp.Case) -> Row:
+    started = time.perf_counter()
+    answer = sp.solve(case)
+    seconds = time.perf_counter() - started
+    state, no_solution = answer.seated, answer.outcome is Outcome.NO_SOLUTION
+    return Row(
+        family=number,
+        law="latex" if case.ureter.material.name == "latex" else "ureter",
+        outcome=answer.outcome.name,
+        pressure=answer.pressure,
+        at_edge=any("as soon as the stone is seated" in text for text in answer.warnings),
+        cause=answer.message.partition(": ")[2] if no_solution else "",
+        unstable_tube=no_solution and bool(waves(case)),
+        estimated=answer.error is not None,
+        slack=state is not None and state.contact_angle_slack > 0.0,
+        flaws=() if state is None else tuple(flaws(state)),
+        case=describe(case),
+        seconds=seconds,
     )
 
 
-def is_sound(state: SeatedState) -> bool:
-    pressure, kept = state.contact_pressure, state.solver.volume
-    return bool(
-        np.all(np.isfinite(pressure))
-        and pressure.min() >= 0.0
-        and kept.smallest > 0.0
-        and abs(kept.wall) <= 1e-8
-        and 0.0 < state.contact_angle < np.pi / 2
-        and np.all(np.diff(state.theta) > 0.0)
-    )
+def flaws(state: sp.SeatedState) -> list[str]:
+    """The checks that a solved state fails; contact is checked from the deformed wall itself."""
+    wall, solver = state.wall, state.solver
+    assert wall is not None
+    inner = wall.R == 1.0
+    gap = (np.hypot(wall.r[inner], wall.z[inner]) - state.case.size_ratio) / state.case.size_ratio
+    edge = state.case.size_ratio * np.cos(state.contact_angle)
+    closed = wall.z[inner] < edge * (1.0 - 1e-9)
+    pressed = state.contact_pressure.min() >= 0.0 and np.all(np.isfinite(state.contact_pressure))
+    held = {
+        "gap ≥ 0": gap.min() > -1e-6,
+        "pressure ≥ 0": pressed,
+        # Where there is pressure there is no gap; beyond, there is none by construction.
+        "complementarity": np.abs(gap[closed]).max() < 1e-6 or state.contact_angle_slack > 0.0,
+        "wall volume to 1e-8": abs(solver.volume.wall) <= 1e-8,
+        "J > 0": solver.volume.smallest > 0.0,
+        f"axial balance to {BALANCE:.0%}": solver.axial_balance <= BALANCE,
+        "friction in its cone": solver.cone_excess <= 1e-8,
+    }
+    return [name for name, holds in held.items() if not holds]
 
 
-def _case(xi: float, eta: float, wall: sp.Material) -> sp.Case:
-    return sp.Case(
-        sp.Stone(size_ratio=xi),
-        sp.Ureter(wall_ratio=eta, material=wall),
-        method=sp.Method(seating="frictionless"),
+def failed(row: Row) -> bool:
+    return row.outcome == "NO_SOLUTION" and not row.unstable_tube
+
+
+def monotone_pairs(rows: list[Row]) -> list[tuple[Row, Row]]:
+    """Neighbours in ξ of one family that both move, by the balance and not from the edge."""
+    pairs = []
+    for _, members in itertools.groupby(rows, key=lambda row: row.family):
+        moving = [row for row in members if row.outcome == "MOVES" and not row.at_edge]
+        pairs += [pair for pair in itertools.pairwise(moving) if pair[1].pressure != 0.0]
+    return pairs
+
+
+def outcome_row(rows: list[Row], law: str) -> list[str]:
+    mine = [row for row in rows if row.law == law]
+    count = Counter(row.outcome for row in mine)
+    unstable = sum(row.unstable_tube for row in mine)
+    numbers = (len(mine), count["MOVES"], count["BEYOND_CLOSURE"], unstable, sum(map(failed, mine)))
+    return [law, *map(str, numbers)]
+
+
+def causes(rows: list[Row]) -> list[list[str]]:
+    count = Counter(f"{row.cause.split(':')[0]} ({row.case})" for row in rows)
+    return [[text, str(number)] for text, number in count.most_common()] or [["none", "0"]]
+
+
+def families() -> list[list[sp.Case]]:
+    """Every second family is latex; sizes are log-uniform in ξ − 1 and rise."""
+    random = np.random.default_rng(SEED)
+    found = []
+    for k in range(FAMILIES):
+        law = ("latex", "ureter")[k % 2]
+        eta = 1.0 + 10.0 ** random.uniform(np.log10(0.05), np.log10(3.0))
+        low, high = np.log10(SMALLEST), np.log10(TOP[law])
+        sizes = np.sort(1.0 + 10.0 ** random.uniform(low, high, SIZES))
+        wall = material("latex") if law == "latex" else ureter(random)
+        friction = random.uniform(0.0, 1.0)
+        outside = random.uniform(0.0, 10.0) * (random.uniform() < 0.6)
+        confinement = ("dead", "hydrostatic")[int(random.integers(2))]
+        half_length = 6.0 * (40.0 / 6.0) ** random.uniform()
+        seating = ("pressed", "pressed", "growing", "frictionless")[int(random.integers(4))]
+        found.append(
+            [
+                sp.Case(
+                    sp.Stone(size_ratio=float(xi), friction=friction),
+                    sp.Ureter(wall_ratio=eta, material=wall),
+                    sp.Load(f"{outside} kPa", confinement),
+                    sp.Method(seating=seating, half_length=half_length),
+                )
+                for xi in sizes
+            ]
+        )
+    return found
+
+
+def ureter(random: np.random.Generator) -> sp.Material:
+    base = material(("ureter", "ureter-soft-cross")[int(random.integers(2))])
+    law = base.law
+    assert isinstance(law, Fung)
+    G = 10.0 ** random.uniform(np.log10(5e3), 5.0)
+    own = Fung(law.C, law.a1111, law.a2222, law.a1122, G)
+    return sp.Material(base.name, own, "", "", "", base.strain_range)
+
+
+def describe(case: sp.Case) -> str:
+    law = case.ureter.material.law
+    ground = f", G {law.G / 1e3:.0f} kPa" if isinstance(law, Fung) else ""
+    load = case.load
+    outside = f", {load.confining_pressure / 1e3:.1f} kPa {load.confinement}"
+    return (
+        f"{case.ureter.material.name}{ground}, η {case.wall_ratio:.3f}, ξ {case.size_ratio:.4f}, "
+        f"μ {case.stone.friction:.2f}{outside if load.confining_pressure else ''}, "
+        f"L {case.method.half_length:.0f}, {case.method.seating}"
     )

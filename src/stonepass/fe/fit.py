@@ -193,7 +193,7 @@ def _layout(edge: float, reference: float, tube: Tube, resolution: Resolution) -
     n, fraction = resolution.closed, resolution.edge
     inside = 1.0 - graded(n, fraction, 1.0)[::-1]
     first, total = fraction * reference, tube.half_length - reference
-    beyond = Beyond.plan(first, total, resolution.growth, tube.longest_column)
+    beyond = Beyond.plan(first, total, resolution.growth, *tube.even_columns)
     outside = beyond.points(fraction * edge, tube.half_length - edge)
     first_row = min(4.0 * fraction, 0.5) * reference
     return Layout(

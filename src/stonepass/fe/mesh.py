@@ -78,7 +78,7 @@ def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points
 
     ``graded(2, 1.0, 3.0)`` is 0, 1, 3: the intervals 1 and 2 have the ratio 2.
     """
-    if first * count >= total:
+    if count == 1 or first * count >= total:
         return np.linspace(0.0, total, count + 1)
 
     def excess(log_ratio: float) -> float:
@@ -106,24 +106,35 @@ def growing(
 
 @dataclass(frozen=True)
 class Beyond:
-    """Columns beyond the contact: `growing` ones over the length `span`, then `even` ones."""
+    """Columns beyond the contact: `near` growing ones up to `span`, `even` ones, `far` growing.
 
-    growing: int
+    Without a `longest` column there are the near ones only.
+    """
+
+    growth: float
+    longest: float
     span: float
+    near: int
     even: int
+    far: int
 
     @classmethod
-    def plan(cls, first: float, total: float, growth: float, longest: float) -> Beyond:
-        """As few columns as `growth` allows; those longer than `longest` are cut to it."""
+    def plan(cls, first: float, total: float, growth: float, longest: float, most: int) -> Beyond:
+        """As few columns as `growth` allows; up to `most` of them are held at `longest`."""
         span = first + longest / (1.0 - 1.0 / growth)  # where intervals have grown to the longest
         if span >= total:
-            return cls(intervals(first, total, growth), total, 0)
-        even = int(np.ceil((total - span) / longest))
-        return cls(intervals(first, span, growth), span, even)
+            return cls(growth, longest, total, intervals(first, total, growth), 0, 0)
+        even = min(most, int((total - span) / longest))
+        rest = total - span - even * longest
+        far = intervals(longest, rest, growth, least=1)
+        return cls(growth, longest, span, intervals(first, span, growth), even, far)
 
     def points(self, first: float, total: float) -> Float[np.ndarray, " points"]:
         """Points 0 … `total`, the first interval `first`."""
-        if self.even == 0:
-            return graded(self.growing, first, total)
-        even = np.linspace(self.span, total, self.even + 1)
-        return np.concatenate([graded(self.growing, first, self.span), even[1:]])
+        if self.far == 0:
+            return graded(self.near, first, total)
+        near = graded(self.near, first, self.span)
+        even = self.span + self.longest * np.arange(1, self.even + 1)
+        end = self.span + self.even * self.longest
+        far = end + graded(self.far, self.longest, total - end)
+        return np.concatenate([near, even, far[1:]])

@@ -74,7 +74,7 @@ def scout_layout(tube: Tube, reach: float, columns: int, growth: float) -> Layou
     """Equal columns up to `reach`, growing ones beyond and through the wall."""
     first = reach / columns
     total = tube.half_length - reach
-    beyond = Beyond.plan(first, total, growth, tube.longest_column).points(first, total)
+    beyond = Beyond.plan(first, total, growth, *tube.even_columns).points(first, total)
     return Layout(
         radial=1.0 + growing(first, tube.wall_ratio - 1.0, 1.5 * growth),
         axial=np.concatenate([np.linspace(0.0, reach, columns + 1), reach + beyond[1:]]),

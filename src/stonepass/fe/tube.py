@@ -9,13 +9,14 @@ function of the data, and with grid lines where the pressure has its square-root
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
 
 from threadpoolctl import ThreadpoolController
 
 from stonepass.fe.fit import Fitted, fit, settle
+from stonepass.fe.folds import self_contact
 from stonepass.fe.press import WrapAt, press
 from stonepass.fe.problem import Failure, Path, Resolution, Tube
 from stonepass.fe.scout import Start, scout
@@ -44,57 +45,63 @@ def seat_on_sphere(
     def scouted(columns: int, weight: float) -> Start | Failure:
         return scout(tube, radius, wrap_at(radius, 0.0), columns, weight)
 
+    def starts(resolution: Resolution) -> Iterator[Start | Failure]:
+        if found and path is None:
+            yield from _after(found[-1])
+        for settings in SCOUTS:
+            start = scouted(*settings)
+            if isinstance(start, Start) and path is not None:
+                pressed = press(tube, path, wrap_at, start, resolution)
+                start = replace(pressed, steps=start.steps + pressed.steps)
+            yield start
+
     found: list[Fitted | Failure] = []
     with _blas().limit(limits=1, user_api="blas"):
         for resolution in resolutions:
-            before = _after(found[-1]) if found and path is None else None
-            start = before or _start(tube, wrap_at, path, resolution, scouted)
-            found.append(_settled(tube, radius, start, resolution, path))
+            found.append(_first(starts(resolution), tube, radius, resolution, path))
     return found
 
 
-def _settled(
-    tube: Tube, radius: float, start: Start | Failure, resolution: Resolution, path: Path | None
-) -> Fitted | Failure:
-    """The fitted solve, or where it fails the one that lets the mesh settle on the edge."""
-    if isinstance(start, Failure):
-        return start
-    friction, steps = 0.0 if path is None else path.friction, start.steps
-    for solve in (fit, settle):
-        result = solve(tube, radius, start, resolution, friction)
-        steps += result.steps
-        if isinstance(result, Fitted):
-            break
-    return replace(result, steps=steps)
-
-
-def _after(solved: Fitted | Failure) -> Start | None:
-    """A solution as the start of a finer one."""
-    if isinstance(solved, Failure) or solved.slack > 0.0:
-        return None
-    edge = float(solved.layout.axial[solved.layout.closed])
-    return Start(solved.discrete, edge, solved.force, 0)
-
-
-def _start(
+def _first(
+    starts: Iterator[Start | Failure],
     tube: Tube,
-    wrap_at: WrapAt,
-    path: Path | None,
+    radius: float,
     resolution: Resolution,
-    scouted: Callable[[int, float], Start | Failure],
-) -> Start | Failure:
-    """Scout, and with friction follow the path; once more with other settings where it fails."""
-    steps, failure = 0, Failure("", 0)
-    for columns, weight in SCOUTS:
-        found = scouted(columns, weight)
-        steps += found.steps
-        if isinstance(found, Start) and path is not None:
-            found = press(tube, path, wrap_at, found, resolution)
-            steps += found.steps
-        if isinstance(found, Start):
-            return replace(found, steps=steps)
-        failure = found
+    path: Path | None,
+) -> Fitted | Failure:
+    """The first sound solution: from each start the fitted solve, then the one that settles."""
+    friction, steps, failure = 0.0 if path is None else path.friction, 0, Failure("", 0)
+    for start in starts:
+        steps += start.steps
+        if isinstance(start, Failure):
+            failure = start
+            continue
+        for solve in (fit, settle):
+            result = _sound(solve(tube, radius, start, resolution, friction))
+            steps += result.steps
+            if isinstance(result, Fitted):
+                return replace(result, steps=steps)
+            failure = result
     return replace(failure, steps=steps)
+
+
+def _sound(result: Fitted | Failure) -> Fitted | Failure:
+    """A wall that has folded onto itself is no solution."""
+    Z = None if isinstance(result, Failure) else self_contact(result)
+    if Z is None:
+        return result
+    reason = (
+        f"the wall found has folded onto itself near Z = {Z:.3g} (inner radii): a wall in contact "
+        "with itself is not modelled"
+    )
+    return Failure(reason, result.steps)
+
+
+def _after(solved: Fitted | Failure) -> Iterator[Start]:
+    """A solution as the start of a finer one."""
+    if isinstance(solved, Fitted) and solved.slack == 0.0:
+        edge = float(solved.layout.axial[solved.layout.closed])
+        yield Start(solved.discrete, edge, solved.force, 0)
 
 
 @lru_cache(maxsize=1)

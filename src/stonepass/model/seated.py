@@ -12,7 +12,6 @@ from jaxtyping import Float
 
 from stonepass.errors import BadInput
 from stonepass.fe.fit import Fitted
-from stonepass.fe.folds import self_contact
 from stonepass.fe.problem import Failure, Path, Resolution
 from stonepass.fe.readout import (
     Field,
@@ -189,9 +188,9 @@ def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSe
     wanted = (level.companion, level.resolution) if resolution is None else (resolution,)
     *coarser, solved = _solve(case, lumen, wanted)
     steps = sum(result.steps for result in (*coarser, solved))
-    reason = solved.reason if isinstance(solved, Failure) else _through_itself(solved)
-    if isinstance(solved, Failure) or reason:
-        return NoSeat(reason + _oversize(case), steps, time.perf_counter() - started)
+    if isinstance(solved, Failure):
+        reason = solved.reason + _oversize(case)
+        return NoSeat(reason, steps, time.perf_counter() - started)
     state = _state(case, replace(solved, steps=steps), started)
     if coarser and isinstance(coarser[0], Fitted):
         coarse = _contact(case, coarser[0])
@@ -210,16 +209,6 @@ def _error(state: SeatedState, coarse: Contact, factor: float) -> ErrorEstimate:
     angle = factor * abs(state.contact_angle - coarse.contact_angle)
     pressure = factor * abs(state.equator_contact_pressure - coarse.equator_contact_pressure)
     return ErrorEstimate(angle + state.contact_angle_slack, pressure)
-
-
-def _through_itself(solved: Fitted) -> str:
-    Z = self_contact(solved)
-    if Z is None:
-        return ""
-    return (
-        f"the wall found has folded onto itself near Z = {Z:.3g} (inner radii): a wall in contact "
-        "with itself is not modelled"
-    )
 
 
 def _oversize(case: Case) -> str:

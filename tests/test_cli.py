@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 import sys
 
@@ -14,8 +15,10 @@ from stonepass.cli.curve import size_range
 from stonepass.model.case_file import read_case
 
 PRESSURE_KEYS = [
-    "outcome", "message", "critical_pressure_kPa", "critical_angle_deg", "contact_angle_deg",
-    "equator_contact_pressure_kPa", "peak_contact_pressure_kPa", "closure_end_pressure_kPa",
+    "outcome", "message", "critical_pressure_kPa", "critical_pressure_error_kPa",
+    "critical_angle_deg", "contact_angle_deg", "contact_angle_error_deg",
+    "equator_contact_pressure_kPa", "equator_contact_pressure_error_kPa",
+    "peak_contact_pressure_kPa", "closure_end_pressure_kPa",
     "stability_margin", "size_ratio", "wall_ratio", "model", "material", "inputs", "solver", "warnings", "version",
     "disclaimer",
 ]  # fmt: skip
@@ -45,6 +48,9 @@ def test_pressure_json_has_every_key_and_nothing_else_is_on_stdout(cli):
     assert list(record) == PRESSURE_KEYS
     assert record["outcome"] == "MOVES"
     assert record["critical_pressure_kPa"] == pytest.approx(41.53, abs=0.05)
+    assert 0.0 < record["critical_pressure_error_kPa"] < 1e-3 * record["critical_pressure_kPa"]
+    assert 0.0 < record["contact_angle_error_deg"] < 0.05
+    assert 0.0 < record["equator_contact_pressure_error_kPa"] < 0.1
     assert record["inputs"]["law_constants"] == {"C10": 146500.0}
     assert set(record["solver"]) == {"dofs", "newton_steps", "seconds", "residual"}
     assert 0.0 <= record["solver"]["residual"] < 1e-8
@@ -68,7 +74,8 @@ def test_numbers_that_do_not_exist_are_null(cli):
     code, out, _ = cli("pressure", "--xi", 0.9, "--eta", 1.3, "--json")
     record = json.loads(out)
     assert (code, record["outcome"], record["critical_pressure_kPa"]) == (0, "LOOSE", 0.0)
-    for key in ("critical_angle_deg", "contact_angle_deg", "closure_end_pressure_kPa"):
+    for key in ("critical_angle_deg", "contact_angle_deg", "closure_end_pressure_kPa",
+                "critical_pressure_error_kPa", "contact_angle_error_deg"):  # fmt: skip
         assert record[key] is None
     assert record["solver"] == dict.fromkeys(("dofs", "newton_steps", "seconds", "residual"))
 
@@ -76,6 +83,8 @@ def test_numbers_that_do_not_exist_are_null(cli):
 def test_a_table_for_people_in_three_units(cli):
     code, out, _ = cli("pressure", *LATEX)
     assert code == 0
+    assert re.search(r"critical pressure +41\.5\d .*± 0\.0\d+ %", out)
+    assert re.search(r"contact angle +71\.93° +± 0\.0\d+°", out)
     for part in ("kPa", "mmHg", "cmH₂O", "critical pressure", "41.5", "311", "MOVES"):
         assert part in out
     assert max(map(len, out.splitlines())) <= 100
@@ -87,7 +96,7 @@ def test_no_answer_is_exit_1(cli):
     code, out, _ = cli("pressure", "--xi", 1.2, "--eta", 1.3, "--prestretch", 0.85, "--json")
     record = json.loads(out)
     assert (code, record["outcome"]) == (1, "NO_SOLUTION")
-    assert record["solver"]["newton_steps"] > 0
+    assert "the tube itself is not stable under this load" in record["message"]
     code, out, _ = cli("size", "--eta", 1.3, "--limit", "50kPa", "--json")
     assert (code, json.loads(out)["outcome"]) == (1, "BEYOND_RANGE")
     code, out, _ = cli("size", "--eta", 1.3, "--limit", "1Pa", "--friction", 1, "--json")
@@ -263,10 +272,13 @@ def test_size_json(cli):
     )
     record = json.loads(out)
     assert code == 0
-    added = {"critical_size_ratio", "critical_diameter_mm", "limit_kPa"}
+    added = {
+        "critical_size_ratio", "critical_size_ratio_error", "critical_diameter_mm", "limit_kPa"
+    }  # fmt: skip
     assert set(record) == {*PRESSURE_KEYS, *added}
     assert record["critical_diameter_mm"] == pytest.approx(3.5 * record["critical_size_ratio"])
     assert record["critical_pressure_kPa"] == pytest.approx(record["limit_kPa"], rel=1e-4)
+    assert 0.0 < record["critical_size_ratio_error"] < 5e-3
     no_lengths = json.loads(cli("size", "--eta", 1.3, "--limit", "12kPa", "--json")[1])
     assert no_lengths["critical_diameter_mm"] is None
     assert no_lengths["critical_size_ratio"] > 1.2

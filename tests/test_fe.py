@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from stonepass.fe.contact import Arc, lobatto, unilateral
 from stonepass.fe.discrete import discretise, free_unknowns, inner_wall, set_at_nodes, wall_form
 from stonepass.fe.friction import open_contact
-from stonepass.fe.mesh import Layout, graded, growing, intervals, place, structured_mesh
+from stonepass.fe.mesh import Beyond, Layout, graded, growing, intervals, place, structured_mesh
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Tube
 from stonepass.fe.wall import SYMBOLS, cauchy_stress, wall_energy
@@ -38,6 +38,33 @@ def test_growing_keeps_first_interval_total_and_growth(first, total, growth):
         assert steps[0] == pytest.approx(min(first, total / len(steps)), rel=1e-6)
     assert (steps[1:] / steps[:-1]).max() <= growth * (1.0 + 1e-9)
     assert len(steps) == intervals(first, total, growth)
+
+
+@given(
+    st.floats(1e-4, 0.1), st.floats(5.0, 50.0), st.floats(1.2, 3.0), st.floats(0.2, 20.0),
+    st.integers(0, 15),
+)  # fmt: skip
+def test_columns_beyond_the_contact_are_held_to_the_longest_for_a_while(
+    first, total, growth, longest, most
+):
+    plan = Beyond.plan(first, total, growth, longest, most)
+    points = plan.points(first, total)
+    steps = np.diff(points)
+    assert points[0] == 0.0
+    assert points[-1] == pytest.approx(total)
+    assert len(steps) == plan.near + plan.even + plan.far
+    assert steps.min() > 0.0
+    assert steps[0] == pytest.approx(first, rel=1e-6)
+    if plan.far:
+        assert plan.even == min(most, int((total - plan.span) / longest))
+        assert steps[: plan.near + plan.even].max() <= longest * (1.0 + 1e-9)
+        np.testing.assert_allclose(steps[plan.near : plan.near + plan.even], longest)
+
+
+def test_without_a_longest_column_they_only_grow():
+    plan = Beyond.plan(0.1, 9.0, 1.6, np.inf, 0)
+    assert (plan.even, plan.far) == (0, 0)
+    np.testing.assert_array_equal(plan.points(0.1, 9.0), growing(0.1, 9.0, 1.6))
 
 
 def test_lobatto_by_hand():

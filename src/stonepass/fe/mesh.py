@@ -121,13 +121,14 @@ class Beyond:
     @classmethod
     def plan(cls, first: float, total: float, growth: float, longest: float, most: int) -> Beyond:
         """As few columns as `growth` allows; up to `most` of them are held at `longest`."""
-        span = first + longest / (1.0 - 1.0 / growth)  # where intervals have grown to the longest
-        if span >= total:
+        longest = max(longest, first)
+        if growth * longest - first >= (growth - 1.0) * total:
             return cls(growth, longest, total, intervals(first, total, growth), 0, 0)
+        span = (growth * longest - first) / (growth - 1.0)  # intervals have grown to the longest
         even = min(most, int((total - span) / longest))
         rest = total - span - even * longest
         far = intervals(longest, rest, growth, least=1)
-        return cls(growth, longest, span, intervals(first, span, growth), even, far)
+        return cls(growth, longest, span, intervals(first, span, growth, least=1), even, far)
 
     def points(self, first: float, total: float) -> Float[np.ndarray, " points"]:
         """Points 0 … `total`, the first interval `first`."""

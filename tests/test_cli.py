@@ -80,6 +80,20 @@ def test_numbers_that_do_not_exist_are_null(cli):
     assert record["solver"] == dict.fromkeys(("dofs", "newton_steps", "seconds", "residual"))
 
 
+def test_accuracy_is_chosen_kept_and_told(cli, tmp_path):
+    path = tmp_path / "case.toml"
+    rough = json.loads(cli("pressure", *LATEX, "--accuracy", "fast", "--save", path, "--json")[1])
+    usual = json.loads(cli("pressure", *LATEX, "--json")[1])
+    assert json.loads(cli("pressure", path, "--json")[1])["inputs"]["accuracy"] == "fast"
+    assert (rough["inputs"]["accuracy"], usual["inputs"]["accuracy"]) == ("fast", "standard")
+    assert rough["solver"]["dofs"] < usual["solver"]["dofs"]
+    for key in ("critical_pressure_error_kPa", "contact_angle_error_deg"):
+        assert rough[key] > usual[key]
+    code, _, err = cli("pressure", *LATEX, "--accuracy", "best")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "fast, standard, reference" in err
+
+
 def test_a_table_for_people_in_three_units(cli):
     code, out, _ = cli("pressure", *LATEX)
     assert code == 0
@@ -297,6 +311,8 @@ def test_curve_writes_what_it_shows(cli, tmp_path):
     assert [row["size_ratio"] for row in rows] == ["1", "1.1", "1.2"]
     assert [row["outcome"] for row in rows] == ["LOOSE", "MOVES", "MOVES"]
     assert rows[0]["contact_angle_deg"] == ""
+    assert rows[0]["critical_pressure_error_kPa"] == ""
+    assert 0.0 < float(rows[2]["critical_pressure_error_kPa"]) < 0.05
     assert float(rows[2]["critical_pressure_kPa"]) == pytest.approx(41.53, abs=0.05)
     assert "41.5" in out
     assert figure.read_text().startswith("<?xml")

@@ -1,0 +1,107 @@
+"""The error that answers claim: it covers the true one, falls with the level, and is passed on."""
+
+from dataclasses import replace
+
+import pytest
+
+import stonepass as sp
+from stonepass.fe.problem import Failure, Resolution
+from stonepass.model import seated
+from stonepass.model.accuracy import LEVELS
+
+LATEX = sp.Ureter(wall_ratio=1.5, material="latex")
+FRICTIONLESS = sp.Method(seating="frictionless")
+
+
+def claimed(case, accuracy):
+    """The answer at a level, and its errors of α₀, σ(π/2) and P_ucr."""
+    answer = sp.solve(replace(case, method=replace(case.method, accuracy=accuracy)))
+    error = answer.error
+    return answer, (error.contact_angle, error.equator_contact_pressure, error.critical_pressure)
+
+
+def numbers(answer):
+    state = answer.seated
+    return state.contact_angle, state.equator_contact_pressure, answer.pressure
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        sp.Case(sp.Stone(size_ratio=1.2), LATEX, method=FRICTIONLESS),
+        sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3)),
+    ],
+    ids=["frictionless", "pressed"],
+)
+def test_claims_cover_the_finest_level_and_fall_towards_it(case):
+    fine, least = claimed(case, "reference")
+    limit, larger = numbers(fine), least
+    for level in ("standard", "fast"):
+        answer, errors = claimed(case, level)
+        for value, error, truth in zip(numbers(answer), errors, limit, strict=True):
+            assert abs(value - truth) <= error
+        assert errors[2] > larger[2] > 0.0
+        larger = errors
+    assert least[2] < 2e-3 * fine.pressure
+
+
+def test_a_mesh_of_ones_own_is_solved_alone():
+    answer = sp.solve(sp.Case(sp.Stone(size_ratio=1.2), LATEX, method=FRICTIONLESS), Resolution())
+    assert answer.error is None
+    assert answer.seated.coarse is None
+    assert "the error is not estimated" in answer.warnings[-1]
+
+
+def test_an_answer_whose_second_solve_fails_says_so(monkeypatch):
+    usual = seated._solve
+
+    def without_companion(case, lumen, wanted):
+        return [Failure("made up", 7), *usual(case, lumen, wanted)[1:]]
+
+    monkeypatch.setattr(seated, "_solve", without_companion)
+    answer = sp.solve(sp.Case(sp.Stone(size_ratio=1.2), LATEX, method=FRICTIONLESS))
+    assert answer.outcome is sp.Outcome.MOVES
+    assert answer.error is None
+    assert "the error is not estimated" in answer.warnings[-1]
+    assert answer.newton_steps > 7
+
+
+def test_without_a_balance_the_contact_still_has_its_error():
+    stone = sp.Stone(size_ratio=1.2, friction=1.5)
+    answer = sp.solve(sp.Case(stone, LATEX, method=FRICTIONLESS))
+    assert answer.outcome is sp.Outcome.BEYOND_CLOSURE
+    assert answer.error.contact_angle > 0.0
+    assert answer.error.critical_pressure is None
+
+
+def test_the_error_of_a_size_is_that_of_its_pressure_over_the_slope():
+    found = sp.critical_size(LATEX, "30 kPa", method=FRICTIONLESS)
+    case = found.at_size.case
+    up, down = (
+        sp.solve(case.with_size_ratio(found.size_ratio + h), Resolution()).pressure
+        for h in (1e-3, -1e-3)
+    )
+    expected = found.at_size.error.critical_pressure / ((up - down) / 2e-3)
+    assert found.size_ratio_error == pytest.approx(expected + 1e-6, rel=0.2)
+
+
+def test_an_unknown_level_is_refused():
+    with pytest.raises(
+        sp.BadInput, match="accuracy is best, but must be one of fast, standard, ref"
+    ):
+        sp.Method(accuracy="best")
+
+
+def test_every_level_has_a_coarser_companion():
+    for level in LEVELS.values():
+        mesh, coarser = level.resolution, level.companion
+        assert coarser.increments < mesh.increments
+        assert coarser.closed < mesh.closed
+        assert coarser.edge > mesh.edge
+
+
+def test_a_refined_resolution():
+    fine = Resolution(order=4, closed=10, edge=0.02, growth=1.69, increments=8).refined(2.0)
+    assert (fine.order, fine.closed, fine.edge, fine.increments) == (4, 20, 0.01, 16)
+    assert fine.growth == pytest.approx(1.3)
+    assert fine.path_columns == 20

@@ -44,7 +44,7 @@ class Row:
 
 def section() -> Section:
     started = time.perf_counter()
-    grid = list(enumerate(families()))
+    grid = list(enumerate(families(SEED, FAMILIES)))
     with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
         rows = list(itertools.chain.from_iterable(pool.map(run_family, grid)))
     elapsed = time.perf_counter() - started
@@ -194,11 +194,11 @@ def causes(rows: list[Row]) -> list[list[str]]:
     return [[text, str(number)] for text, number in count.most_common()] or [["none", "0"]]
 
 
-def families() -> list[list[sp.Case]]:
+def families(seed: int, count: int) -> list[list[sp.Case]]:
     """Every second family is latex; sizes are log-uniform in ξ − 1 and rise."""
-    random = np.random.default_rng(SEED)
+    random = np.random.default_rng(seed)
     found = []
-    for k in range(FAMILIES):
+    for k in range(count):
         law = ("latex", "ureter")[k % 2]
         eta = 1.0 + 10.0 ** random.uniform(np.log10(0.05), np.log10(3.0))
         low, high = np.log10(SMALLEST), np.log10(TOP[law])

@@ -54,18 +54,20 @@ class System(Protocol):
         """Go to origin + `step` × direction."""
 
 
-def newton(system: System, tolerance: float, most: int = 40) -> Report:
-    """Iterate until the residual norm is at most `tolerance`.
+def newton(system: System, tolerance: float, most: int = 40, polish: float = 1.0) -> Report:
+    """Iterate until the residual norm is at most `tolerance`; polish down to `polish` × that.
 
     The step is halved until the norm falls by `SUFFICIENT_DECREASE` × step, down to
     `SMALLEST_STEP`, which is taken as it is: with contact a step may have to climb. A state that
     is not finite even there ends the iteration, as does a singular matrix. Where a step cuts the
     norm to `FAST` of what it was, its factorisation serves for more steps, as long as each cuts
-    it to `STEADY`; these do not count, since they cost a tenth.
+    it to `STEADY`; these do not count, since they cost a tenth. Polishing takes such steps only.
     """
     norm = system.residual()
     for count in range(most):
         if norm <= tolerance:
+            if count > 0:
+                norm = _same_tangent(system, norm, polish * tolerance)
             return Report(count, norm, "")
         try:
             system.direction()
@@ -82,7 +84,11 @@ def newton(system: System, tolerance: float, most: int = 40) -> Report:
 
 
 def newton_or_homotopy(
-    system: Plain, stiffen: Callable[[float], None], tolerance: float, most: int = 30
+    system: Plain,
+    stiffen: Callable[[float], None],
+    tolerance: float,
+    most: int = 30,
+    polish: float = 1.0,
 ) -> Report:
     """Iterate directly; where that fails, from the same start down a ladder of stiffer walls.
 
@@ -90,14 +96,14 @@ def newton_or_homotopy(
     modulus; the last rung is the wall itself.
     """
     start = system.remember()
-    report = newton(system, tolerance, most)
+    report = newton(system, tolerance, most, polish)
     if report.converged:
         return report
     steps = report.steps
     system.recall(start)
     for rung in LADDER:
         stiffen(rung)
-        last = newton(system, tolerance, most)
+        last = newton(system, tolerance, most, polish)
         steps += last.steps
         if not last.converged:
             break

@@ -26,19 +26,24 @@ NAMED = (
     ("ureter", 1.3, 1.21, 0.5, "frictionless"),
     ("ureter", 1.3, 1.21, 0.5, "pressed"),
     ("ureter", 3.4, 1.11, 0.5, "pressed"),
-    ("ureter", 1.3, 1.21, 0.5, "growing"),
+    ("ureter", 3.4, 1.11, 0.5, "growing"),
 )
 VARIABLES = ("ξ", "η")
 
 
 @dataclass(frozen=True)
 class Line:
-    """Neighbouring solves along ξ or η: largest deviation of each slope from a smooth one."""
+    """Neighbouring solves along ξ or η: largest deviation of each slope from a smooth one.
+
+    `kinked` where some state has no smooth contact edge, as at kinks of a wall that has lost its
+    stability; it then says so itself.
+    """
 
     case: sp.Case
     variable: str
     pressure: float
     angle: float
+    kinked: bool
 
 
 def section() -> Section:
@@ -51,14 +56,14 @@ def section() -> Section:
     ]
     checks = []
     for variable in VARIABLES:
-        mine = [each for each in lines if each.variable == variable]
+        mine = [each for each in lines if each.variable == variable and not each.kinked]
         for name, key in (("P_ucr", "pressure"), ("α₀", "angle")):
             worst = max(getattr(each, key) for each in mine)
             checks.append(
                 Check(
                     f"d{name}/d{variable} from neighbouring solves is smooth to {SMOOTH:.0%}",
                     f"{worst:.2%} at worst of {len(mine)} lines",
-                    len(mine) >= len(NAMED) and worst <= SMOOTH,
+                    len(mine) > len(NAMED) + RANDOM_LINES // 2 and worst <= SMOOTH,
                 )
             )
     return Section(
@@ -80,7 +85,10 @@ def section() -> Section:
 
 
 def along(*lines: Line) -> list[tuple[str, str]]:
-    return [(f"{each.pressure:.2%}", f"{each.angle:.2%}") for each in lines]
+    return [
+        ("no smooth edge",) * 2 if each.kinked else (f"{each.pressure:.2%}", f"{each.angle:.2%}")
+        for each in lines
+    ]
 
 
 def line(case: sp.Case, variable: str) -> Line:
@@ -88,10 +96,11 @@ def line(case: sp.Case, variable: str) -> Line:
     answers = [sp.solve(moved(case, variable, each), Resolution()) for each in share]
     angle = np.array([a.seated.contact_angle for a in answers if a.seated is not None])
     pressure = np.array([a.pressure for a in answers if a.pressure is not None])
+    kinked = any(a.seated.contact_angle_slack > 0.0 for a in answers if a.seated is not None)
     if not len(angle) == len(pressure) == POINTS:
-        return Line(case, variable, np.inf, np.inf)
+        return Line(case, variable, np.inf, np.inf, kinked)
     open_angle = np.pi / 2 - angle  # vanishes with the stretch, as P_ucr does
-    return Line(case, variable, scatter(share, pressure), scatter(share, open_angle))
+    return Line(case, variable, scatter(share, pressure), scatter(share, open_angle), kinked)
 
 
 def moved(case: sp.Case, variable: str, share: float) -> sp.Case:

@@ -145,6 +145,7 @@ class Plain:
         self._inverse: Any = None
         self._coupling = free & state.space.FreeDofs(True)
         self._force, self._change, self._origin = (state.vec.CreateVector() for _ in range(3))
+        self._known = False  # whether `_force` is the residual at the current state
 
     def evaluate(self, into: Any) -> None:
         """Write the residual vector at the current state into `into`."""
@@ -154,18 +155,22 @@ class Plain:
     def residual(self) -> float:
         """Norm of the residual at the current state."""
         self.evaluate(self._force)
+        self._known = True
         return float(ng.Norm(self._force))
 
     def direction(self, *, again: bool = False) -> None:
         """Linearise and factorise, unless `again`, and solve."""
         self._origin.data = self.state.vec
-        self.evaluate(self._force)
+        if not self._known:
+            self.evaluate(self._force)
         if not again:
             self.factorise()
         self.solve(self._force, self._change)
+        self._known = False
 
     def move(self, step: float) -> None:
         """Go to origin − step × change."""
+        self._known = False
         self.state.vec.data = self._origin - step * self._change
 
     def remember(self) -> Any:
@@ -176,6 +181,7 @@ class Plain:
 
     def recall(self, kept: Any) -> None:
         """Go back to a remembered state."""
+        self._known = False
         self.state.vec.data = kept
 
     def factorise(self) -> None:
@@ -246,7 +252,8 @@ class Bordered(Plain):
             self._apply(self.value + increment)
             self.evaluate(self._shifted)
             self._apply(self.value)
-            self.evaluate(self._force)
+            if not self._known:
+                self.residual()
             self._shifted.data = (1.0 / increment) * (self._shifted - self._force)
         super().direction(again=again)
         if not again:
@@ -259,6 +266,7 @@ class Bordered(Plain):
         most = 0.3 * abs(self._origin_value)
         if abs(step * self._rate) > most:
             step = most / abs(self._rate)
+        self._known = False
         self.value = self._origin_value + step * self._rate
         self._apply(self.value)
         self.state.vec.data = self._origin - step * self._change - step * self._rate * self._column

@@ -1,0 +1,80 @@
+"""Where the time of a solve goes: python benchmarks/phases.py
+
+Times the engine's calls by the profiler, in one thread, and prints a table for docs/speed.md.
+"""
+
+from __future__ import annotations
+
+import cProfile
+import os
+import pstats
+
+REPEATS = 5
+# Phase to the functions that do it, by the ends of their names as the profiler writes them.
+PHASES = {
+    "tangent: assembly and condensation": ("ngsolve.comp.AssembleLinearization",),
+    "tangent: factorisation": ("ngsolve.la.Inverse", "ngsolve.la.Update"),
+    "residual": ("ngsolve.comp.Apply",),
+    "back substitution": ("newton.py:solve",),
+    "set-up of meshes, spaces and forms": (
+        "discrete.py:discretise",
+        "discrete.py:wall_form",
+        "fit.py:_closed_form",
+        "scout.py:_form",
+        "press.py:_form",
+    ),
+    "stability of the solved wall": ("soundness.py:soundness",),
+}
+
+
+def main() -> None:
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    import stonepass as sp
+
+    def case(seating: str, material: str, eta: float, xi: float) -> sp.Case:
+        return sp.Case(
+            sp.Stone(size_ratio=xi),
+            sp.Ureter(wall_ratio=eta, material=material),
+            method=sp.Method(seating=seating),
+        )
+
+    cases = {
+        "frictionless latex, η 1.5, ξ 1.2": case("frictionless", "latex", 1.5, 1.2),
+        "frictionless ureter, η 1.3, ξ 1.21": case("frictionless", "ureter", 1.3, 1.21),
+        "pressed latex, η 1.5, ξ 1.2": case("pressed", "latex", 1.5, 1.2),
+        "pressed ureter, η 1.3, ξ 1.21": case("pressed", "ureter", 1.3, 1.21),
+    }
+    columns = {what: shares(lambda case=case: sp.solve(case)) for what, case in cases.items()}
+    print("| | " + " | ".join(columns) + " |\n|" + " --- |" * (len(columns) + 1))
+    for phase in next(iter(columns.values())):
+        print(f"| {phase} | " + " | ".join(column[phase] for column in columns.values()) + " |")
+
+
+def shares(call) -> dict[str, str]:
+    """Share of each phase, the rest, and seconds per call (the profiler's own time included)."""
+    call()
+    profiler = cProfile.Profile()
+    profiler.enable()
+    for _ in range(REPEATS):
+        call()
+    profiler.disable()
+    table = pstats.Stats(profiler).stats
+    total = sum(own for _, _, own, _, _ in table.values())
+    found = {phase: cumulated(table, names) / total for phase, names in PHASES.items()}
+    found["everything else"] = 1.0 - sum(found.values())
+    row = {phase: f"{share:.0%}" for phase, share in found.items()}
+    row["**seconds per solve**"] = f"{total / REPEATS:.2f}"
+    return row
+
+
+def cumulated(table, names: tuple[str, ...]) -> float:
+    """Seconds in the functions of these names, what they call included."""
+    return sum(
+        inclusive
+        for (file, _, function), (_, _, _, inclusive, _) in table.items()
+        if f"{os.path.basename(file)}:{function.strip('<>').split()[-1]}".endswith(names)
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -16,7 +16,7 @@ import stonepass as sp
 from stonepass.fe.problem import Resolution
 from stonepass.model.accuracy import LEVELS
 
-SEED, CASES = 20245, 100
+SEED, CASES = 20247, 120  # the claims were tuned on another seed
 COVERED = 0.95
 QUANTITIES = ("α₀", "σ(π/2)", "P_ucr")
 REFERENCE = LEVELS["reference"].resolution

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from stonepass.fe.problem import Resolution
 
@@ -14,26 +14,36 @@ class Level:
     """A resolution, a coarser companion, and what their difference says of the error.
 
     Every case is solved with both; the error of the finer answer is estimated as `factor` × their
-    difference. The path with friction converges with the first order of the increments, so at half
-    of them the difference equals the error left; twice that is claimed. `calibration` of the
-    verification page measures how often that holds.
+    difference, plus `floor` × the number itself, since two solves may agree by chance. The
+    companion has elements of one order less on a coarser mesh and half the increments. The path
+    with friction converges with the first order of the increments, so there the difference equals
+    the error left. `error_estimates` of the verification page measures how often a claim holds.
     """
 
     resolution: Resolution
     companion: Resolution
     factor: float
+    floor: float
+
+    def claim(self, difference: float, value: float) -> float:
+        """The error to claim where the companion differs from `value` by `difference`."""
+        return self.factor * abs(difference) + self.floor * abs(value)
 
 
-_DRAFT = Resolution(order=4, closed=4, edge=0.1, growth=2.5, increments=2, path_columns=5)
 _FAST = Resolution(order=4, closed=6, edge=0.05, growth=2.0, increments=4, path_columns=7)
 _STANDARD = Resolution()
 _REFERENCE = Resolution(order=5, closed=16, edge=0.008, growth=1.5, increments=32, path_columns=20)
 
 LEVELS = {
-    "fast": Level(_FAST, _DRAFT, 2.0),
-    "standard": Level(_STANDARD, _FAST, 2.0),
+    "fast": Level(
+        _FAST,
+        Resolution(order=3, closed=5, edge=0.1, growth=2.5, increments=2, path_columns=5),
+        3.0,
+        1e-3,
+    ),
+    "standard": Level(_STANDARD, replace(_FAST, order=3), 2.0, 2e-4),
     # Four times the increments of its companion: a third of the difference is left.
-    "reference": Level(_REFERENCE, _STANDARD, 2.0 / 3.0),
+    "reference": Level(_REFERENCE, _STANDARD, 2.0 / 3.0, 5e-5),
 }
 
 

@@ -202,8 +202,9 @@ def _error(seated: SeatedState, found: _Critical | None) -> ErrorEstimate | None
         return seated.error
     coarse = _critical(seated.coarse)
     pressure = _closure_end(seated.coarse) if coarse is None else coarse.pressure
-    factor = LEVELS[seated.case.method.accuracy].factor
-    return replace(seated.error, critical_pressure=factor * abs(pressure - found.pressure))
+    level = LEVELS[seated.case.method.accuracy]
+    claim = level.claim(pressure - found.pressure, found.pressure)
+    return replace(seated.error, critical_pressure=claim)
 
 
 _EDGE_WARNING = (

@@ -25,7 +25,7 @@ from stonepass.fe.readout import (
 from stonepass.fe.tube import seat_on_sphere
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
-from stonepass.model.accuracy import LEVELS, ErrorEstimate
+from stonepass.model.accuracy import LEVELS, ErrorEstimate, Level
 from stonepass.model.case import Case
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.first_guess import wrap_round_arc
@@ -37,6 +37,7 @@ __all__ = ["Contact", "NoSeat", "SeatedState", "SolverReport", "seat"]
 
 IMBALANCE = 0.02
 CONE_EXCESS = 1e-6
+INNER = 0.5  # share of the contact whose pressure tells the error at the equator
 
 
 @dataclass(frozen=True)
@@ -194,7 +195,7 @@ def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSe
     state = _state(case, replace(solved, steps=steps), started)
     if coarser and isinstance(coarser[0], Fitted):
         coarse = _contact(case, coarser[0])
-        return replace(state, coarse=coarse, error=_error(state, coarse, level.factor))
+        return replace(state, coarse=coarse, error=_error(state, coarse, level))
     return state
 
 
@@ -205,10 +206,20 @@ def _solve(case: Case, lumen: float, wanted: Sequence[Resolution]) -> list[Fitte
     return seat_on_sphere(tube, case.size_ratio, wrap_at, wanted, _path(case, lumen))
 
 
-def _error(state: SeatedState, coarse: Contact, factor: float) -> ErrorEstimate:
-    angle = factor * abs(state.contact_angle - coarse.contact_angle)
-    pressure = factor * abs(state.equator_contact_pressure - coarse.equator_contact_pressure)
-    return ErrorEstimate(angle + state.contact_angle_slack, pressure)
+def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
+    """Claim the error of α₀ and σ(π/2).
+
+    σ(θ) of a path keeps ripples of its increments, and two of them may cross at the equator; so
+    the largest difference within the inner half of the contact counts.
+    """
+    width = np.pi / 2 - state.contact_angle
+    inner = state.theta >= np.pi / 2 - INNER * width
+    ripple = np.abs(state.contact_pressure - coarse.pressure_at(state.theta))[inner].max()
+    angle = level.claim(state.contact_angle - coarse.contact_angle, width)
+    return ErrorEstimate(
+        contact_angle=float(angle + state.contact_angle_slack),
+        equator_contact_pressure=level.claim(float(ripple), state.equator_contact_pressure),
+    )
 
 
 def _oversize(case: Case) -> str:

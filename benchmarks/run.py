@@ -62,7 +62,26 @@ def in_process() -> list[dict]:
         ("pressed ureter, η 1.3, ξ 1.212", solve("pressed", "ureter", 1.3, 1.212), 4.0),
         ("pressed ureter, η 3.4, ξ 1.109", solve("pressed", "ureter", 3.4, 1.109), 4.0),
     ]
-    return [row(f"{what} (after import)", timed(call), target) for what, call, target in cases]
+    rows = [row(f"{what} (after import)", timed(call), target) for what, call, target in cases]
+    return [*rows, *curves()]
+
+
+def curves() -> list[dict]:
+    """P_ucr(ξ) at 31 sizes, errors estimated, in this process."""
+    import stonepass as sp
+    from stonepass.studies.curve import curve
+
+    rows = []
+    for material, eta, top in (("latex", 1.5, 1.5), ("ureter", 1.3, 1.3)):
+        case = sp.Case(
+            sp.Stone(size_ratio=top),
+            sp.Ureter(wall_ratio=eta, material=material),
+            method=sp.Method(seating="frictionless"),
+        )
+        sizes = [1.0 + (top - 1.0) * k / 30 for k in range(31)]
+        seconds = timed(lambda case=case, sizes=sizes: curve(case, sizes), repeats=3)
+        rows.append(row(f"curve of 31 sizes, frictionless {material}, η {eta}", seconds, 8.0))
+    return rows
 
 
 def processes() -> list[dict]:
@@ -91,10 +110,10 @@ def process(command: list[str]) -> Callable[[], object]:
     return lambda: subprocess.run(command, check=True, stdout=null, stderr=null)
 
 
-def timed(call: Callable[[], object]) -> float:
+def timed(call: Callable[[], object], repeats: int = REPEATS) -> float:
     call()
     seconds = []
-    for _ in range(REPEATS):
+    for _ in range(repeats):
         started = time.perf_counter()
         call()
         seconds.append(time.perf_counter() - started)

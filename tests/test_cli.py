@@ -104,6 +104,19 @@ def test_a_table_for_people_in_three_units(cli):
     assert max(map(len, out.splitlines())) <= 100
 
 
+def test_errors_in_tables_are_rounded_up(cli):
+    record = json.loads(cli("pressure", *LATEX, "--json")[1])
+    table = cli("pressure", *LATEX)[1]
+    claims = {
+        r"critical pressure .*± ([\d.]+) %": 100.0
+        * record["critical_pressure_error_kPa"]
+        / record["critical_pressure_kPa"],
+        r"contact angle .*± ([\d.]+)°": record["contact_angle_error_deg"],
+    }
+    for pattern, error in claims.items():
+        assert error <= float(re.search(pattern, table)[1]) <= 2.0 * error
+
+
 def test_no_answer_is_exit_1(cli):
     code, out, _ = cli("pressure", *LATEX, "--friction", 1.5, "--json")
     assert (code, json.loads(out)["outcome"]) == (1, "BEYOND_CLOSURE")
@@ -315,6 +328,7 @@ def test_curve_writes_what_it_shows(cli, tmp_path):
     assert 0.0 < float(rows[2]["critical_pressure_error_kPa"]) < 0.05
     assert float(rows[2]["critical_pressure_kPa"]) == pytest.approx(41.53, abs=0.05)
     assert "41.5" in out
+    assert out.count(" %") == 2  # an error beside each pressure that is not 0
     assert figure.read_text().startswith("<?xml")
 
 

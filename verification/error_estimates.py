@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 
 import numpy as np
+from cores import on_all_cores
 from page import Check, Section
 from robustness import describe, families
 
@@ -44,8 +43,7 @@ def section() -> Section:
     sample = cases()
     jobs = [(case, ("fast", "standard"), REFERENCE) for case in sample]
     jobs += [(case, ("reference",), BEYOND) for case in sample[:BEYOND_CASES]]
-    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
-        found = list(pool.map(compare, *zip(*jobs, strict=True)))
+    found = on_all_cores("error estimates", compare, jobs)
     unsolved = sum(not comparisons for comparisons in found[:CASES])
     everything = list(itertools.chain.from_iterable(found))
     groups = {

@@ -5,11 +5,10 @@ from __future__ import annotations
 import itertools
 import time
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 
 import numpy as np
+from cores import on_all_cores
 from page import Check, Section
 
 import stonepass as sp
@@ -58,8 +57,7 @@ class Row:
 def section() -> Section:
     started = time.perf_counter()
     grid = list(enumerate(families(SEED, FAMILIES)))
-    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
-        rows = list(itertools.chain.from_iterable(pool.map(run_family, grid)))
+    rows = list(itertools.chain.from_iterable(on_all_cores("robustness", run_family, grid)))
     elapsed = time.perf_counter() - started
     seconds = sorted(row.seconds for row in rows)
     tables = [
@@ -130,8 +128,7 @@ def checks(rows: list[Row]) -> list[Check]:
     return found
 
 
-def run_family(numbered: tuple[int, list[sp.Case]]) -> list[Row]:
-    number, family = numbered
+def run_family(number: int, family: list[sp.Case]) -> list[Row]:
     return [run_case(number, case) for case in family]
 
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 
 import numpy as np
+from cores import on_all_cores
 from jaxtyping import Float
 from page import Check, Section
 from robustness import describe, families
@@ -48,8 +47,7 @@ class Line:
 
 def section() -> Section:
     jobs = [(case, variable) for case in cases() for variable in VARIABLES]
-    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
-        lines = list(pool.map(line, *zip(*jobs, strict=True)))
+    lines = on_all_cores("smoothness", line, jobs)
     rows = [
         [describe(along_xi.case), *(cell for pair in along(along_xi, along_eta) for cell in pair)]
         for along_xi, along_eta in zip(lines[::2], lines[1::2], strict=True)

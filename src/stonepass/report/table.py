@@ -37,7 +37,7 @@ def size_table(answer: SizeAnswer) -> Table:
     _pressure_row(table, "pressure limit", answer.limit)
     if answer.size_ratio is None or answer.at_size is None:
         return table
-    error = "" if answer.size_ratio_error is None else f"± {answer.size_ratio_error:.1g}"
+    error = "" if answer.size_ratio_error is None else f"± {_up(answer.size_ratio_error, 1e-4)}"
     size = f"[bold]{answer.size_ratio:.4f}[/bold]"
     table.add_row("[bold]critical size ratio[/bold]", size, "", "", error)
     if answer.diameter is not None:
@@ -49,7 +49,7 @@ def size_table(answer: SizeAnswer) -> Table:
 def curve_table(answers: Sequence[Answer]) -> Table:
     """A curve: one row per size ratio."""
     table = Table(box=box.SIMPLE_HEAD, title=_title(answers[0].case, with_stone=False))
-    for name in ("size ratio", "outcome", "kPa", "mmHg", "cmH₂O", "contact angle"):
+    for name in ("size ratio", "outcome", "kPa", "mmHg", "cmH₂O", "solver error", "contact angle"):
         table.add_column(name, justify="left" if name == "outcome" else "right")
     for answer in answers:
         pressures = (
@@ -58,7 +58,11 @@ def curve_table(answers: Sequence[Answer]) -> Table:
             else [_significant(answer.pressure / scale) for scale in PASCAL_PER.values()]
         )
         angle = "–" if answer.seated is None else f"{_deg(answer.seated.contact_angle):.2f}°"
-        table.add_row(f"{answer.case.size_ratio:.4g}", answer.outcome.name, *pressures, angle)
+        error = (
+            "" if answer.error is None else _share(answer.error.critical_pressure, answer.pressure)
+        )
+        size = f"{answer.case.size_ratio:.4g}"
+        table.add_row(size, answer.outcome.name, *pressures, error, angle)
     return table
 
 
@@ -85,20 +89,28 @@ def _pressures(title: str) -> Table:
 
 
 def _pressure_row(table: Table, name: str, pascals: float, error: float | None = None) -> None:
-    shown = "" if error is None or pascals <= 0.0 else f"± {_percent(error / pascals)}"
     values = (_significant(pascals / scale) for scale in PASCAL_PER.values())
-    table.add_row(name, *values, shown)
+    table.add_row(name, *values, _share(error, pascals))
 
 
 def _angle_row(table: Table, name: str, radians: float, error: float | None = None) -> None:
-    shown = "" if error is None else f"± {max(_deg(error), 0.001):.1g}°"
+    shown = "" if error is None else f"± {_up(_deg(error), 1e-3)}°"
     table.add_row(name, f"{_deg(radians):.2f}°", "", "", shown)
 
 
-def _percent(share: float) -> str:
-    """One significant digit, 0.001 % at least: 0.3 %, 0.02 %, 12 %."""
-    percent = max(100.0 * share, 0.001)
-    return f"{percent:.0f} %" if percent >= 1.0 else f"{percent:.1g} %"
+def _share(error: float | None, value: float | None) -> str:
+    """An error relative to its number; nothing where either is missing, or the number is 0."""
+    if error is None or not value:
+        return ""
+    return f"± {_up(100.0 * error / value, 1e-3)} %"
+
+
+def _up(error: float, least: float) -> str:
+    """An error rounded up to one significant digit: 0.31 is 0.4, 12 is 20."""
+    error = max(error, least)
+    digits = -math.floor(math.log10(error))
+    rounded = math.ceil(error * 10.0**digits - 1e-9) / 10.0**digits
+    return f"{rounded:.{max(digits, 0)}f}"
 
 
 def _state_rows(table: Table, answer: Answer) -> None:

@@ -1,0 +1,25 @@
+"""Run one function over many jobs on all cores, and tell how far it is."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import Any
+
+INTERVAL = 15.0  # seconds between lines
+
+
+def on_all_cores(what: str, function: Callable[..., Any], jobs: Sequence[tuple]) -> list[Any]:
+    """Call `function` with each tuple of arguments, in new processes; results in order."""
+    found: list[Any] = []
+    last = time.monotonic()
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        for result in pool.map(function, *zip(*jobs, strict=True)):
+            found.append(result)
+            if time.monotonic() - last >= INTERVAL:
+                last = time.monotonic()
+                print(f"{what}: {len(found)} of {len(jobs)}", file=sys.stderr, flush=True)
+    return found

@@ -23,7 +23,7 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.friction import closed_contact, open_contact
-from stonepass.fe.mesh import Beyond, Layout, graded, growing, place
+from stonepass.fe.mesh import Layout, graded, growing, intervals, place
 from stonepass.fe.newton import Bordered, Plain, Report, newton_or_homotopy
 from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
 from stonepass.fe.problem import Failure, Resolution, Tube
@@ -193,9 +193,8 @@ def _layout(edge: float, reference: float, tube: Tube, resolution: Resolution) -
     """Grid lines for a contact edge at `edge`; counts and rows are fixed by `reference`."""
     n, fraction = resolution.closed, resolution.edge
     inside = 1.0 - graded(n, fraction, 1.0)[::-1]
-    first, total = fraction * reference, tube.half_length - reference
-    beyond = Beyond.plan(first, total, resolution.growth, *tube.even_columns)
-    outside = beyond.points(fraction * edge, tube.half_length - edge)
+    beyond = intervals(fraction * reference, tube.half_length - reference, resolution.growth)
+    outside = graded(beyond, fraction * edge, tube.half_length - edge)
     first_row = min(4.0 * fraction, 0.5) * reference
     return Layout(
         radial=1.0 + growing(first_row, tube.wall_ratio - 1.0, 1.5 * resolution.growth),

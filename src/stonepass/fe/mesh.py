@@ -10,16 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.optimize import brentq
 
-__all__ = [
-    "BOUNDARIES",
-    "Beyond",
-    "Layout",
-    "graded",
-    "growing",
-    "intervals",
-    "place",
-    "structured_mesh",
-]
+__all__ = ["BOUNDARIES", "Layout", "graded", "growing", "intervals", "place", "structured_mesh"]
 
 # closed: inner wall that touches the profile; open: inner wall beyond the contact edge.
 BOUNDARIES = ("closed", "open", "outer", "middle", "end")
@@ -78,7 +69,7 @@ def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points
 
     ``graded(2, 1.0, 3.0)`` is 0, 1, 3: the intervals 1 and 2 have the ratio 2.
     """
-    if count == 1 or first * count >= total:
+    if first * count >= total:
         return np.linspace(0.0, total, count + 1)
 
     def excess(log_ratio: float) -> float:
@@ -102,40 +93,3 @@ def growing(
 ) -> Float[np.ndarray, " points"]:
     """Points 0 … `total`, the first interval `first`, as few as the largest `growth` allows."""
     return graded(intervals(first, total, growth, least), first, total)
-
-
-@dataclass(frozen=True)
-class Beyond:
-    """Columns beyond the contact: `near` growing ones up to `span`, `even` ones, `far` growing.
-
-    Without a `longest` column there are the near ones only.
-    """
-
-    growth: float
-    longest: float
-    span: float
-    near: int
-    even: int
-    far: int
-
-    @classmethod
-    def plan(cls, first: float, total: float, growth: float, longest: float, most: int) -> Beyond:
-        """As few columns as `growth` allows; up to `most` of them are held at `longest`."""
-        longest = max(longest, first)
-        if growth * longest - first >= (growth - 1.0) * total:
-            return cls(growth, longest, total, intervals(first, total, growth), 0, 0)
-        span = (growth * longest - first) / (growth - 1.0)  # intervals have grown to the longest
-        even = min(most, int((total - span) / longest))
-        rest = total - span - even * longest
-        far = intervals(longest, rest, growth, least=1)
-        return cls(growth, longest, span, intervals(first, span, growth, least=1), even, far)
-
-    def points(self, first: float, total: float) -> Float[np.ndarray, " points"]:
-        """Points 0 … `total`, the first interval `first`."""
-        if self.far == 0:
-            return graded(self.near, first, total)
-        near = graded(self.near, first, self.span)
-        even = self.span + self.longest * np.arange(1, self.even + 1)
-        end = self.span + self.even * self.longest
-        far = end + graded(self.far, self.longest, total - end)
-        return np.concatenate([near, even, far[1:]])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -28,19 +27,6 @@ class Tube:
     axial_stretch: float = 1.0
     outside_pressure: float = 0.0
     hydrostatic: bool = False
-
-    @property
-    def even_columns(self) -> tuple[float, int]:
-        """Longest column beyond the contact, in inner radii, and how many are held to it.
-
-        A wall under axial thrust answers the stone with waves along the tube, which last the
-        longer the nearer the thrust is to the one that wrinkles it. Columns are kept to 0.7 of a
-        half-wave, that of a thin rubber shell, π √(h R_m/3), over ten of them. Without thrust the
-        wall settles at once, and columns may grow.
-        """
-        if self.outside_pressure == 0.0 and self.axial_stretch >= 1.0:
-            return math.inf, 0
-        return 0.7 * math.pi * math.sqrt((self.wall_ratio**2 - 1.0) / 6.0), 15
 
 
 @dataclass(frozen=True)

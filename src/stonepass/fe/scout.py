@@ -18,7 +18,7 @@ from stonepass.fe.discrete import (
     inner_wall,
     wall_form,
 )
-from stonepass.fe.mesh import Beyond, Layout, growing
+from stonepass.fe.mesh import Layout, growing
 from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Tube, Wrap
 from stonepass.fe.wall import SYMBOLS
@@ -73,8 +73,7 @@ def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) ->
 def scout_layout(tube: Tube, reach: float, columns: int, growth: float) -> Layout:
     """Equal columns up to `reach`, growing ones beyond and through the wall."""
     first = reach / columns
-    total = tube.half_length - reach
-    beyond = Beyond.plan(first, total, growth, *tube.even_columns).points(first, total)
+    beyond = growing(first, tube.half_length - reach, growth)
     return Layout(
         radial=1.0 + growing(first, tube.wall_ratio - 1.0, 1.5 * growth),
         axial=np.concatenate([np.linspace(0.0, reach, columns + 1), reach + beyond[1:]]),

@@ -18,8 +18,8 @@ PHASES = {
     "back substitution": ("newton.py:solve",),
     "set-up of meshes, spaces and forms": (
         "discrete.py:discretise",
-        "discrete.py:wall_form",
         "fit.py:_closed_form",
+        "fit.py:_open_form",
         "scout.py:_form",
         "press.py:_form",
     ),

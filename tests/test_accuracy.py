@@ -74,6 +74,28 @@ def test_without_a_balance_the_contact_still_has_its_error():
     assert answer.error.critical_pressure is None
 
 
+def test_an_outcome_within_the_solver_error_says_so():
+    """Near the end of the closure the coarser solve may find a balance where this one does not."""
+    case = sp.Case(sp.Stone(size_ratio=1.2), LATEX, method=FRICTIONLESS)
+
+    def outcomes(friction):
+        stone = sp.Stone(size_ratio=1.2, friction=friction)
+        here = sp.solve(replace(case, stone=stone))
+        coarser = sp.solve(replace(case, stone=stone), LEVELS["standard"].companion)
+        return here, here.outcome is not coarser.outcome
+
+    low, high = 0.5, 1.5  # moves, and does not: half the interval until only one solve moves
+    for _ in range(40):
+        friction = (low + high) / 2.0
+        answer, undecided = outcomes(friction)
+        if undecided:
+            break
+        low, high = (friction, high) if answer.outcome is sp.Outcome.MOVES else (low, friction)
+    assert undecided
+    assert "within the solver error" in answer.warnings[-1]
+    assert not any("within the solver error" in w for w in sp.solve(case).warnings)
+
+
 def test_the_error_of_a_size_is_that_of_its_pressure_over_the_slope():
     found = sp.critical_size(LATEX, "30 kPa", method=FRICTIONLESS)
     case = found.at_size.case

@@ -1,10 +1,18 @@
 """A wall that passes through itself is found, and named."""
 
+from functools import partial
+
+import ngsolve as ng
 import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass.fe.folds import crossing
+from stonepass.fe.folds import crossing, self_contact
+from stonepass.fe.tube import seat_on_sphere
+from stonepass.materials.catalogue import CATALOGUE
+from stonepass.materials.derivatives import hoop_modulus
+from stonepass.model.first_guess import wrap_round_arc
+from stonepass.model.tube import tube_of
 
 
 def test_a_polyline_that_crosses_itself_by_hand():
@@ -43,3 +51,49 @@ def test_a_stone_that_is_far_too_large_is_named(wall_ratio):
     assert answer.outcome is sp.Outcome.NO_SOLUTION
     assert "stretches the wall to 3 times its circumference" in answer.message
     assert "'ureter' were used to 1.3" in answer.message
+
+
+@pytest.fixture(scope="module")
+def solved():
+    law = CATALOGUE["latex"].law
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"))
+    tube = tube_of(law, 1.5, case.load, 10.0)
+    return seat_on_sphere(tube, 1.2, partial(wrap_round_arc, case, 1.0, hoop_modulus(law)))[0]
+
+
+@pytest.mark.parametrize(
+    ("component", "change", "where"),
+    [
+        # Material drawn back by more than it is apart passes through the middle, or a fold.
+        (1, lambda: -3.0 * ng.exp(-4.0 * (ng.y - 2.0) ** 2), (1.5, 2.5)),
+        # A lumen that closes meets the axis.
+        (0, lambda: -2.5 * ng.exp(-4.0 * (ng.y - 4.0) ** 2), (3.8, 4.2)),
+    ],
+    ids=["through the middle", "through the axis"],
+)
+def test_a_real_wall_that_meets_itself_is_found(solved, component, change, where):
+    assert self_contact(solved) is None
+    displacement = solved.discrete.state.components[component]
+    kept = displacement.vec.CreateVector()
+    kept.data = displacement.vec
+    displacement.Set(displacement + change())
+    try:
+        found = self_contact(solved)
+    finally:
+        displacement.vec.data = kept
+    assert where[0] < found < where[1]
+
+
+def test_a_real_wall_that_folds_over_is_found(solved):
+    """An S: the wall comes back over itself with the radius changed on the way."""
+    u, w, *_ = solved.discrete.state.components
+    kept = solved.discrete.state.vec.CreateVector()
+    kept.data = solved.discrete.state.vec
+    turn = ng.IfPos(ng.y - 4.0, ng.IfPos(7.0 - ng.y, ng.y - 4.0, 3.0), 0.0) * 2.0 * np.pi / 3.0
+    w.Set(w - 1.5 * ng.sin(turn))
+    u.Set(u + 0.5 * (1.0 - ng.cos(turn)) + 0.3 * ng.sin(2.0 * turn))
+    try:
+        assert self_contact(solved) is not None
+    finally:
+        solved.discrete.state.vec.data = kept
+    assert self_contact(solved) is None

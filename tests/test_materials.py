@@ -1,5 +1,7 @@
 """Laws: exact values, energy slope = stress, rest state, stability."""
 
+from dataclasses import dataclass
+
 import autograd.numpy as anp
 import numpy as np
 import pytest
@@ -154,3 +156,18 @@ def test_catalogue_entries_say_where_they_come_from(entry):
     assert entry.test
     assert entry.verified
     assert entry.reference == entry.name
+
+
+def test_a_law_that_cannot_be_kept_by_its_constants_is_refused():
+    @dataclass
+    class Changing:
+        C: float
+
+        def energy(self, C_rr, C_tt, C_zz, C_rz, xp):
+            return self.C * (C_rr + C_tt + C_zz - 3.0)
+
+        def without_ground_matrix(self):
+            return self
+
+    with pytest.raises(BadInput, match="law is Changing, but must be hashable by its constants"):
+        Material("mine", Changing(1e5), "", "", "", (1.0, 1.3))

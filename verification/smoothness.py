@@ -91,7 +91,7 @@ def along(*lines: Line) -> list[tuple[str, str]]:
 
 def line(case: sp.Case, variable: str) -> Line:
     share = STEP * np.arange(-(POINTS // 2), POINTS // 2 + 1)
-    answers = [sp.solve(moved(case, variable, each), Resolution()) for each in share]
+    answers = [sp.solve(moved(case, variable, each)) for each in share]
     angle = np.array([a.seated.contact_angle for a in answers if a.seated is not None])
     pressure = np.array([a.pressure for a in answers if a.pressure is not None])
     kinked = any(a.seated.contact_angle_slack > 0.0 for a in answers if a.seated is not None)

@@ -42,7 +42,8 @@ ROUNDING = 1e-14  # residual norm that rounding leaves where the contact force i
 class Fitted:
     """A solved state: the engine's objects, for reading values off (see `fe.readout`).
 
-    `steps` counts every Newton step on the way, failed attempts too; `force` is the norm of the
+    `steps` counts every Newton step with a tangent of its own on the way, failed attempts too;
+    `force`, in units of modulus × inner radius², is the norm of the
     contact forces, `residual` relative to it; `dissipated` is the energy that friction took on the
     path (half tube, units of modulus × inner radius³). `slack` is how far, along Z, the contact
     edge is known where it could not be made an unknown, else 0.
@@ -207,6 +208,10 @@ def _take_over(d: Discrete, start: Start) -> None:
     """Interpolate the state of another discretisation; contact forces end at the edge."""
     for ours, theirs in zip(d.state.components[:3], start.discrete.state.components, strict=False):
         ours.Set(theirs)
+    axial = d.state.components[1]  # interpolation has moved the plane of symmetry a little
+    for index, on in enumerate(axial.space.GetDofs(d.mesh.Boundaries("middle"))):
+        if on:
+            axial.vec[index] = 0.0
     wall = inner_wall(start.discrete)
     for component, force in ((NORMAL, wall.normal), (TANGENTIAL, wall.tangential)):
         carried = ng.IfPos(start.edge - ng.y, along_wall(wall.station, force), 0.0)

@@ -15,16 +15,22 @@ from stonepass.fe.fit import Fitted
 __all__ = ["crossing", "self_contact"]
 
 OUTER_POINTS = 6  # per column
+ROUNDING = 1e-9  # of z at the middle, where symmetry makes it 0
 
 
 def self_contact(solved: Fitted) -> float | None:
-    """Station Z/R_a where the inner or outer wall meets itself or the axis; None where nowhere."""
+    """Station Z/R_a where the inner or outer wall meets itself, the axis or its mirror image.
+
+    None where it does not. The half Z < 0 of the tube is the mirror image.
+    """
     wall = inner_wall(solved.discrete)
     Z, first = np.unique(wall.station, return_index=True)
     r, z = wall.r.ravel()[first], wall.z.ravel()[first]
     if r.min() <= 0.0:
         return float(Z[np.argmin(r)])
     for station, radius, axial in ((Z, r, z), _outer(solved)):
+        if axial.min() < -ROUNDING:
+            return float(station[np.argmin(axial)])
         found = crossing(radius, axial)
         if found is not None:
             return float(station[found])

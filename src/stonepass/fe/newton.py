@@ -21,7 +21,10 @@ FAST, STEADY = 0.1, 0.3
 
 @dataclass(frozen=True)
 class Report:
-    """How an iteration went: `residual` is its last norm, `reason` empty where it converged."""
+    """How an iteration went: `residual` is its last norm, `reason` empty where it converged.
+
+    `steps` counts the steps with a tangent of their own.
+    """
 
     steps: int
     residual: float
@@ -34,7 +37,7 @@ class Report:
 
 
 class SingularTangent(Exception):
-    """The engine could not factorise the tangent."""
+    """The tangent could not be factorised, or says nothing of the scalar unknown."""
 
 
 @runtime_checkable
@@ -259,7 +262,10 @@ class Bordered(Plain):
         if not again:
             self.solve(self._shifted, self._column)
         at = self._index
-        self._rate = (self.state.vec[at] - self._change[at]) / self._column[at]
+        slope = self._column[at]
+        self._rate = (self.state.vec[at] - self._change[at]) / slope if slope else math.nan
+        if not math.isfinite(self._rate):
+            raise SingularTangent
 
     def move(self, step: float) -> None:
         """Go to origin + step × direction; the scalar changes by at most 30 % at once."""

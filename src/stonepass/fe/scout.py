@@ -52,14 +52,8 @@ def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) ->
     """
     layout = scout_layout(tube, wrap.reach, columns, growth=2.0)
     d = discretise(tube, Arc.at(radius), layout, SCOUT_ORDER)
-    u, w, _, multiplier, _ = d.state.space.TrialFunction()
-    form = wall_form(d)
-    form += ng.Variation(
-        unilateral(multiplier, d.arc.gap(u, w), ng.Parameter(weight)).Compile()
-        * ng.ds("closed|open", intrules={ng.SEGM: d.rule})
-    )
     wrap_round(d, wrap)
-    system = Plain(form, d.state, free_unknowns(d, friction=False, closed_only=False))
+    system = Plain(_form(d, weight), d.state, free_unknowns(d, friction=False, closed_only=False))
     force = contact_force(d, system)
     report = newton_or_homotopy(system, d.stiffening.Set, SCOUT_TOLERANCE * force)
     if not report.converged:
@@ -68,6 +62,16 @@ def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) ->
     if edge is None:
         return Failure("the wall left the stone", report.steps)
     return Start(d, edge, force, report.steps)
+
+
+def _form(d: Discrete, weight: float) -> Any:
+    u, w, _, multiplier, _ = d.state.space.TrialFunction()
+    form = wall_form(d)
+    form += ng.Variation(
+        unilateral(multiplier, d.arc.gap(u, w), ng.Parameter(weight)).Compile()
+        * ng.ds("closed|open", intrules={ng.SEGM: d.rule})
+    )
+    return form
 
 
 def scout_layout(tube: Tube, reach: float, columns: int, growth: float) -> Layout:

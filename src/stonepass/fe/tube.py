@@ -50,12 +50,16 @@ def seat_on_sphere(
             yield from _after(found[-1])
         for settings in SCOUTS:
             start = scouted(*settings)
+            if settings in counted:
+                start = replace(start, steps=0)
+            counted.add(settings)
             if isinstance(start, Start) and path is not None:
                 pressed = press(tube, path, wrap_at, start, resolution)
                 start = replace(pressed, steps=start.steps + pressed.steps)
             yield start
 
     found: list[Fitted | Failure] = []
+    counted: set[tuple[int, float]] = set()
     with _blas().limit(limits=1, user_api="blas"):
         for resolution in resolutions:
             found.append(_first(starts(resolution), tube, radius, resolution, path))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
-from stonepass.errors import require
+from stonepass.errors import BadInput, require
 from stonepass.units import Values
 
 __all__ = ["NAMESPACE", "ClosedForm", "Law", "Material"]
@@ -25,7 +25,8 @@ NAMESPACE = (
 class Law(Protocol):
     """A hyperelastic, incompressible wall, cylindrically orthotropic at most.
 
-    A law is a value: what follows from it alone is computed once, so it must hash by its constants.
+    A law is a value: what follows from it alone is computed once and kept by its hash. So it must
+    hash by its constants, as a frozen dataclass does, and never change.
     """
 
     def __hash__(self) -> int: ...
@@ -81,6 +82,15 @@ class Material:
     reference: str = ""
 
     def __post_init__(self) -> None:
+        try:
+            hash(self.law)
+        except TypeError as problem:
+            raise BadInput(
+                "law",
+                type(self.law).__name__,
+                "hashable by its constants",
+                "make it a frozen dataclass",
+            ) from problem
         low, high = self.strain_range
         require(
             0.0 < low <= 1.0 < high <= 3.0,

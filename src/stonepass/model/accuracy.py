@@ -14,10 +14,11 @@ class Level:
     """A resolution, a coarser companion, and what their difference says of the error.
 
     Every case is solved with both; the error of the finer answer is estimated as `factor` × their
-    difference, plus `floor` × the number itself, since two solves may agree by chance. The
-    companion has elements of one order less on a coarser mesh and half the increments. The path
-    with friction converges with the first order of the increments, so there the difference equals
-    the error left. `error_estimates` of the verification page measures how often a claim holds.
+    difference, plus `floor` × the number itself (for α₀ the half-width π/2 − α₀ of the contact),
+    since two solves may agree by chance. The companion's fitted mesh has elements of one order less
+    and is coarser, and its path half the increments (a quarter at `reference`). That path converges
+    with the first order of the increments, so there the difference equals the error left.
+    `error_estimates` of the verification page measures how often a claim holds.
     """
 
     resolution: Resolution
@@ -49,7 +50,9 @@ LEVELS = {
 
 @dataclass(frozen=True)
 class ErrorEstimate:
-    """Estimated discretisation error, as absolute values: the limit lies within ± of the number.
+    """Estimated discretisation error, absolute: the limit should lie within ± of the number.
+
+    An estimate, not a bound (see `Level`).
 
     Attributes
     ----------

@@ -109,6 +109,9 @@ def solve(case: Case, resolution: Resolution | None = None) -> Answer:
             "which is below what the finite elements resolve"
         )
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
+    if _closure_start(case) is None:
+        reason = "the far field without the ground matrix has no lumen under this load"
+        return _unanswered(case, Outcome.NO_SOLUTION, reason)
     seated = seat(case, resolution)
     if isinstance(seated, NoSeat):
         return _unanswered(
@@ -134,20 +137,24 @@ def _unanswered(
 
 def _balance(case: Case, seated: SeatedState) -> Answer:
     """The answer of a seated state."""
-    if _closure_start(case) is None:
-        reason = "the far field without the ground matrix has no lumen under this load"
-        return _unanswered(case, Outcome.NO_SOLUTION, reason)
     found = _critical(seated)
+    coarse = None if seated.coarse is None else _critical(seated.coarse)
+    undecided = seated.coarse is not None and (found is None) != (coarse is None)
     answer = Answer(
         case=case,
         outcome=Outcome.BEYOND_CLOSURE,
         message=Outcome.BEYOND_CLOSURE.value,
         closure_end_pressure=_closure_end(seated),
         seated=seated,
-        error=_error(seated, found),
+        error=_error(seated, found, coarse),
         newton_steps=seated.solver.newton_steps,
         seconds=seated.solver.seconds,
-        warnings=(*_range_warnings(case), *folding_warning(case), *seated.warnings()),
+        warnings=(
+            *_range_warnings(case),
+            *folding_warning(case),
+            *seated.warnings(),
+            *([_UNDECIDED_WARNING] if undecided else []),
+        ),
     )
     if found is None:
         return answer
@@ -193,20 +200,25 @@ def _closure_end(contact: Contact) -> float:
     return float(pressure_of_angle(contact, np.array(np.pi / 2)))
 
 
-def _error(seated: SeatedState, found: _Critical | None) -> ErrorEstimate | None:
+def _error(
+    seated: SeatedState, found: _Critical | None, coarse: _Critical | None
+) -> ErrorEstimate | None:
     """The error of the contact, with that of P_ucr, from the balance of the coarser contact.
 
     Where that one has no balance, its pressure lies beyond the end of its closure.
     """
     if seated.error is None or seated.coarse is None or found is None:
         return seated.error
-    coarse = _critical(seated.coarse)
     pressure = _closure_end(seated.coarse) if coarse is None else coarse.pressure
     level = LEVELS[seated.case.method.accuracy]
     claim = level.claim(pressure - found.pressure, found.pressure)
     return replace(seated.error, critical_pressure=claim)
 
 
+_UNDECIDED_WARNING = (
+    "a coarser solve ends otherwise: whether the forces balance before the end of the closure is "
+    "within the solver error"
+)
 _EDGE_WARNING = (
     "the drive outweighs the resistance as soon as the stone is seated: the paper's closure starts "
     "at the unloaded inner radius although the load has narrowed the lumen; the critical pressure "

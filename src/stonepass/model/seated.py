@@ -14,6 +14,7 @@ from stonepass.errors import BadInput
 from stonepass.fe.fit import Fitted
 from stonepass.fe.problem import Failure, Path, Resolution
 from stonepass.fe.readout import (
+    ContactProfile,
     Field,
     Volume,
     axial_balance,
@@ -29,7 +30,7 @@ from stonepass.model.accuracy import LEVELS, ErrorEstimate, Level
 from stonepass.model.case import Case
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.first_guess import wrap_round_arc
-from stonepass.model.soundness import Soundness, soundness, waves
+from stonepass.model.soundness import Soundness, far_field_hint, soundness, waves
 from stonepass.model.tube import tube_of
 
 __all__ = ["Contact", "NoSeat", "SeatedState", "SolverReport", "seat"]
@@ -47,7 +48,8 @@ class SolverReport:
     Attributes
     ----------
     dofs, newton_steps, seconds : int, int, float
-        Unknowns of the last mesh; Newton steps and seconds of the whole path.
+        Unknowns of the last mesh; Newton steps with a tangent of their own and seconds of all
+        that was solved, the coarser solve included.
     residual : float
         Relative to the contact force.
     volume : Volume
@@ -190,11 +192,11 @@ def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSe
     *coarser, solved = _solve(case, lumen, wanted)
     steps = sum(result.steps for result in (*coarser, solved))
     if isinstance(solved, Failure):
-        reason = solved.reason + _oversize(case)
+        reason = solved.reason + far_field_hint(case) + _oversize(case)
         return NoSeat(reason, steps, time.perf_counter() - started)
     state = _state(case, replace(solved, steps=steps), started)
     if coarser and isinstance(coarser[0], Fitted):
-        coarse = _contact(case, coarser[0])
+        coarse = _contact(case, contact_profile(coarser[0]))
         return replace(state, coarse=coarse, error=_error(state, coarse, level))
     return state
 
@@ -256,8 +258,7 @@ def _path(case: Case, lumen: float) -> Path | None:
     return Path(friction, lambda t: (radius, (1.0 - t) * (lumen - radius)))
 
 
-def _contact(case: Case, solved: Fitted) -> Contact:
-    profile = contact_profile(solved)
+def _contact(case: Case, profile: ContactProfile) -> Contact:
     pressure = hoop_modulus(case.ureter.material.law) * np.maximum(profile.pressure, 0.0)
     return Contact(case, float(profile.theta[0]), profile.theta, pressure)
 
@@ -268,11 +269,12 @@ def _state(case: Case, solved: Fitted, started: float) -> SeatedState:
     stresses = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
     in_pascals = replace(wall, **{name: modulus * getattr(wall, name) for name in stresses})
     cone = case.seating_friction * np.maximum(profile.pressure, 0.0)
+    contact = _contact(case, profile)
     return SeatedState(
         case=case,
-        contact_angle=float(profile.theta[0]),
-        theta=profile.theta,
-        contact_pressure=modulus * np.maximum(profile.pressure, 0.0),
+        contact_angle=contact.contact_angle,
+        theta=contact.theta,
+        contact_pressure=contact.contact_pressure,
         # Between the nodes, where Coulomb's law was solved, the polynomials may leave the cone.
         friction_traction=modulus * np.clip(profile.traction, -cone, cone),
         wall=in_pascals,

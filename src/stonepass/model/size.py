@@ -103,7 +103,7 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
     try:
         top = excess(high)
         if top < 0.0:
-            return _beyond_range(case, limit, solve(case))
+            return _beyond_range(case, limit, tried[high])
         lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
         assert lumen is not None, "solve() answers NO_SOLUTION where there is no lumen"
         smallest = lumen * (1.0 + SMALLEST_OVERSIZE)

@@ -18,7 +18,7 @@ from stonepass.model.case import Case, Load
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.tube import tube_of
 
-__all__ = ["Soundness", "folding_warning", "soundness", "waves"]
+__all__ = ["Soundness", "far_field_hint", "folding_warning", "soundness", "waves"]
 
 
 @dataclass(frozen=True)
@@ -110,6 +110,27 @@ def waves(case: Case) -> str:
     return (
         "the tube itself is not stable under this load: far from the stone axisymmetric waves of "
         f"half-length {length:.2g} inner radii lower its energy, so it wrinkles or kinks all along"
+    )
+
+
+def far_field_hint(case: Case) -> str:
+    """What to think of first where no state was found: the loaded tube has lost its ellipticity.
+
+    In all directions of space, so it tells more than `waves`, which are axisymmetric.
+    """
+    law, eta, stretch = case.ureter.material.law, case.wall_ratio, case.load.prestretch
+    lumen = lumen_ratio(eta, law, case.load)
+    if lumen is None:
+        return ""
+    R = np.linspace(1.0, eta, 9)
+    hoop = np.sqrt(lumen**2 + (R**2 - 1.0) / stretch) / R
+    zero, axial = np.zeros_like(R), np.full_like(R, stretch)
+    margin = weakest(law, np.column_stack([1 / (hoop * axial), zero, zero, axial, hoop])).stiffness
+    if margin > 0.0:
+        return ""
+    return (
+        "; under this load the tube itself has lost its stability far from the stone "
+        f"(margin {margin:.2g}; 1 unloaded, 0 lost)"
     )
 
 

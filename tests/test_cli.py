@@ -50,7 +50,9 @@ def test_pressure_json_has_every_key_and_nothing_else_is_on_stdout(cli):
     assert record["critical_pressure_kPa"] == pytest.approx(41.53, abs=0.05)
     assert 0.0 < record["critical_pressure_error_kPa"] < 1e-3 * record["critical_pressure_kPa"]
     assert 0.0 < record["contact_angle_error_deg"] < 0.05
-    assert 0.0 < record["equator_contact_pressure_error_kPa"] < 0.1
+    # Claimed at default settings: no more than the 0.2 % that the verification page holds them to.
+    claimed, equator = (record[f"equator_contact_pressure{part}_kPa"] for part in ("_error", ""))
+    assert 0.0 < claimed < 2e-3 * equator
     assert record["inputs"]["law_constants"] == {"C10": 146500.0}
     assert set(record["solver"]) == {"dofs", "newton_steps", "seconds", "residual"}
     assert 0.0 <= record["solver"]["residual"] < 1e-8

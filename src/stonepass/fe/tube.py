@@ -46,6 +46,7 @@ def seat_on_sphere(
         return scout(tube, radius, wrap_at(radius, 0.0), columns, weight)
 
     def starts(resolution: Resolution) -> Iterator[Start | Failure]:
+        """Where to start from, best first; the steps of a scout count where it is first used."""
         if found and path is None:
             yield from _after(found[-1])
         for settings in SCOUTS:

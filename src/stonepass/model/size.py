@@ -88,6 +88,7 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
     resolution = LEVELS[case.method.accuracy].resolution
 
     def excess(size_ratio: float) -> float:
+        """P_ucr less the limit in Pa; the end of the closure stands in where there is no balance."""
         progress(size_ratio)
         if size_ratio not in tried:
             tried[size_ratio] = solve(case.with_size_ratio(size_ratio), resolution)

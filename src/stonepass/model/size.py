@@ -88,7 +88,7 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
     resolution = LEVELS[case.method.accuracy].resolution
 
     def excess(size_ratio: float) -> float:
-        """P_ucr less the limit in Pa; the end of the closure stands in where there is no balance."""
+        """P_ucr less the limit in Pa; without a balance the end of the closure stands in."""
         progress(size_ratio)
         if size_ratio not in tried:
             tried[size_ratio] = solve(case.with_size_ratio(size_ratio), resolution)

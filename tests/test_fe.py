@@ -13,6 +13,7 @@ from stonepass.fe.mesh import Layout, graded, growing, intervals, place, structu
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Tube
 from stonepass.fe.wall import SYMBOLS, cauchy_stress, wall_energy
+from stonepass.fe.waves import unstable_motions
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import NAMESPACE
@@ -69,7 +70,7 @@ def test_mesh_has_its_boundaries_and_moves():
 @pytest.mark.parametrize("order", [3, 4])
 @pytest.mark.parametrize("name", ["latex", "ureter"])
 def test_coarse_long_columns_do_not_make_an_unloaded_wall_unstable(name, order):
-    """As many negative eigenvalues as constraints of volume: every motion that keeps it costs.
+    """Every motion that keeps volume costs energy.
 
     A motion may keep volume on average over the pressure's polynomials but not in between; at
     rest p is twice the neo-Hookean constant, and −p (div v)² must not win.
@@ -77,20 +78,9 @@ def test_coarse_long_columns_do_not_make_an_unloaded_wall_unstable(name, order):
     tube = tube_of(CATALOGUE[name].law, 1.5, Load(), 12.0)
     layout = Layout(np.array([1.0, 1.12, 1.28, 1.5]), np.linspace(0.0, 12.0, 9), closed=1)
     wall = discretise(tube, Arc.at(1.0), layout, order)
-    free = free_unknowns(wall, friction=False, closed_only=True)
-    space = wall.state.space
-    for component in (3, 4):
-        for index in space.Range(component):
-            free[index] = False
+    free = free_unknowns(wall, "")
     assert newton(Plain(wall_form(wall), wall.state, free), 1e-12).converged
-    tangent = wall_form(wall, condense=False)
-    tangent.AssembleLinearization(wall.state.vec)
-    rows, columns, values = (np.asarray(part) for part in tangent.mat.COO())
-    matrix = np.zeros((space.ndof, space.ndof))
-    matrix[rows, columns] = values
-    used = np.flatnonzero(np.array(list(free)))
-    pressures = ((used >= space.Range(2).start) & (used < space.Range(2).stop)).sum()
-    assert (np.linalg.eigvalsh(matrix[np.ix_(used, used)]) < 0.0).sum() == pressures
+    assert unstable_motions(wall, free) == 0
 
 
 def homogeneous(law, a, b, c, d):
@@ -241,7 +231,7 @@ def test_a_free_tube_under_load_is_the_far_field():
         tube = Tube(law.energy, 1.5, 2.0, 1.1, 0.04, hydrostatic=load.hydrostatic)
         wall = discretise(tube, Arc.at(1.2), LAYOUT, 4)
         form = wall_form(wall)
-        free = free_unknowns(wall, friction=False, closed_only=True)
+        free = free_unknowns(wall, "closed")
         for index in wall.state.space.Range(3):
             free[index] = False
         wall.state.components[1].Set(0.1 * ng.y)

@@ -108,15 +108,15 @@ def wall_form(d: Discrete, *, condense: bool = True) -> Any:
     return form
 
 
-def free_unknowns(d: Discrete, *, friction: bool, closed_only: bool) -> Any:
-    """Unknowns to solve for: contact forces on the closed part or the whole inner wall.
+def free_unknowns(d: Discrete, contact: str, *, friction: bool = False) -> Any:
+    """Unknowns to solve for, contact forces on the boundaries `contact` (none where it is empty).
 
     λ_t is left out without friction, and at Z = 0 always: symmetry makes it zero there, and no
     displacement could answer it.
     """
     space = d.state.space
     free = ng.BitArray(space.FreeDofs())
-    touching = d.mesh.Boundaries("closed" if closed_only else "closed|open")
+    touching = d.mesh.Boundaries(contact)
     for component, wanted in ((NORMAL, True), (TANGENTIAL, friction)):
         used = space.components[component].GetDofs(touching)
         for local, index in enumerate(space.Range(component)):

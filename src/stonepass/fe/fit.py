@@ -75,7 +75,7 @@ def fit(
 
     d = discretise(tube, Arc.at(radius), layout(start.edge), resolution.order)
     _take_over(d, start)
-    free = free_unknowns(d, friction=start.origin is not None, closed_only=True)
+    free = free_unknowns(d, "closed", friction=start.origin is not None)
     system = Bordered(
         _closed_form(d, start, friction),
         d.state,
@@ -107,7 +107,7 @@ def settle(
         layout = _layout(edge, start.edge, tube, resolution)
         d = discretise(tube, Arc.at(radius), layout, resolution.order)
         _take_over(d, start)
-        free = free_unknowns(d, friction=start.origin is not None, closed_only=False)
+        free = free_unknowns(d, "closed|open", friction=start.origin is not None)
         system = Plain(_open_form(d, start, friction), d.state, free)
         tolerance = max(FIT_TOLERANCE * start.force, ROUNDING)
         report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)

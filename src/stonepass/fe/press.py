@@ -66,9 +66,7 @@ def press(
     layout = scout_layout(tube, reach, resolution.path_columns, growth=1.7)
     d = discretise(tube, Arc.at(*path.place(0.0)), layout, SCOUT_ORDER)
     origin = ng.GridFunction(d.nodal[0])
-    system = Plain(
-        _form(d, path, origin), d.state, free_unknowns(d, friction=True, closed_only=False)
-    )
+    system = Plain(_form(d, path, origin), d.state, free_unknowns(d, "closed|open", friction=True))
     before, now = None, _untouched(d, path)
     usual = step = 1.0 / resolution.increments
     s, steps, dissipated = 0.0, 0, 0.0

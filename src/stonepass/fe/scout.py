@@ -53,7 +53,7 @@ def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) ->
     layout = scout_layout(tube, wrap.reach, columns, growth=2.0)
     d = discretise(tube, Arc.at(radius), layout, SCOUT_ORDER)
     wrap_round(d, wrap)
-    system = Plain(_form(d, weight), d.state, free_unknowns(d, friction=False, closed_only=False))
+    system = Plain(_form(d, weight), d.state, free_unknowns(d, "closed|open"))
     force = contact_force(d, system)
     report = newton_or_homotopy(system, d.stiffening.Set, SCOUT_TOLERANCE * force)
     if not report.converged:

@@ -12,12 +12,9 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
 
 from stonepass.fe.contact import Arc
 from stonepass.fe.discrete import (
-    NORMAL,
-    TANGENTIAL,
     Discrete,
     discretise,
     free_unknowns,
@@ -27,7 +24,7 @@ from stonepass.fe.mesh import Layout, place
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Tube
 
-__all__ = ["unstable_wave"]
+__all__ = ["unstable_motions", "unstable_wave"]
 
 ORDER, ROWS = 6, 2
 STEP = 1.3  # between the half-waves tried, from a third of the wall's thickness to L
@@ -43,25 +40,34 @@ def unstable_wave(tube: Tube, lumen: float) -> float | None:
     """
     d = discretise(tube, Arc.at(lumen), _half_wave(tube, 1.0), ORDER)
     _uniform(d, lumen)
-    free = free_unknowns(d, friction=False, closed_only=True)
-    for component in (NORMAL, TANGENTIAL):
-        for index in d.state.space.Range(component):
-            free[index] = False
+    free = free_unknowns(d, "")
     if not newton(Plain(wall_form(d), d.state, free), TOLERANCE).converged:
         return None
-    tangent = wall_form(d, condense=False)
-    used = np.flatnonzero(np.array(list(free)))
-    pressure = d.state.space.Range(2)
-    constraints = int(((used >= pressure.start) & (used < pressure.stop)).sum())
     shortest = (tube.wall_ratio - 1.0) / 3.0
     count = 1 + int(np.ceil(np.log(tube.half_length / shortest) / np.log(STEP)))
     for length in np.geomspace(shortest, tube.half_length, count):
         place(d.mesh, _half_wave(tube, length))
         _stretch(d)
-        tangent.AssembleLinearization(d.state.vec)
-        if int((np.linalg.eigvalsh(_dense(tangent.mat, used)) < 0.0).sum()) > constraints:
+        if unstable_motions(d, free) > 0:
             return float(length)
     return None
+
+
+def unstable_motions(d: Discrete, free: Any) -> int:
+    """How many independent motions that keep volume lower the energy of the wall as it is.
+
+    The tangent's negative eigenvalues, less one for each free pressure unknown: each constrains
+    the volume once.
+    """
+    tangent = wall_form(d, condense=False)
+    tangent.AssembleLinearization(d.state.vec)
+    rows, columns, values = (np.asarray(part) for part in tangent.mat.COO())
+    matrix = np.zeros((len(free), len(free)))
+    matrix[rows, columns] = values
+    used = np.flatnonzero(np.array(list(free)))
+    pressure = d.state.space.Range(2)
+    constraints = ((used >= pressure.start) & (used < pressure.stop)).sum()
+    return int((np.linalg.eigvalsh(matrix[np.ix_(used, used)]) < 0.0).sum() - constraints)
 
 
 def _half_wave(tube: Tube, length: float) -> Layout:
@@ -76,10 +82,3 @@ def _uniform(d: Discrete, lumen: float) -> None:
 
 def _stretch(d: Discrete) -> None:
     d.state.components[1].Set((d.tube.axial_stretch - 1.0) * ng.y)
-
-
-def _dense(matrix: Any, used: Any) -> Float[np.ndarray, "n n"]:
-    rows, columns, values = (np.asarray(part) for part in matrix.COO())
-    full = np.zeros((matrix.height, matrix.width))
-    full[rows, columns] = values
-    return full[np.ix_(used, used)]

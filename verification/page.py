@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -41,3 +42,18 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     lines = ["| " + " | ".join(header) + " |", "|" + " --- |" * len(header)]
     lines += ["| " + " | ".join(row) + " |" for row in rows]
     return "\n".join(lines)
+
+
+HEAD = """# Verification
+
+Written by `make verify`: every number was measured by the run whose date and code stand below its
+section. `python verification/run.py NAME` renews one section."""
+MARK = re.compile(r"^<!-- (\w+) -->$", re.MULTILINE)
+
+
+def renewed(page: str, name: str, section: str, order: Sequence[str]) -> str:
+    """The page with section `name` put in its place; others stay as long as `order` names them."""
+    parts = MARK.split(page)
+    found = dict(zip(parts[1::2], parts[2::2], strict=True)) | {name: section}
+    kept = [f"<!-- {each} -->\n{found[each].strip()}" for each in order if each in found]
+    return "\n\n".join([HEAD, *kept]) + "\n"

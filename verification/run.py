@@ -1,4 +1,4 @@
-"""Run the slow verification and write docs/verification.md; exit 1 where a claim fails.
+"""Run the slow verification and renew its sections of docs/verification.md; exit 1 on a failure.
 
 python verification/run.py            everything
 python verification/run.py refinement robustness
@@ -7,23 +7,26 @@ python verification/run.py refinement robustness
 from __future__ import annotations
 
 import importlib
-import platform
+import os
+import subprocess
 import sys
 import time
-from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from datetime import date
 from multiprocessing import get_context
 from pathlib import Path
 
-import ngsolve
-from page import Section
+import ngsolve as ng
+from page import Section, renewed
 
 import stonepass
 
 SIDE_BY_SIDE = ("far_field", "refinement", "accuracy", "half_length", "pressed", "calibration")
 ON_ALL_CORES = ("error_estimates", "smoothness", "robustness")  # each has its own workers
 SECTIONS = (*SIDE_BY_SIDE, *ON_ALL_CORES)
-PAGE = Path(__file__).parents[1] / "docs" / "verification.md"
+ROOT = Path(__file__).parents[1]
+PAGE = ROOT / "docs" / "verification.md"
 
 
 def main(names: list[str]) -> int:
@@ -31,39 +34,50 @@ def main(names: list[str]) -> int:
     if unknown:
         print(f"no section {unknown[0]}; there are: {', '.join(SECTIONS)}", file=sys.stderr)
         return 2
-    wanted, written, failed = names or SECTIONS, [], []
-    for name, section in zip(wanted, sections(wanted), strict=True):
-        written.append(section.markdown())
-        failed += [f"{name}: {check.claim}" for check in section.checks if not check.holds]
-    head = (
-        "# Verification\n\nWritten by `make verify`; every number below was measured by that run "
-        f"(stonepass {stonepass.__version__}, NGSolve {ngsolve.__version__}, "
-        f"Python {platform.python_version()})."
-    )
-    text = "\n\n".join([head, *written]) + "\n"
-    if names:
-        print(text)
-    else:
-        PAGE.write_text(text, encoding="utf-8")
-    for line in failed:
-        print(f"FAILS: {line}", file=sys.stderr)
+    code, failed = revision(), []
+    for name, section, seconds in sections(names or SECTIONS):
+        print(f"{name}: {seconds:.0f} s", file=sys.stderr, flush=True)
+        stamp = (
+            f"*{date.today()}, code {code}, NGSolve {ng.__version__}; {seconds:.0f} s, "
+            f"{os.cpu_count()} cores.*"
+        )
+        page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+        # Each as soon as it is there: what ran is kept where a later section breaks off.
+        PAGE.write_text(
+            renewed(page, name, f"{section.markdown()}\n\n{stamp}", SECTIONS), encoding="utf-8"
+        )
+        wrong = [f"{name}: {check.claim}" for check in section.checks if not check.holds]
+        for line in wrong:
+            print(f"FAILS: {line}", file=sys.stderr, flush=True)
+        failed += wrong
     return 1 if failed else 0
 
 
-def sections(names: Sequence[str]) -> list[Section]:
+def sections(names: Sequence[str]) -> Iterator[tuple[str, Section, float]]:
     """Run the sections of one process side by side, then the others one by one."""
-    small = [name for name in names if name in SIDE_BY_SIDE]
     with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
-        found = dict(zip(small, pool.map(run, small), strict=True))
-    found |= {name: run(name) for name in names if name in ON_ALL_CORES}
-    return [found[name] for name in names]
+        runs = [pool.submit(run, name) for name in names if name in SIDE_BY_SIDE]
+        for finished in as_completed(runs):
+            yield finished.result()
+    for name in names:
+        if name in ON_ALL_CORES:
+            yield run(name)
 
 
-def run(name: str) -> Section:
+def run(name: str) -> tuple[str, Section, float]:
     started = time.perf_counter()
     section = importlib.import_module(name).section()
-    print(f"{name}: {time.perf_counter() - started:.0f} s", file=sys.stderr)
-    return section
+    return name, section, time.perf_counter() - started
+
+
+def revision() -> str:
+    """The commit that runs, marked where files differ from it; the version outside a checkout."""
+    asked = ["git", "describe", "--always", "--dirty", "--exclude=*"]
+    try:
+        found = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return stonepass.__version__
+    return f"{stonepass.__version__} ({found.stdout.strip()})"
 
 
 if __name__ == "__main__":

@@ -71,13 +71,18 @@ def run(name: str) -> tuple[str, Section, float]:
 
 
 def revision() -> str:
-    """The commit that runs, marked where files differ from it; the version outside a checkout."""
-    asked = ["git", "describe", "--always", "--dirty", "--exclude=*"]
+    """Version and commit of the code that runs, `+` where it differs from the commit."""
     try:
-        found = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True, check=True)
-    except (OSError, subprocess.CalledProcessError):
+        commit = git("rev-parse", "--short", "HEAD")
+        changed = git("status", "--porcelain", "--", "src", "verification")
+    except (OSError, subprocess.CalledProcessError):  # no checkout
         return stonepass.__version__
-    return f"{stonepass.__version__} ({found.stdout.strip()})"
+    return f"{stonepass.__version__} ({commit}{'+' if changed else ''})"
+
+
+def git(*words: str) -> str:
+    done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True)
+    return done.stdout.strip()
 
 
 if __name__ == "__main__":

@@ -15,7 +15,15 @@ import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
 
-__all__ = ["Arc", "bilateral", "lobatto", "lobatto_rule", "unilateral"]
+__all__ = [
+    "Arc",
+    "bilateral",
+    "lobatto",
+    "lobatto_rule",
+    "lobatto_slopes",
+    "resampling",
+    "unilateral",
+]
 
 
 @dataclass(frozen=True)
@@ -87,6 +95,38 @@ def lobatto(order: int) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"
     x = np.concatenate([[-1.0], np.sort(legendre.deriv().roots().real), [1.0]])
     weights = 2.0 / (order * (order + 1) * legendre(x) ** 2)
     return (x + 1.0) / 2.0, weights / 2.0
+
+
+@lru_cache(maxsize=8)
+def resampling(
+    order: int, count: int
+) -> tuple[Float[np.ndarray, "count n"], Float[np.ndarray, "count n"]]:
+    """Matrices from the values of a polynomial at the Gauss–Lobatto points to others.
+
+    To its values and its slopes at `count` equidistant points of [0, 1], both ends included:
+    ``resampling(1, 3)`` is [[1, 0], [0.5, 0.5], [0, 1]] and three rows of [-1, 1].
+    """
+    return _basis_change(order, np.linspace(0.0, 1.0, count))
+
+
+@lru_cache(maxsize=8)
+def lobatto_slopes(order: int) -> Float[np.ndarray, "n n"]:
+    """Matrix from the values of a polynomial at the Gauss–Lobatto points to its slopes there.
+
+    ``lobatto_slopes(1)`` is [[-1, 1], [-1, 1]].
+    """
+    return _basis_change(order, lobatto(order)[0])[1]
+
+
+def _basis_change(
+    order: int, points: Float[np.ndarray, " m"]
+) -> tuple[Float[np.ndarray, "m n"], Float[np.ndarray, "m n"]]:
+    """Matrices from values at the Gauss–Lobatto points to values and slopes at `points`."""
+    basis = [np.polynomial.legendre.Legendre.basis(k, domain=[0.0, 1.0]) for k in range(order + 1)]
+    inverse = np.linalg.inv(np.column_stack([b(lobatto(order)[0]) for b in basis]))
+    values = np.column_stack([b(points) for b in basis])
+    slopes = np.column_stack([b.deriv()(points) for b in basis])
+    return values @ inverse, slopes @ inverse
 
 
 def lobatto_rule(order: int) -> ng.IntegrationRule:

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.fe.contact import Arc, lobatto, lobatto_rule
-from stonepass.fe.mesh import Layout, structured_mesh
+from stonepass.fe.mesh import INNER, Layout, structured_mesh
 from stonepass.fe.newton import Plain
 from stonepass.fe.problem import Tube
 from stonepass.fe.wall import outside_work, strain, wall_energy
@@ -23,6 +23,7 @@ __all__ = [
     "InnerWall",
     "contact_force",
     "discretise",
+    "edge_unknown",
     "free_unknowns",
     "inner_wall",
     "set_at_nodes",
@@ -54,10 +55,10 @@ class Discrete:
         With Gauss–Lobatto quadrature the mass matrix is diagonal in the nodal basis, so the
         projection it gives interpolates.
         """
-        inner = self.mesh.Boundaries("closed|open")
+        inner = self.mesh.Boundaries(INNER)
         space = ng.H1(self.mesh, order=self.order, definedon=inner)
         trial, test = space.TnT()
-        where = ng.ds("closed|open", intrules={ng.SEGM: self.rule})
+        where = ng.ds(INNER, intrules={ng.SEGM: self.rule})
         mass = ng.BilinearForm(trial * test * where).Assemble().mat
         used = space.GetDofs(inner)
         return space, mass.Inverse(used, inverse="umfpack"), where
@@ -82,7 +83,7 @@ class InnerWall:
 def discretise(tube: Tube, arc: Arc, layout: Layout, order: int) -> Discrete:
     """Put unknowns on `layout`: displacements u, w, pressure p, contact forces λ_n, λ_t."""
     mesh = structured_mesh(layout)
-    inner = mesh.Boundaries("closed|open")
+    inner = mesh.Boundaries(INNER)
     space = ng.FESpace(
         [
             ng.H1(mesh, order=order),
@@ -105,6 +106,9 @@ def wall_form(d: Discrete, *, condense: bool = True) -> Any:
     if tube.outside_pressure:
         work = outside_work(u, w, tube.outside_pressure, hydrostatic=tube.hydrostatic)
         form += ng.Variation(work.Compile() * ng.ds("outer", bonus_intorder=2))
+    if tube.tether:
+        away = w - (tube.axial_stretch - 1.0) * ng.y
+        form += ng.Variation(0.5 * tube.tether * away * away * ng.x * ng.ds("outer"))
     return form
 
 
@@ -125,6 +129,15 @@ def free_unknowns(d: Discrete, contact: str, *, friction: bool = False) -> Any:
     return free
 
 
+def edge_unknown(d: Discrete, column: int) -> int:
+    """Index of the normal force where `column` columns of the inner wall end.
+
+    Vertices were added row by row, so the inner wall has the first ones, in axial order; the
+    vertex unknowns of H1 come first and in that order.
+    """
+    return int(d.state.space.Range(NORMAL).start) + column
+
+
 def contact_force(d: Discrete, system: Plain) -> float:
     """Norm of the nodal contact forces, the scale of every residual."""
     full, without, kept = (d.state.vec.CreateVector() for _ in range(3))
@@ -139,7 +152,7 @@ def contact_force(d: Discrete, system: Plain) -> float:
     return float(np.linalg.norm(full.FV().NumPy()[:displacement]))
 
 
-def inner_wall(d: Discrete, part: str = "closed|open") -> InnerWall:
+def inner_wall(d: Discrete, part: str = INNER) -> InnerWall:
     """Read the inner wall, or its `part`, at its Gauss–Lobatto points."""
     at = d.mesh.MapToAllElements({ng.SEGM: d.rule}, d.mesh.Boundaries(part))
     per_edge = (-1, d.order + 1)

@@ -7,6 +7,7 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
+from jaxtyping import Float
 from scipy.interpolate import make_interp_spline
 
 from stonepass.fe.contact import Arc, bilateral, unilateral
@@ -16,6 +17,7 @@ from stonepass.fe.discrete import (
     Discrete,
     contact_force,
     discretise,
+    edge_unknown,
     free_unknowns,
     inner_wall,
     set_at_nodes,
@@ -23,7 +25,7 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.friction import closed_contact, open_contact
-from stonepass.fe.mesh import Layout, graded, growing, intervals, place
+from stonepass.fe.mesh import INNER, Layout, graded, growing, intervals, place
 from stonepass.fe.newton import Bordered, Plain, Report, newton_or_homotopy
 from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
 from stonepass.fe.problem import Failure, Resolution, Tube
@@ -76,13 +78,23 @@ def fit(
     d = discretise(tube, Arc.at(radius), layout(start.edge), resolution.order)
     _take_over(d, start)
     free = free_unknowns(d, "closed", friction=start.origin is not None)
+    at_edge = edge_unknown(d, resolution.closed)
+
+    def move_edge(values: Float[np.ndarray, " one"]) -> bool:
+        edge = float(values[0])
+        if not 0.0 < edge < tube.half_length:
+            return False
+        place(d.mesh, layout(edge))
+        return True
+
     system = Bordered(
         _closed_form(d, start, friction),
         d.state,
         free,
-        value=start.edge,
-        apply=lambda edge: place(d.mesh, layout(edge)),
-        index=_edge_unknown(d, resolution.closed),
+        values=np.array([start.edge]),
+        scale=np.array([start.edge]),
+        apply=move_edge,
+        conditions=lambda: np.array([d.state.vec[at_edge]]),
     )
     tolerance = max(FIT_TOLERANCE * start.force, ROUNDING)
     report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
@@ -91,7 +103,7 @@ def fit(
     flaw = _flaw(d, radius)
     if flaw:
         return Failure(flaw, report.steps)
-    return _fitted(d, radius, layout(system.value), system, report, start, friction)
+    return _fitted(d, radius, layout(float(system.values[0])), system, report, start, friction)
 
 
 def settle(
@@ -107,7 +119,7 @@ def settle(
         layout = _layout(edge, start.edge, tube, resolution)
         d = discretise(tube, Arc.at(radius), layout, resolution.order)
         _take_over(d, start)
-        free = free_unknowns(d, "closed|open", friction=start.origin is not None)
+        free = free_unknowns(d, INNER, friction=start.origin is not None)
         system = Plain(_open_form(d, start, friction), d.state, free)
         tolerance = max(FIT_TOLERANCE * start.force, ROUNDING)
         report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
@@ -163,7 +175,7 @@ def _closed_form(d: Discrete, start: Start, friction: float) -> Any:
 
 def _open_form(d: Discrete, start: Start, friction: float) -> Any:
     """Contact as an inequality all along the inner wall."""
-    where = ng.ds("closed|open", intrules={ng.SEGM: d.rule})
+    where = ng.ds(INNER, intrules={ng.SEGM: d.rule})
     form, space = wall_form(d), d.state.space
     trial, test = space.TrialFunction(), space.TestFunction()
     if start.origin is None:
@@ -216,15 +228,6 @@ def _take_over(d: Discrete, start: Start) -> None:
     for component, force in ((NORMAL, wall.normal), (TANGENTIAL, wall.tangential)):
         carried = ng.IfPos(start.edge - ng.y, along_wall(wall.station, force), 0.0)
         set_at_nodes(d.state.components[component], carried, d)
-
-
-def _edge_unknown(d: Discrete, closed: int) -> int:
-    """Index of the normal force at the contact edge: inner-wall vertex number `closed`.
-
-    Vertices were added row by row, so the inner wall has the first ones, in axial order; the
-    vertex unknowns of H1 come first and in that order.
-    """
-    return int(d.state.space.Range(NORMAL).start) + closed
 
 
 def _flaw(d: Discrete, radius: float) -> str:

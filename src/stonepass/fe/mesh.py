@@ -10,19 +10,36 @@ import numpy as np
 from jaxtyping import Float
 from scipy.optimize import brentq
 
-__all__ = ["BOUNDARIES", "Layout", "graded", "growing", "intervals", "place", "structured_mesh"]
+__all__ = [
+    "BOUNDARIES",
+    "INNER",
+    "Layout",
+    "graded",
+    "growing",
+    "intervals",
+    "place",
+    "structured_mesh",
+]
 
-# closed: inner wall that touches the profile; open: inner wall beyond the contact edge.
-BOUNDARIES = ("closed", "open", "outer", "middle", "end")
+# Inner wall: wet upstream of the contact, wetted the contact up to a seal, closed the rest of the
+# contact (all of it without a fluid), open beyond.
+BOUNDARIES = ("wet", "wetted", "closed", "open", "outer", "middle", "end")
+INNER = "wet|wetted|closed|open"
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the grid lines lie: `radial` R/R_a, `axial` Z/R_a, `closed` columns in contact."""
+    """Where the grid lines lie: `radial` R/R_a, `axial` Z/R_a, and how many columns are what.
+
+    In axial order `wet`, `wetted` and `closed` ones, then open ones. Without wet columns Z = 0 is a
+    plane of symmetry.
+    """
 
     radial: Float[np.ndarray, rows + 1]
     axial: Float[np.ndarray, columns + 1]
     closed: int
+    wet: int = 0
+    wetted: int = 0
 
     @property
     def rows(self) -> int:
@@ -48,12 +65,15 @@ def structured_mesh(layout: Layout) -> ng.Mesh:
         for j in range(columns):
             corners = [node[i][j], node[i + 1][j], node[i + 1][j + 1], node[i][j + 1]]
             mesh.Add(nm.Element2D(wall, corners))
-    for j in range(columns):
-        inner = "closed" if j < layout.closed else "open"
+    counts = {"wet": layout.wet, "wetted": layout.wetted, "closed": layout.closed}
+    names = [name for name, count in counts.items() for _ in range(count)]
+    names += ["open"] * (columns - len(names))
+    for j, inner in enumerate(names):
         mesh.Add(nm.Element1D([node[0][j], node[0][j + 1]], index=side[inner]))
         mesh.Add(nm.Element1D([node[rows][j], node[rows][j + 1]], index=side["outer"]))
+    first = side["end" if layout.wet else "middle"]
     for i in range(rows):
-        mesh.Add(nm.Element1D([node[i][0], node[i + 1][0]], index=side["middle"]))
+        mesh.Add(nm.Element1D([node[i][0], node[i + 1][0]], index=first))
         mesh.Add(nm.Element1D([node[i][columns], node[i + 1][columns]], index=side["end"]))
     return ng.Mesh(mesh)
 

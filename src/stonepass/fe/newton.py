@@ -1,4 +1,4 @@
-"""Damped Newton iteration on a condensed system, optionally with one extra scalar unknown."""
+"""Damped Newton iteration on a condensed system, optionally with extra scalar unknowns."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import ngsolve as ng
+import numpy as np
+from jaxtyping import Float
 
 __all__ = ["Bordered", "Plain", "Report", "SingularTangent", "newton", "newton_or_homotopy"]
 
@@ -17,6 +19,8 @@ LADDER = (0.05, 0.02, 0.01, 0.005, 0.0)
 # After a step that cuts the norm to FAST of what it was, its factorisation serves again, as long
 # as each further step cuts it to STEADY.
 FAST, STEADY = 0.1, 0.3
+MOST = 0.3  # of its scale that a scalar unknown changes in one step
+DIFFERENCE = 1e-6  # of the scale, for difference quotients
 
 
 @dataclass(frozen=True)
@@ -211,11 +215,12 @@ class Plain:
 
 
 class Bordered(Plain):
-    """A form with one scalar unknown more (`value`) and one condition more: state[index] = 0.
+    """A form with some scalar unknowns more (`values`) and as many conditions, all to vanish.
 
-    The scalar enters the form through `apply`, e.g. by moving mesh nodes. Its column of the
-    tangent is a difference quotient, its row picks one unknown, so each Newton step costs one
-    factorisation and two solves.
+    The scalars enter the form through `apply`, e.g. by moving mesh nodes, which says whether they
+    are possible, and `conditions` reads the state. What either gives to the tangent is a difference
+    quotient, so each Newton step costs one factorisation, and one solve more for each scalar. A
+    step changes no scalar by more than the share `MOST` of its `scale`.
     """
 
     def __init__(
@@ -224,55 +229,89 @@ class Bordered(Plain):
         state: Any,
         free: Any,
         *,
-        value: float,
-        apply: Callable[[float], None],
-        index: int,
+        values: Float[np.ndarray, " scalars"],
+        scale: Float[np.ndarray, " scalars"],
+        apply: Callable[[Float[np.ndarray, " scalars"]], bool],
+        conditions: Callable[[], Float[np.ndarray, " scalars"]],
     ) -> None:
         super().__init__(form, state, free)
-        self.value, self._apply, self._index = value, apply, index
-        self._column, self._shifted = (state.vec.CreateVector() for _ in range(2))
-        apply(value)
+        self.values, self._scale, self._apply, self._conditions = values, scale, apply, conditions
+        self._columns = [state.vec.CreateVector() for _ in values]
+        self._shifted = state.vec.CreateVector()
+        self._possible = apply(values)
 
     def remember(self) -> Any:
-        """Copy the current state and the scalar."""
-        return super().remember(), self.value
+        """Copy the current state and the scalars."""
+        return super().remember(), self.values
 
     def recall(self, kept: Any) -> None:
-        """Go back to a remembered state and scalar."""
-        state, self.value = kept
+        """Go back to a remembered state and scalars."""
+        state, self.values = kept
         super().recall(state)
-        self._apply(self.value)
+        self._possible = self._apply(self.values)
 
     def residual(self) -> float:
-        """Norm of the residual and the condition together."""
-        return math.hypot(super().residual(), self.state.vec[self._index])
+        """Norm of the residual and the conditions together; infinite where it is impossible."""
+        if not self._possible:
+            return math.inf
+        self._missed = self._conditions()
+        return math.hypot(super().residual(), float(np.linalg.norm(self._missed)))
 
     def direction(self, *, again: bool = False) -> None:
         """Solve the bordered system by block elimination."""
-        self._origin_value = self.value
+        self._origin_values = self.values
         if not again:
-            increment = 1e-6 * abs(self.value)
-            self._apply(self.value + increment)
-            self.evaluate(self._shifted)
-            self._apply(self.value)
             if not self._known:
                 self.residual()
-            self._shifted.data = (1.0 / increment) * (self._shifted - self._force)
+            partial = self._by_values()
         super().direction(again=again)
+        missed = self._missed - self._along(self._change)
         if not again:
-            self.solve(self._shifted, self._column)
-        at = self._index
-        slope = self._column[at]
-        self._rate = (self.state.vec[at] - self._change[at]) / slope if slope else math.nan
-        if not math.isfinite(self._rate):
+            for column in self._columns:
+                self._shifted.data = column
+                self.solve(self._shifted, column)
+            by_state = [self._along(column) for column in self._columns]
+            self._schur = np.column_stack(by_state) - partial
+        try:
+            self._rates = np.linalg.solve(self._schur, missed)
+        except np.linalg.LinAlgError as problem:
+            raise SingularTangent from problem
+        if not np.all(np.isfinite(self._rates)):
             raise SingularTangent
 
     def move(self, step: float) -> None:
-        """Go to origin + step × direction; the scalar changes by at most 30 % at once."""
-        most = 0.3 * abs(self._origin_value)
-        if abs(step * self._rate) > most:
-            step = most / abs(self._rate)
+        """Go to origin + step × direction."""
+        farthest = np.abs(step * self._rates / self._scale).max() / MOST
+        if farthest > 1.0:
+            step /= farthest
         self._known = False
-        self.value = self._origin_value + step * self._rate
-        self._apply(self.value)
-        self.state.vec.data = self._origin - step * self._change - step * self._rate * self._column
+        self.values = self._origin_values + step * self._rates
+        self._possible = self._apply(self.values)
+        self.state.vec.data = self._origin - step * self._change
+        for rate, column in zip(self._rates, self._columns, strict=True):
+            self.state.vec.data -= step * rate * column
+
+    def _by_values(self) -> Float[np.ndarray, "scalars scalars"]:
+        """Slopes of the residual, into the columns, and of the conditions, by the scalars."""
+        slopes = []
+        for k, column in enumerate(self._columns):
+            increment = DIFFERENCE * self._scale[k]
+            moved = self.values.copy()
+            moved[k] += increment
+            self._apply(moved)
+            self.evaluate(column)
+            column.data = (1.0 / increment) * (column - self._force)
+            slopes.append((self._conditions() - self._missed) / increment)
+        self._apply(self.values)
+        return np.column_stack(slopes)
+
+    def _along(self, way: Any) -> Float[np.ndarray, " scalars"]:
+        """Slope of the conditions along a change of the state."""
+        length = float(ng.Norm(way))
+        if length == 0.0:
+            return np.zeros_like(self._missed)
+        increment = DIFFERENCE * float(ng.Norm(self._origin)) / length
+        self.state.vec.data = self._origin + increment * way
+        slope = (self._conditions() - self._missed) / increment
+        self.state.vec.data = self._origin
+        return slope

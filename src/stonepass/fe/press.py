@@ -27,6 +27,7 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.friction import open_contact
+from stonepass.fe.mesh import INNER
 from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Path, Resolution, Tube, Wrap
 from stonepass.fe.scout import SCOUT_ORDER, Start, edge_of_contact, scout_layout, wrap_round
@@ -66,7 +67,7 @@ def press(
     layout = scout_layout(tube, reach, resolution.path_columns, growth=1.7)
     d = discretise(tube, Arc.at(*path.place(0.0)), layout, SCOUT_ORDER)
     origin = ng.GridFunction(d.nodal[0])
-    system = Plain(_form(d, path, origin), d.state, free_unknowns(d, "closed|open", friction=True))
+    system = Plain(_form(d, path, origin), d.state, free_unknowns(d, INNER, friction=True))
     before, now = None, _untouched(d, path)
     usual = step = 1.0 / resolution.increments
     s, steps, dissipated = 0.0, 0, 0.0
@@ -123,7 +124,7 @@ def _form(d: Discrete, path: Path, origin: Any) -> Any:
         space.TrialFunction(), space.TestFunction(), d.arc, origin, path.friction, FRICTION_WEIGHT
     )
     form = wall_form(d)
-    form += residual.Compile() * ng.ds("closed|open", intrules={ng.SEGM: d.rule})
+    form += residual.Compile() * ng.ds(INNER, intrules={ng.SEGM: d.rule})
     return form
 
 

@@ -18,7 +18,8 @@ class Tube:
     """A tube in units of its inner radius and of a modulus of its law.
 
     `wall_ratio` R_b/R_a, `half_length` L/R_a in the reference state, `axial_stretch` imposed at
-    the ends, `outside_pressure` dead (radial resultant kept) or `hydrostatic`.
+    the ends, `outside_pressure` dead (radial resultant kept) or `hydrostatic`. `tether` is the
+    stiffness, per reference area of the outer wall, of springs that hold it along the axis.
     """
 
     energy: Energy
@@ -27,6 +28,7 @@ class Tube:
     axial_stretch: float = 1.0
     outside_pressure: float = 0.0
     hydrostatic: bool = False
+    tether: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -3,32 +3,48 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.fe.contact import lobatto
-from stonepass.fe.discrete import inner_wall, smallest_volume_ratio
+from stonepass.fe.contact import lobatto, resampling
+from stonepass.fe.discrete import Discrete, inner_wall, smallest_volume_ratio
 from stonepass.fe.fit import Fitted
+from stonepass.fe.mesh import Layout
 from stonepass.fe.wall import SYMBOLS, cauchy_stress, strain
 
 __all__ = [
     "ContactProfile",
     "Deformation",
     "Field",
+    "Solved",
     "Volume",
     "axial_balance",
     "cone_excess",
     "contact_profile",
     "deformation",
     "field",
+    "loaded_balance",
     "stored_energy",
     "volume",
 ]
 
 SAMPLES_PER_COLUMN = 33
+
+
+@runtime_checkable
+class Solved(Protocol):
+    """Anything with a solved discretisation: a `Fitted` half tube, or a `Slide`."""
+
+    @property
+    def discrete(self) -> Discrete:
+        """Mesh and state."""
+
+    @property
+    def layout(self) -> Layout:
+        """Grid lines."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +108,7 @@ def contact_profile(solved: Fitted) -> ContactProfile:
     r ds/dZ / R_a with s the arc length of the deformed inner wall.
     """
     wall = inner_wall(solved.discrete, "closed")
-    values, slopes = _resample(lobatto(solved.discrete.order)[0], SAMPLES_PER_COLUMN)
+    values, slopes = resampling(solved.discrete.order, SAMPLES_PER_COLUMN)
     run = wall.station[:, -1:] - wall.station[:, :1]
     r, z = wall.r @ values.T, wall.z @ values.T
     area = r * np.hypot(wall.r @ slopes.T, wall.z @ slopes.T) / run
@@ -112,7 +128,7 @@ def contact_profile(solved: Fitted) -> ContactProfile:
     )
 
 
-def field(solved: Fitted) -> Field:
+def field(solved: Solved) -> Field:
     """Evaluate the deformed wall and its stress."""
     u, w, p, _, _ = solved.discrete.state.components
     (R, Z), at, shape = _field_points(solved)
@@ -128,7 +144,7 @@ def field(solved: Fitted) -> Field:
     )
 
 
-def _field_points(solved: Fitted) -> tuple[Any, Any, tuple[int, int]]:
+def _field_points(solved: Solved) -> tuple[Any, Any, tuple[int, int]]:
     """Coordinates of, and handle on, the Gauss–Lobatto points of every element."""
     points, _ = lobatto(solved.discrete.order)
     rule = ng.IntegrationRule(
@@ -139,7 +155,7 @@ def _field_points(solved: Fitted) -> tuple[Any, Any, tuple[int, int]]:
     return (ng.x(at), ng.y(at)), at, (-1, len(points) ** 2)
 
 
-def deformation(solved: Fitted) -> Deformation:
+def deformation(solved: Solved) -> Deformation:
     """Evaluate the deformation gradient where `field` evaluates the stress."""
     _, at, shape = _field_points(solved)
     u, w, _, _, _ = solved.discrete.state.components
@@ -167,6 +183,26 @@ def axial_balance(solved: Fitted) -> float:
     return float(abs(end - middle + contact + bath) / scale)
 
 
+def loaded_balance(solved: Solved, pressure: float, force: float) -> float:
+    """Axial force left over on a loaded tube and its stone, relative to the force at its ends.
+
+    The wall's stress at both ends, the fluid's on the upstream section, the force that holds the
+    stone, a hydrostatic pressure on the outer wall and the tether must add up to nothing. `force`
+    comes from the contact alone, so no equation of the solver says so directly.
+    """
+    tube, ends = solved.discrete.tube, solved.layout.axial[[0, -1]]
+    (first, outer_first), (last, outer_last) = (_section_force(solved, float(Z)) for Z in ends)
+    u = solved.discrete.state.components[0]
+    lumen = 1.0 + float(u(solved.discrete.mesh(1.0, float(ends[0]))))
+    fluid = np.pi * pressure * lumen**2
+    bath = np.pi * (outer_last**2 - outer_first**2) * tube.outside_pressure * tube.hydrostatic
+    w = solved.discrete.state.components[1]
+    away = w - (tube.axial_stretch - 1.0) * ng.y
+    springs = ng.Integrate(tube.tether * away * ng.x * ng.ds("outer"), solved.discrete.mesh)
+    rest = last - first + fluid - force + bath - 2.0 * np.pi * float(springs)
+    return float(abs(rest) / (abs(first) + abs(last) + fluid))
+
+
 def cone_excess(solved: Fitted) -> float:
     """Largest |λ_t| − μ λ_n at the nodes, where Coulomb's law is solved, over the largest λ_n."""
     wall = inner_wall(solved.discrete)
@@ -174,7 +210,7 @@ def cone_excess(solved: Fitted) -> float:
     return float(excess.max() / wall.normal.max())
 
 
-def _section_force(solved: Fitted, Z: float) -> tuple[float, float]:
+def _section_force(solved: Solved, Z: float) -> tuple[float, float]:
     """2π ∫ σ_zz r dr over a plane section, and the outer radius there."""
     d = solved.discrete
     u, w, p, _, _ = d.state.components
@@ -203,7 +239,7 @@ def stored_energy(solved: Fitted) -> float:
     )
 
 
-def volume(solved: Fitted) -> Volume:
+def volume(solved: Solved) -> Volume:
     """Integrate J over the reference wall."""
     u, w, _, _, _ = solved.discrete.state.components
     J = strain(u, w).J
@@ -218,22 +254,3 @@ def volume(solved: Fitted) -> Volume:
         rms=float(np.sqrt(square / reference)),
         smallest=smallest_volume_ratio(solved.discrete),
     )
-
-
-def _resample(
-    nodes: Float[np.ndarray, " n"], count: int
-) -> tuple[Float[np.ndarray, "count n"], Float[np.ndarray, "count n"]]:
-    """Matrices that turn nodal values of a polynomial into values and slopes at `count` points."""
-    fine = np.linspace(0.0, 1.0, count)
-    vandermonde = np.polynomial.legendre.legvander(2.0 * nodes - 1.0, len(nodes) - 1)
-    inverse = np.linalg.inv(vandermonde)
-    basis = np.polynomial.legendre.legvander(2.0 * fine - 1.0, len(nodes) - 1)
-    unit = np.eye(len(nodes))
-    derivative = np.stack(
-        [
-            2.0 * np.polynomial.legendre.legval(2.0 * fine - 1.0, np.polynomial.legendre.legder(e))
-            for e in unit
-        ],
-        axis=1,
-    )
-    return basis @ inverse, derivative @ inverse

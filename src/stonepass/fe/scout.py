@@ -18,7 +18,7 @@ from stonepass.fe.discrete import (
     inner_wall,
     wall_form,
 )
-from stonepass.fe.mesh import Layout, growing
+from stonepass.fe.mesh import INNER, Layout, growing
 from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Tube, Wrap
 from stonepass.fe.wall import SYMBOLS
@@ -53,7 +53,7 @@ def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) ->
     layout = scout_layout(tube, wrap.reach, columns, growth=2.0)
     d = discretise(tube, Arc.at(radius), layout, SCOUT_ORDER)
     wrap_round(d, wrap)
-    system = Plain(_form(d, weight), d.state, free_unknowns(d, "closed|open"))
+    system = Plain(_form(d, weight), d.state, free_unknowns(d, INNER))
     force = contact_force(d, system)
     report = newton_or_homotopy(system, d.stiffening.Set, SCOUT_TOLERANCE * force)
     if not report.converged:
@@ -69,7 +69,7 @@ def _form(d: Discrete, weight: float) -> Any:
     form = wall_form(d)
     form += ng.Variation(
         unilateral(multiplier, d.arc.gap(u, w), ng.Parameter(weight)).Compile()
-        * ng.ds("closed|open", intrules={ng.SEGM: d.rule})
+        * ng.ds(INNER, intrules={ng.SEGM: d.rule})
     )
     return form
 
@@ -115,6 +115,6 @@ def wrap_round(d: Discrete, wrap: Wrap) -> None:
     p.Set(2.0 * c_rr * U.Diff(c_rr) + pressure * (1.0 - depth) + tube.outside_pressure * depth)
     multiplier.Set(
         ng.IfPos(wrap.reach - ng.y, pressure * inner * stretch, 0.0),
-        definedon=d.mesh.Boundaries("closed|open"),
+        definedon=d.mesh.Boundaries(INNER),
     )
     tangential.vec[:] = 0.0

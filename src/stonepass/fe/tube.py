@@ -11,15 +11,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import cache, lru_cache
-
-from threadpoolctl import ThreadpoolController
+from functools import cache
 
 from stonepass.fe.fit import Fitted, fit, settle
 from stonepass.fe.folds import self_contact
 from stonepass.fe.press import WrapAt, press
 from stonepass.fe.problem import Failure, Path, Resolution, Tube
 from stonepass.fe.scout import Start, scout
+from stonepass.fe.threads import one_thread
 
 __all__ = ["seat_on_sphere"]
 
@@ -37,8 +36,7 @@ def seat_on_sphere(
     """Solve for the tube stretched over a sphere of `radius` (in inner radii) at its middle.
 
     Once for each resolution, coarse before fine: they share the scout, and without friction each
-    starts from the one before. Without a path there is no friction. The matrices are too small for
-    threads: BLAS runs on one, which halves the processor time.
+    starts from the one before. Without a path there is no friction.
     """
 
     @cache
@@ -61,7 +59,7 @@ def seat_on_sphere(
 
     found: list[Fitted | Failure] = []
     counted: set[tuple[int, float]] = set()
-    with _blas().limit(limits=1, user_api="blas"):
+    with one_thread():
         for resolution in resolutions:
             found.append(_first(starts(resolution), tube, radius, resolution, path))
     return found
@@ -107,8 +105,3 @@ def _after(solved: Fitted | Failure) -> Iterator[Start]:
     if isinstance(solved, Fitted) and solved.slack == 0.0:
         edge = float(solved.layout.axial[solved.layout.closed])
         yield Start(solved.discrete, edge, solved.force, 0)
-
-
-@lru_cache(maxsize=1)
-def _blas() -> ThreadpoolController:
-    return ThreadpoolController()

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.optimize import brentq
 
+from stonepass.errors import BadInput
 from stonepass.materials.derivatives import hoop_energy_slope
 from stonepass.materials.protocol import ClosedForm, Law
 from stonepass.model.case import Case, Load
@@ -19,6 +20,7 @@ __all__ = [
     "inflation",
     "inflation_by_quadrature",
     "lumen_ratio",
+    "stuck_lumen",
     "urine_pressure",
 ]
 
@@ -86,6 +88,19 @@ def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
     if not pressure(SMALLEST_LUMEN) < 0.0 < pressure(wide):
         return None
     return float(brentq(pressure, SMALLEST_LUMEN, wide, xtol=1e-14))
+
+
+def stuck_lumen(case: Case) -> float:
+    """The lumen r_a/R_a that load leaves open, refused where the stone is not larger."""
+    lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+    if lumen is None or case.size_ratio <= lumen:
+        raise BadInput(
+            "size ratio",
+            round(case.size_ratio, 6),
+            "larger than the lumen" + ("" if lumen is None else f", {lumen:.6g}"),
+            "a smaller stone is loose",
+        )
+    return lumen
 
 
 def far_field_law(case: Case) -> Law:

@@ -10,7 +10,6 @@ from functools import partial
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.errors import BadInput
 from stonepass.fe.fit import Fitted
 from stonepass.fe.problem import Failure, Path, Resolution
 from stonepass.fe.readout import (
@@ -28,9 +27,9 @@ from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
 from stonepass.model.accuracy import LEVELS, ErrorEstimate, Level
 from stonepass.model.case import Case
-from stonepass.model.far_field import lumen_ratio
+from stonepass.model.far_field import stuck_lumen
 from stonepass.model.first_guess import wrap_round_arc
-from stonepass.model.soundness import Soundness, far_field_hint, soundness, waves
+from stonepass.model.soundness import Soundness, far_field_hint, oversize_hint, soundness, waves
 from stonepass.model.tube import tube_of
 
 __all__ = ["Contact", "NoSeat", "SeatedState", "SolverReport", "seat"]
@@ -90,6 +89,11 @@ class Contact:
     contact_angle: float
     theta: Float[np.ndarray, " n"]
     contact_pressure: Float[np.ndarray, " n"]
+
+    @property
+    def downstream_angle(self) -> float:
+        """π − α₀ in rad, where the contact ends."""
+        return float(np.pi - self.contact_angle)
 
     @property
     def equator_contact_pressure(self) -> float:
@@ -183,7 +187,7 @@ def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSe
     """
     check(case.ureter.material)
     started = time.perf_counter()
-    lumen = _smaller_lumen(case)
+    lumen = stuck_lumen(case)
     unstable = waves(case)
     if unstable:
         return NoSeat(unstable, 0, time.perf_counter() - started)
@@ -192,7 +196,7 @@ def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSe
     *coarser, solved = _solve(case, lumen, wanted)
     steps = sum(result.steps for result in (*coarser, solved))
     if isinstance(solved, Failure):
-        reason = solved.reason + far_field_hint(case) + _oversize(case)
+        reason = solved.reason + far_field_hint(case) + oversize_hint(case)
         return NoSeat(reason, steps, time.perf_counter() - started)
     state = _state(case, replace(solved, steps=steps), started)
     if coarser and isinstance(coarser[0], Fitted):
@@ -222,30 +226,6 @@ def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
         contact_angle=float(angle + state.contact_angle_slack),
         equator_contact_pressure=level.claim(float(ripple), state.equator_contact_pressure),
     )
-
-
-def _oversize(case: Case) -> str:
-    """What to think of first where a stone is too large to be solved for."""
-    material = case.ureter.material
-    if case.size_ratio <= material.strain_range[1]:
-        return ""
-    return (
-        f"; the stone stretches the wall to {case.size_ratio:.3g} times its circumference, while "
-        f"the constants of '{material.name}' were used to {material.strain_range[1]:g}"
-    )
-
-
-def _smaller_lumen(case: Case) -> float:
-    """The lumen r_a/R_a that load leaves open, refused where the stone is not larger."""
-    lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
-    if lumen is None or case.size_ratio <= lumen:
-        raise BadInput(
-            "size ratio",
-            round(case.size_ratio, 6),
-            "larger than the lumen" + ("" if lumen is None else f", {lumen:.6g}"),
-            "a smaller stone is loose",
-        )
-    return lumen
 
 
 def _path(case: Case, lumen: float) -> Path | None:

@@ -8,8 +8,7 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Int
 
-from stonepass.fe.fit import Fitted
-from stonepass.fe.readout import Field, deformation
+from stonepass.fe.readout import Field, Solved, deformation
 from stonepass.fe.waves import unstable_wave
 from stonepass.materials.derivatives import hoop_modulus, rest_moduli
 from stonepass.materials.ellipticity import weakest
@@ -18,7 +17,7 @@ from stonepass.model.case import Case, Load
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.tube import tube_of
 
-__all__ = ["Soundness", "far_field_hint", "folding_warning", "soundness", "waves"]
+__all__ = ["Soundness", "far_field_hint", "folding_warning", "oversize_hint", "soundness", "waves"]
 
 
 @dataclass(frozen=True)
@@ -80,7 +79,7 @@ def folding_warning(case: Case) -> list[str]:
     ]
 
 
-def soundness(case: Case, solved: Fitted, wall: Field) -> Soundness:
+def soundness(case: Case, solved: Solved, wall: Field) -> Soundness:
     """Check strong ellipticity and hoop compression at points of every element."""
     law = case.ureter.material.law
     F, some = deformation(solved), _some_points(wall)
@@ -131,6 +130,17 @@ def far_field_hint(case: Case) -> str:
     return (
         "; under this load the tube itself has lost its stability far from the stone "
         f"(margin {margin:.2g}; 1 unloaded, 0 lost)"
+    )
+
+
+def oversize_hint(case: Case) -> str:
+    """What to think of first where a stone is too large to be solved for."""
+    material = case.ureter.material
+    if case.size_ratio <= material.strain_range[1]:
+        return ""
+    return (
+        f"; the stone stretches the wall to {case.size_ratio:.3g} times its circumference, while "
+        f"the constants of '{material.name}' were used to {material.strain_range[1]:g}"
     )
 
 

@@ -19,13 +19,14 @@ PRESSURE_KEYS = [
     "critical_angle_deg", "contact_angle_deg", "contact_angle_error_deg",
     "equator_contact_pressure_kPa", "equator_contact_pressure_error_kPa",
     "peak_contact_pressure_kPa", "closure_end_pressure_kPa",
+    "leak_pressure_kPa", "seal_angle_deg", "downstream_angle_deg",
     "stability_margin", "size_ratio", "wall_ratio", "model", "material", "inputs", "solver", "warnings", "version",
     "disclaimer",
 ]  # fmt: skip
 LATEX = ["--xi", "1.2", "--eta", "1.5", "--material", "latex", "--seating", "frictionless"]
 
 
-PROGRESS = "solving the seated state …\n"  # where a slow machine takes over a second
+PROGRESS = "solving for the wall …\n"  # where a slow machine takes over a second
 
 
 @pytest.fixture
@@ -293,6 +294,40 @@ def test_options_win_over_the_case_file(cli, tmp_path):
     assert changed["material"] == "latex"
     size = json.loads(cli("size", path, "--limit", "10kPa", "--json")[1])
     assert (size["wall_ratio"], size["inputs"]["friction"]) == (1.5, 0.3)
+
+
+def test_the_direct_model_answers_draws_and_writes(cli, tmp_path):
+    figure, profile = tmp_path / "push.png", tmp_path / "sigma.csv"
+    code, out, _ = cli(
+        "pressure", *LATEX[:6], "--friction", 0.475, "--model", "direct", "--accuracy", "fast",
+        "--figure", figure, "--profile", profile, "--json",
+    )  # fmt: skip
+    record = json.loads(out)
+    assert code == 0
+    assert record["model"] == "direct"
+    assert record["critical_pressure_kPa"] == pytest.approx(38.83, abs=0.02)
+    assert record["leak_pressure_kPa"] == pytest.approx(66.0, rel=0.02)
+    assert record["contact_angle_deg"] == record["critical_angle_deg"]
+    assert record["contact_angle_deg"] < record["seal_angle_deg"] < record["downstream_angle_deg"]
+    assert record["closure_end_pressure_kPa"] is None
+    assert figure.stat().st_size > 20_000
+    rows = list(csv.reader(profile.open()))[1:]
+    assert float(rows[0][1]) == pytest.approx(record["critical_pressure_kPa"])
+    assert float(rows[-1][1]) == 0.0
+    code, out, _ = cli("pressure", *LATEX[:6], "--model", "direct", "--accuracy", "fast")
+    assert code == 0
+    assert "leak pressure" in out
+
+
+def test_size_and_curve_take_the_direct_model(cli, tmp_path):
+    out = tmp_path / "c.csv"
+    common = ("--eta", 1.3, "--model", "direct", "--accuracy", "fast")
+    assert cli("curve", *common, "--xi", "1.1:1.2:0.1", "--out", out)[0] == 0
+    low, high = (float(row["critical_pressure_kPa"]) for row in csv.DictReader(out.open()))
+    assert 0.0 < low < 8.0 < high
+    size = json.loads(cli("size", *common, "--limit", "8kPa", "--json")[1])
+    assert 1.1 < size["critical_size_ratio"] < 1.2
+    assert size["critical_pressure_kPa"] == pytest.approx(8.0, rel=1e-4)
 
 
 def test_size_json(cli):

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from stonepass.materials.protocol import Material
     from stonepass.model.case import Case, Load, Method, Stone, Ureter
     from stonepass.model.critical import Answer, critical_pressure, solve
+    from stonepass.model.push_through import PushedState, push_through
     from stonepass.model.seated import SeatedState, seat
     from stonepass.model.size import SizeAnswer, critical_size
 
@@ -28,6 +29,7 @@ _HOME = {
     "Material": "materials.protocol",
     "Method": "model.case",
     "Outcome": "errors",
+    "PushedState": "model.push_through",
     "SeatedState": "model.seated",
     "SizeAnswer": "model.size",
     "Stone": "model.case",
@@ -35,6 +37,7 @@ _HOME = {
     "Ureter": "model.case",
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
+    "push_through": "model.push_through",
     "seat": "model.seated",
     "solve": "model.critical",
 }
@@ -47,6 +50,7 @@ __all__ = [
     "Material",
     "Method",
     "Outcome",
+    "PushedState",
     "SeatedState",
     "SizeAnswer",
     "Stone",
@@ -54,6 +58,7 @@ __all__ = [
     "Ureter",
     "critical_pressure",
     "critical_size",
+    "push_through",
     "seat",
     "solve",
 ]

@@ -29,6 +29,7 @@ _METHOD_OPTIONS = (
     "as_printed",
     "closure_start",
     "far_field_ground",
+    "wetted",
     "accuracy",
 )
 
@@ -96,7 +97,20 @@ class Settings:
         float | None,
         typer.Option("--half-length", help="Half the tube's length in inner radii.  [default: 10]"),
     ] = None
-    model: Annotated[str | None, typer.Option("--model", help="paper.  [default: paper]")] = None
+    model: Annotated[
+        str | None,
+        typer.Option(
+            "--model",
+            help="paper, or direct: the loaded push-through itself.  [default: paper]",
+        ),
+    ] = None
+    wetted: Annotated[
+        bool | None,
+        typer.Option(
+            "--wetted/--dry",
+            help="Direct model: urine takes friction off up to the seal.  [default: dry]",
+        ),
+    ] = None
     as_printed: Annotated[
         bool | None,
         typer.Option("--as-printed/--as-derived", help="Sign of Eq. 5.  [default: as derived]"),

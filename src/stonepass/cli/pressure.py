@@ -49,7 +49,7 @@ def command(
         from stonepass.model.case_file import write_case
 
         write_case(case, save)
-    with working("solving the seated state"):
+    with working("solving for the wall"):
         answer = solve(case)
     warn(_write(answer, profile, figure))
     if json:
@@ -66,15 +66,16 @@ def _write(answer: Answer, profile: Path | None, figure: Path | None) -> list[st
     """Write what was asked for; where no stone is seated there is nothing, and that is said."""
     if profile is None and figure is None:
         return []
-    if answer.seated is None:
+    if answer.state is None:
         return ["no stone is seated, so neither profile nor figure was written"]
     if profile is not None:
         from stonepass.report.record import write_profile
 
-        write_profile(answer.seated, profile)
+        write_profile(answer.state, profile)
     if figure is not None:
         from stonepass.report.case_figure import case_figure
+        from stonepass.report.push_figure import push_figure
         from stonepass.report.style import save
 
-        save(case_figure(answer), figure)
+        save(case_figure(answer) if answer.pushed is None else push_figure(answer), figure)
     return []

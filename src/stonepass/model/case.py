@@ -161,8 +161,9 @@ class Method:
 
     Parameters
     ----------
-    model : {"paper"}
-        Seated contact pressure cut off at the contact angle, with the closure of Eq. 15.
+    model : {"paper", "direct"}
+        Seated contact pressure cut off at the contact angle, with the closure of Eq. 15; or the
+        loaded push-through itself.
     seating : {"pressed", "frictionless", "growing"}
         How the stone came to its place: its arc pressed radially into the wall as in the paper,
         without friction, or a sphere growing in place.
@@ -176,6 +177,9 @@ class Method:
         Where Eq. 15 starts: at R_a as in the paper, or at the lumen that load leaves open.
     far_field_ground : bool
         Whether the far field contains the ground matrix of the law (Eq. 22 does not).
+    wetted : bool
+        Direct model: whether urine takes its pressure off the friction, from the contact's upstream
+        edge to the seal.
     accuracy : {"standard", "fast", "reference"}
         How finely the finite elements are solved; every answer carries an estimate of its error.
     """
@@ -187,10 +191,11 @@ class Method:
     as_printed: bool = False
     closure_start: str = "inner-radius"
     far_field_ground: bool = False
+    wetted: bool = False
     accuracy: str = "standard"
 
     def __post_init__(self) -> None:
-        _choice("model", self.model, ("paper",))
+        _choice("model", self.model, ("paper", "direct"))
         _choice("seating", self.seating, ("pressed", "frictionless", "growing"))
         if self.seating_friction is not None:
             _number(self.seating_friction, "seating_friction", *FRICTION)
@@ -203,7 +208,7 @@ class Method:
         _choice("accuracy", self.accuracy, ("fast", "standard", "reference"))
         _choice("closure_start", self.closure_start, ("inner-radius", "lumen"))
         _number(self.half_length, "half_length", *HALF_LENGTH)
-        for name in ("as_printed", "far_field_ground"):
+        for name in ("as_printed", "far_field_ground", "wetted"):
             value = getattr(self, name)
             require(isinstance(value, bool), name, value, "true or false")
 

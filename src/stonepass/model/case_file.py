@@ -49,6 +49,7 @@ class _Method(_Section):
     as_printed: bool = False
     closure_start: str = "inner-radius"
     far_field_ground: bool = False
+    wetted: bool = False
     accuracy: str = "standard"
 
 

@@ -11,11 +11,12 @@ from scipy.optimize import brentq
 from stonepass.errors import Outcome
 from stonepass.fe.problem import Resolution
 from stonepass.materials.stability import check
-from stonepass.model.accuracy import LEVELS, ErrorEstimate
+from stonepass.model.accuracy import LEVELS, ErrorEstimate, Level
 from stonepass.model.balance import Resistance, drive, resistance
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
+from stonepass.model.push_through import Critical, NoPush, PushedState, critical_push
 from stonepass.model.seated import Contact, NoSeat, SeatedState, seat
 from stonepass.model.soundness import folding_warning
 from stonepass.units import Values
@@ -42,10 +43,15 @@ class Answer:
     closure_end_pressure : float or None
         P_u in Pa at which the closure ends (r_a = R_s), not a physical bound.
     seated : SeatedState or None
-        The finite-element state behind it.
+        The finite-element state behind it; none in the direct model.
+    pushed : PushedState or None
+        Direct model: the loaded state in which the stone starts to move; where urine passes first,
+        the last one before.
+    leak_pressure : float or None
+        Direct model: urine pressure in Pa at which urine passes the held stone.
     error : ErrorEstimate or None
-        Estimated discretisation error of α₀, σ(π/2) and P_ucr; None where no stone is seated or
-        no second solve could be made.
+        Estimated discretisation error of α₀ (in the direct model of the contact's upstream edge),
+        σ(π/2) and P_ucr; None where there is no state or no second solve could be made.
     newton_steps, seconds : int, float
         Work of the finite elements, also where they failed.
     warnings : tuple of str
@@ -59,10 +65,17 @@ class Answer:
     critical_angle: float | None = None
     closure_end_pressure: float | None = None
     seated: SeatedState | None = None
+    pushed: PushedState | None = None
+    leak_pressure: float | None = None
     error: ErrorEstimate | None = None
     newton_steps: int = 0
     seconds: float = 0.0
     warnings: tuple[str, ...] = ()
+
+    @property
+    def state(self) -> SeatedState | PushedState | None:
+        """The finite-element state behind it, whichever model it is of."""
+        return self.seated if self.pushed is None else self.pushed
 
 
 def critical_pressure(
@@ -112,6 +125,8 @@ def solve(case: Case, resolution: Resolution | None = None) -> Answer:
     if _closure_start(case) is None:
         reason = "the far field without the ground matrix has no lumen under this load"
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
+    if case.method.model == "direct":
+        return _direct(case, resolution)
     seated = seat(case, resolution)
     if isinstance(seated, NoSeat):
         return _unanswered(
@@ -168,6 +183,54 @@ def _balance(case: Case, seated: SeatedState) -> Answer:
     )
 
 
+def _direct(case: Case, resolution: Resolution | None) -> Answer:
+    """The answer of the loaded push-through, with its error from a coarser solve."""
+    level = LEVELS[case.method.accuracy]
+    wanted = (level.companion, level.resolution) if resolution is None else (resolution,)
+    *coarser, found = critical_push(case, wanted, leak=resolution is None)
+    if isinstance(found, NoPush):
+        return _unanswered(
+            case, Outcome.NO_SOLUTION, found.reason, found.newton_steps, found.seconds
+        )
+    coarse = coarser[0] if coarser and isinstance(coarser[0], Critical) else None
+    state = found.state
+    undecided = coarse is not None and coarse.clears != found.clears
+    answer = Answer(
+        case=case,
+        outcome=Outcome.CLEARS if found.clears else Outcome.MOVES,
+        message=(Outcome.CLEARS if found.clears else Outcome.MOVES).value,
+        pushed=state,
+        leak_pressure=found.leak_pressure if coarse is None else coarse.leak_pressure,
+        newton_steps=sum(each.newton_steps for each in (*coarser, found)),
+        seconds=found.seconds,
+        warnings=(
+            *_range_warnings(case),
+            *folding_warning(case),
+            *state.warnings(),
+            *([_UNDECIDED_WARNING] if undecided else []),
+        ),
+    )
+    if not found.clears:
+        answer = replace(answer, pressure=state.urine_pressure, critical_angle=state.contact_angle)
+    if coarse is None or undecided:
+        return answer
+    return replace(answer, error=_push_error(level, coarse.state, state, answer.pressure))
+
+
+def _push_error(
+    level: Level, coarse: PushedState, fine: PushedState, pressure: float | None
+) -> ErrorEstimate:
+    width = fine.downstream_angle - fine.contact_angle
+    equator = fine.equator_contact_pressure
+    return ErrorEstimate(
+        contact_angle=level.claim(coarse.contact_angle - fine.contact_angle, width),
+        equator_contact_pressure=level.claim(coarse.equator_contact_pressure - equator, equator),
+        critical_pressure=(
+            None if pressure is None else level.claim(coarse.urine_pressure - pressure, pressure)
+        ),
+    )
+
+
 @dataclass(frozen=True)
 class _Critical:
     """Where drive and resistance balance; `at_edge` where the drive wins from the first angle."""
@@ -216,8 +279,8 @@ def _error(
 
 
 _UNDECIDED_WARNING = (
-    "a coarser solve ends otherwise: whether the forces balance before the end of the closure is "
-    "within the solver error"
+    "a coarser solve ends otherwise: whether the stone moves before its model ends is within the "
+    "solver error"
 )
 _EDGE_WARNING = (
     "the drive outweighs the resistance as soon as the stone is seated: the paper's closure starts "

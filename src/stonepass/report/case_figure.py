@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from stonepass.errors import BadInput
 from stonepass.fe.readout import Field
 from stonepass.model.balance import drive, resistance
 from stonepass.model.critical import Answer, pressure_of_angle
 from stonepass.model.seated import SeatedState
+from stonepass.report.section import draw_section
 from stonepass.report.style import COLOURS, new_figure, tidy
 
 __all__ = ["case_figure"]
@@ -34,26 +34,8 @@ def case_figure(answer: Answer) -> Figure:
 
 def _wall(axes: Axes, seated: SeatedState, wall: Field) -> None:
     """The meridian section, upstream left, coloured by the radial compression of the wall."""
-    radius = seated.case.size_ratio
-    order = round(np.sqrt(wall.r.shape[1])) - 1
-    shape = (order + 1, order + 1)
-    compression = -wall.stress_rr / 1e3
-    top = float(seated.peak_contact_pressure) / 1e3
-    image = None
-    for side in (-1.0, 1.0):  # upstream, downstream
-        for half in (1.0, -1.0):  # above and below the axis
-            for r, z, value in zip(wall.r, wall.z, compression, strict=True):
-                x, y, c = (side * z).reshape(shape), (half * r).reshape(shape), value.reshape(shape)
-                image = axes.pcolormesh(
-                    x, y, c, shading="gouraud", cmap="magma_r", vmin=0.0, vmax=top, rasterized=True
-                )
-                outline = np.r_[x[0], x[:, -1], x[-1, ::-1], x[::-1, 0]]
-                outline_y = np.r_[y[0], y[:, -1], y[-1, ::-1], y[::-1, 0]]
-                axes.plot(outline, outline_y, color="white", linewidth=0.25, alpha=0.6)
-    axes.add_patch(
-        Circle((0.0, 0.0), radius, facecolor=COLOURS["stone"], edgecolor=COLOURS["ink"], lw=0.8)
-    )
-    alpha = seated.contact_angle
+    radius, alpha = seated.case.size_ratio, seated.contact_angle
+    draw_section(axes, wall, radius, seated.peak_contact_pressure, sides=(-1.0, 1.0))
     for half in (1.0, -1.0):
         for side in (-1.0, 1.0):
             axes.plot(
@@ -66,16 +48,7 @@ def _wall(axes: Axes, seated: SeatedState, wall: Field) -> None:
     axes.annotate(
         rf"$\alpha_0$ = {np.degrees(alpha):.1f}°", (-0.12 * radius, 0.0), ha="right", va="center"
     )
-    extent = 2.2 * radius + 0.6
-    height = float(wall.r.max()) * 1.06
-    axes.set(xlim=(-extent, extent), ylim=(-height, height), aspect="equal")
-    axes.set(xlabel="z / inner radius   (urine comes from the left)", ylabel="r / inner radius")
     axes.set_title("Seated stone: radial compression in the wall")
-    axes.spines[["top", "right"]].set_visible(False)
-    assert image is not None
-    bar = axes.figure.colorbar(image, ax=axes, shrink=0.85, pad=0.01)
-    bar.set_label(r"$-\sigma_{rr}$  (kPa)")
-    bar.outline.set_visible(False)
 
 
 def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:

@@ -15,6 +15,7 @@ import stonepass
 from stonepass.errors import BadInput
 from stonepass.model.case import Case
 from stonepass.model.critical import Answer
+from stonepass.model.push_through import PushedState
 from stonepass.model.seated import SeatedState
 from stonepass.model.size import SizeAnswer
 
@@ -41,6 +42,7 @@ _CURVE_COLUMNS = (
     "equator_contact_pressure_error_kPa",
     "peak_contact_pressure_kPa",
     "closure_end_pressure_kPa",
+    "leak_pressure_kPa",
     "stability_margin",
     "wall_ratio",
     "model",
@@ -51,32 +53,36 @@ _CURVE_COLUMNS = (
 
 def record(answer: Answer) -> dict[str, Any]:
     """One answer as a JSON-ready record; a number that does not exist is None."""
-    seated, case, error = answer.seated, answer.case, answer.error
+    state, case, error = answer.state, answer.case, answer.error
+    pushed = answer.pushed
     return {
         "outcome": answer.outcome.name,
         "message": answer.message,
         "critical_pressure_kPa": _kilo(answer.pressure),
         "critical_pressure_error_kPa": _kilo(error.critical_pressure if error else None),
         "critical_angle_deg": _degrees(answer.critical_angle),
-        "contact_angle_deg": _degrees(seated.contact_angle if seated else None),
+        "contact_angle_deg": _degrees(state.contact_angle if state else None),
         "contact_angle_error_deg": _degrees(error.contact_angle if error else None),
-        "equator_contact_pressure_kPa": _kilo(seated.equator_contact_pressure if seated else None),
+        "equator_contact_pressure_kPa": _kilo(state.equator_contact_pressure if state else None),
         "equator_contact_pressure_error_kPa": _kilo(
             error.equator_contact_pressure if error else None
         ),
-        "peak_contact_pressure_kPa": _kilo(seated.peak_contact_pressure if seated else None),
+        "peak_contact_pressure_kPa": _kilo(state.peak_contact_pressure if state else None),
         "closure_end_pressure_kPa": _kilo(answer.closure_end_pressure),
-        "stability_margin": seated.soundness.margin if seated else None,
+        "leak_pressure_kPa": _kilo(answer.leak_pressure),
+        "seal_angle_deg": _degrees(pushed.seal_angle if pushed else None),
+        "downstream_angle_deg": _degrees(pushed.downstream_angle if pushed else None),
+        "stability_margin": state.soundness.margin if state else None,
         "size_ratio": case.size_ratio,
         "wall_ratio": case.wall_ratio,
         "model": case.method.model,
         "material": case.ureter.material.name,
         "inputs": _inputs(case),
         "solver": {
-            "dofs": seated.solver.dofs if seated else None,
+            "dofs": state.solver.dofs if state else None,
             "newton_steps": answer.newton_steps or None,
             "seconds": answer.seconds or None,
-            "residual": seated.solver.residual if seated else None,
+            "residual": state.solver.residual if state else None,
         },
         "warnings": list(answer.warnings),
         "version": stonepass.__version__,
@@ -123,12 +129,17 @@ def write_curve(answers: Iterable[Answer], path: Path) -> None:
     _write_csv(path, _CURVE_COLUMNS, rows)
 
 
-def write_profile(seated: SeatedState, path: Path) -> None:
-    """Write σ(θ) as CSV, θ from 0 to 180° in steps of 0.1° with α₀ and π − α₀ as rows."""
-    edge = math.degrees(seated.contact_angle)
+def write_profile(state: SeatedState | PushedState, path: Path) -> None:
+    """Write the pressure on the stone as CSV, θ from 0 to 180° in steps of 0.1°.
+
+    The edges of the contact are rows too. Seated, it is the contact pressure; loaded, the urine
+    pressure stands before the contact.
+    """
+    first = math.degrees(state.contact_angle)
+    last = math.degrees(state.downstream_angle)
     grid = np.linspace(0.0, 180.0, round(180.0 / PROFILE_STEP) + 1)
-    theta = np.unique(np.concatenate([grid, [edge, 180.0 - edge]]))
-    pressure = seated.pressure_at(np.radians(theta)) / 1e3
+    theta = np.unique(np.concatenate([grid, [first, last]]))
+    pressure = state.pressure_at(np.radians(theta)) / 1e3
     rows = [[f"{t:.10g}", f"{p:.10g}"] for t, p in zip(theta, pressure, strict=True)]
     _write_csv(path, ("theta_deg", "contact_pressure_kPa"), rows)
 

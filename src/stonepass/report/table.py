@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from rich import box
 from rich.table import Table
 
-from stonepass.errors import Outcome
 from stonepass.model.case import Case
 from stonepass.model.critical import Answer
 from stonepass.model.size import SizeAnswer
@@ -25,7 +24,7 @@ def pressure_table(answer: Answer) -> Table:
         error = None if answer.error is None else answer.error.critical_pressure
         _pressure_row(table, "[bold]critical pressure[/bold]", answer.pressure, error)
     _state_rows(table, answer)
-    if answer.outcome is Outcome.MOVES and answer.critical_angle is not None:
+    if answer.seated is not None and answer.critical_angle is not None:
         _angle_row(table, "critical angle", answer.critical_angle)
     return table
 
@@ -57,7 +56,7 @@ def curve_table(answers: Sequence[Answer]) -> Table:
             if answer.pressure is None
             else [_significant(answer.pressure / scale) for scale in PASCAL_PER.values()]
         )
-        angle = "–" if answer.seated is None else f"{_deg(answer.seated.contact_angle):.2f}°"
+        angle = "–" if answer.state is None else f"{_deg(answer.state.contact_angle):.2f}°"
         error = (
             "" if answer.error is None else _share(answer.error.critical_pressure, answer.pressure)
         )
@@ -114,18 +113,23 @@ def _up(error: float, least: float) -> str:
 
 
 def _state_rows(table: Table, answer: Answer) -> None:
-    seated = answer.seated
+    state = answer.state
     if answer.closure_end_pressure is not None:
         _pressure_row(table, "closure end", answer.closure_end_pressure)
-    if seated is None:
+    if answer.leak_pressure is not None:
+        _pressure_row(table, "leak pressure", answer.leak_pressure)
+    if state is None:
         return
     error = answer.error
     equator = None if error is None else error.equator_contact_pressure
-    _pressure_row(table, "contact pressure, equator", seated.equator_contact_pressure, equator)
-    _pressure_row(table, "contact pressure, peak", seated.peak_contact_pressure)
+    _pressure_row(table, "contact pressure, equator", state.equator_contact_pressure, equator)
+    _pressure_row(table, "contact pressure, peak", state.peak_contact_pressure)
     angle = None if error is None else error.contact_angle
-    _angle_row(table, "contact angle", seated.contact_angle, angle)
-    table.add_row("stability margin", f"{seated.soundness.margin:.2f}")
+    _angle_row(table, "contact angle", state.contact_angle, angle)
+    if answer.pushed is not None:
+        _angle_row(table, "seal", answer.pushed.seal_angle)
+        _angle_row(table, "contact ends", answer.pushed.downstream_angle)
+    table.add_row("stability margin", f"{state.soundness.margin:.2f}")
 
 
 def _title(case: Case, *, with_stone: bool = True) -> str:

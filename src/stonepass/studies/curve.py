@@ -37,9 +37,12 @@ def curve(
 def solve_slim(case: Case) -> Answer:
     """Solve, and leave the stress field behind."""
     answer = solve(case)
-    if answer.seated is None:
-        return answer
-    return replace(answer, seated=replace(answer.seated, wall=None))
+    seated, pushed = answer.seated, answer.pushed
+    return replace(
+        answer,
+        seated=None if seated is None else replace(seated, wall=None),
+        pushed=None if pushed is None else replace(pushed, wall=None),
+    )
 
 
 def _can_travel(case: Case) -> bool:

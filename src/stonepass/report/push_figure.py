@@ -1,0 +1,115 @@
+"""The picture of a push-through state: the loaded wall, the urine, the pressure on the stone."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stonepass.errors import BadInput
+from stonepass.fe.readout import Field
+from stonepass.model.critical import Answer
+from stonepass.model.push_through import PushedState
+from stonepass.report.section import draw_section
+from stonepass.report.style import COLOURS, new_figure, tidy
+
+__all__ = ["push_figure"]
+
+ARROWS = 7  # along the wall upstream
+URINE = COLOURS["green"]
+
+
+def push_figure(answer: Answer) -> Figure:
+    """Draw the loaded wall above, and the pressure on the stone below."""
+    pushed = answer.pushed
+    if pushed is None or pushed.wall is None:
+        raise BadInput(
+            "figure", answer.outcome.name, "asked for where there is a loaded state to draw"
+        )
+    figure = new_figure(8.4, 6.6)
+    rows = figure.add_gridspec(2, 1, height_ratios=(1.3, 1.0))
+    _wall(figure.add_subplot(rows[0]), pushed, pushed.wall)
+    _pressure(figure.add_subplot(rows[1]), answer, pushed)
+    return figure
+
+
+def _wall(axes: Axes, pushed: PushedState, wall: Field) -> None:
+    radius = pushed.case.size_ratio
+    draw_section(axes, wall, radius, pushed.peak_contact_pressure)
+    left, _ = axes.get_xlim()
+    r, z = _inner_wall(wall)
+    edge = -radius * np.cos(pushed.contact_angle)
+    wet = (z < edge) & (z > left - 0.5)
+    for half in (1.0, -1.0):
+        axes.fill_between(z[wet], 0.0, half * r[wet], color=URINE, alpha=0.12, linewidth=0)
+        for at in np.linspace(left + 0.15, edge - 0.1 * radius, ARROWS):
+            top = half * float(np.interp(at, z, r))
+            axes.annotate(
+                "",
+                (at, 0.985 * top),
+                (at, 0.985 * top - half * 0.22),
+                arrowprops={"arrowstyle": "-|>", "color": URINE, "lw": 0.9},
+            )
+    for alpha in (pushed.contact_angle, pushed.downstream_angle):
+        for half in (1.0, -1.0):
+            axes.plot(
+                [0.0, -radius * np.cos(alpha)],
+                [0.0, half * radius * np.sin(alpha)],
+                color=COLOURS["grey"],
+                linewidth=0.8,
+                linestyle="--",
+            )
+    axes.annotate(
+        f"$P_u$ = {pushed.urine_pressure / 1e3:.4g} kPa",
+        (left + 0.15, 0.0),
+        va="center",
+        color=URINE,
+    )
+    axes.set_title("Stone about to move: radial compression in the loaded wall")
+
+
+def _pressure(axes: Axes, answer: Answer, pushed: PushedState) -> None:
+    theta = np.unique(np.concatenate([np.linspace(0.0, np.pi, 721), pushed.theta]))
+    pressure = pushed.pressure_at(theta) / 1e3
+    degrees = np.degrees(theta)
+    wet = theta <= pushed.contact_angle
+    axes.fill_between(degrees[wet], pressure[wet], color=URINE, alpha=0.2, linewidth=0)
+    axes.plot(degrees[wet], pressure[wet], color=URINE, label="urine")
+    inside = (theta >= pushed.contact_angle) & (theta <= pushed.downstream_angle)
+    axes.fill_between(
+        degrees[inside], pressure[inside], color=COLOURS["blue"], alpha=0.15, linewidth=0
+    )
+    axes.plot(degrees[inside], pressure[inside], color=COLOURS["blue"], label="wall")
+    seal = np.degrees(pushed.seal_angle)
+    axes.plot(
+        seal,
+        pushed.peak_contact_pressure / 1e3,
+        marker="o",
+        color=COLOURS["orange"],
+        linestyle="none",
+        label=f"seal, {seal:.0f}°",
+    )
+    if answer.leak_pressure is not None:
+        axes.axhline(
+            answer.leak_pressure / 1e3,
+            color=COLOURS["grey"],
+            linewidth=0.9,
+            linestyle=":",
+            label=f"leak pressure, {answer.leak_pressure / 1e3:.3g} kPa",
+        )
+    axes.set(
+        xlabel="θ from the upstream axis (°)",
+        ylabel="pressure on the stone (kPa)",
+        xlim=(0.0, 180.0),
+        ylim=(0.0, None),
+    )
+    axes.set_title("Pressure on the stone")
+    axes.legend(fontsize=8, loc="upper left")
+    tidy(axes)
+
+
+def _inner_wall(wall: Field) -> tuple[np.ndarray, np.ndarray]:
+    """Deformed r and z of the inner wall, sorted along the tube."""
+    inner = wall.R == 1.0
+    z, order = np.unique(wall.z[inner], return_index=True)
+    return wall.r[inner][order], z

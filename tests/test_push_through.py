@@ -65,6 +65,22 @@ def test_without_friction_the_force_is_what_the_urine_gains(question, kilopascal
     assert pushed.solver.axial_balance < 5e-4
 
 
+@pytest.mark.parametrize("wetted", [False, True])
+@pytest.mark.parametrize(
+    ("material", "eta", "xi", "kilopascal"), [("latex", 1.5, 1.2, 24.0), ("ureter", 1.3, 1.2, 7.0)]
+)
+def test_with_friction_the_force_is_the_gain_less_what_friction_takes(
+    material, eta, xi, kilopascal, wetted
+):
+    """N = I − D, D = ∫ μ λ λ_s dA with the loaded contact pressure."""
+    question = case(material, eta, xi, 0.4, wetted=wetted)
+    pushed = push_through(question, f"{kilopascal} kPa", FAST, tether=0.1)
+    gained = advance_force(question, kilopascal * 1e3)
+    assert pushed.friction_work > 0.3 * gained
+    expected = gained - pushed.friction_work
+    assert pushed.net_force == pytest.approx(expected, abs=1e-4 * gained)
+
+
 def test_far_upstream_the_tube_is_that_of_the_far_field():
     question = case()
     pushed = push_through(question, "24 kPa", FAST, tether=0.1)

@@ -65,7 +65,8 @@ class Slid:
     Arrays are (edges, points) over the contact, from upstream: reference `station` Z, deformed `r`
     and `z`, total contact pressure per deformed area. `force` is the axial force on the stone,
     positive downstream; `pressure` P; `steps` the Newton steps with a tangent of their own since
-    the state before; `penetration` how far the open wall passes through the stone, in its radii.
+    the state before; `penetration` how far the open wall passes through the stone, in its radii;
+    `friction_work` what friction takes per length of reference wall that the stone goes on.
     """
 
     pressure: float
@@ -79,6 +80,7 @@ class Slid:
     steps: int
     residual: float
     penetration: float
+    friction_work: float
 
 
 @dataclass(frozen=True)
@@ -206,6 +208,22 @@ class Slide:
         self._seal = min(max(share, NEAREST_SEAL), 1.0 - NEAREST_SEAL)
         self._place(self._values)
 
+    def friction_work(self) -> float:
+        """What friction takes per length that the stone goes on along the reference wall.
+
+        ∫ λ_t λ_s dA, λ_t the traction and λ_s the wall's meridional stretch: so much wall slides.
+        """
+        wall, total, area = self._contact_forces()
+        stretch = area / wall.r
+        traction = self._traction(total, area)
+        return float(2.0 * np.pi * (wall.weight * traction * stretch).sum())
+
+    def _traction(self, total: Any, area: Any) -> Any:
+        """Friction per reference area."""
+        rubbed, wetted = total.copy(), slice(self.layout.wetted)
+        rubbed[wetted] -= self._wet.Get() * self._pressure.Get() * area[wetted]
+        return self._friction.Get() * rubbed
+
     def _seal_pressure(self) -> tuple[float, float]:
         """Station and size of the largest contact pressure."""
         wall, total, area = self._contact_forces()
@@ -332,10 +350,8 @@ class Slide:
         in the quadrature of the form.
         """
         wall, total, area = self._contact_forces()
-        pressure, friction = self._pressure.Get(), self._friction.Get()
-        rubbed, wetted = total.copy(), slice(self.layout.wetted)
-        rubbed[wetted] -= self._wet.Get() * pressure * area[wetted]
-        axial = (total * wall.z + friction * rubbed * wall.r) / self.radius
+        pressure, traction = self._pressure.Get(), self._traction(total, area)
+        axial = (total * wall.z + traction * wall.r) / self.radius
         on_wall = 2.0 * np.pi * (wall.weight * axial).sum()
         return float(np.pi * pressure * wall.r[0, 0] ** 2 - on_wall)
 
@@ -363,6 +379,7 @@ class Slide:
             steps=steps,
             residual=residual / self._tolerance * FIT_TOLERANCE,
             penetration=self._penetration(),
+            friction_work=self.friction_work(),
         )
 
 

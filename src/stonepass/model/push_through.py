@@ -88,6 +88,9 @@ class PushedState:
     net_force : float
         N/(π R_s²) in Pa: axial force on the stone over its cross-section, positive downstream;
         negative while the stone is stuck.
+    friction_work : float
+        D/(π R_s²) in Pa, D = ∫ μ σ λ_s dA with λ_s the wall's meridional stretch: what friction
+        takes as the stone goes on by one length of unloaded wall. N = I − D (`model.advance`).
     theta, contact_pressure : arrays
         Total contact pressure in Pa (true stress, compression positive) over θ in rad from the
         upstream axis, from the upstream edge of the contact to the downstream one.
@@ -106,6 +109,7 @@ class PushedState:
     case: Case
     urine_pressure: float
     net_force: float
+    friction_work: float
     theta: Float[np.ndarray, " n"]
     contact_pressure: Float[np.ndarray, " n"]
     upstream_radius: float
@@ -401,6 +405,7 @@ def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedStat
         case=case,
         urine_pressure=modulus * found.pressure,
         net_force=modulus * found.force / (np.pi * case.size_ratio**2),
+        friction_work=modulus * found.friction_work / (np.pi * case.size_ratio**2),
         theta=np.arctan2(r, -z),
         contact_pressure=modulus * np.maximum(sigma, 0.0),
         upstream_radius=far.radius,

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.special import ellipeinc
 
 from stonepass.fe.contact import Arc, lobatto, unilateral
 from stonepass.fe.discrete import discretise, free_unknowns, inner_wall, set_at_nodes, wall_form
@@ -12,6 +13,7 @@ from stonepass.fe.friction import open_contact
 from stonepass.fe.mesh import Layout, graded, growing, intervals, place, structured_mesh
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Tube
+from stonepass.fe.profile import Profile
 from stonepass.fe.wall import SYMBOLS, cauchy_stress, wall_energy
 from stonepass.fe.waves import unstable_motions
 from stonepass.materials.catalogue import CATALOGUE
@@ -77,7 +79,7 @@ def test_coarse_long_columns_do_not_make_an_unloaded_wall_unstable(name, order):
     """
     tube = tube_of(CATALOGUE[name].law, 1.5, Load(), 12.0)
     layout = Layout(np.array([1.0, 1.12, 1.28, 1.5]), np.linspace(0.0, 12.0, 9), closed=1)
-    wall = discretise(tube, Arc.at(1.0), layout, order)
+    wall = discretise(tube, Arc.at(Profile(1.0)), layout, order)
     free = free_unknowns(wall, "")
     assert newton(Plain(wall_form(wall), wall.state, free), 1e-12).converged
     assert unstable_motions(wall, free) == 0
@@ -87,7 +89,7 @@ def homogeneous(law, a, b, c, d):
     """A discrete wall with u = a R + c Z (so not quite a tube) and w = b Z + d R."""
     scale = hoop_modulus(law)
     tube = Tube(lambda *C: law.energy(*C) / scale, 1.5, 2.0)
-    wall = discretise(tube, Arc.at(1.2), LAYOUT, 3)
+    wall = discretise(tube, Arc.at(Profile(1.2)), LAYOUT, 3)
     u, w, p, *_ = wall.state.components
     u.Set(a * ng.x + c * ng.y)
     w.Set(b * ng.y + d * ng.x)
@@ -195,17 +197,45 @@ def test_tangent_is_the_slope_of_the_residual(friction):
     assert ng.Norm(product) <= 1e-6 * ng.Norm(up)
 
 
-def test_contact_does_the_work_of_its_forces():
-    """The virtual gap and slip are the slopes of gap and arc length, at one wall point."""
+@pytest.mark.parametrize("aspect", [0.5, 1.0, 1.4, 2.0])
+def test_contact_does_the_work_of_its_forces(aspect):
+    """Virtual gap and slip are the slopes of gap and arc length, at a wall point on the arc."""
     mesh = structured_mesh(LAYOUT)
-    arc, at, h = Arc.at(1.2, -0.1), mesh(1.0, 0.5), 1e-6
-    u, w, du, dw = 0.2, -0.03, 0.7, -0.4
-    for exact, function in (
-        (arc.virtual_gap(u, w, du, dw), arc.gap),
-        (arc.virtual_slip(u, w, du, dw), lambda a, b: arc.radius * arc.angle(a, b)),
+    stone = Profile(1.2, aspect, -0.1)
+    arc, at, h = Arc.at(stone), mesh(1.0, 0.5), 1e-6
+    u = -0.1 + 1.2 * np.cos(0.4) - 1.0  # r = offset + radius cos t, z = κ radius sin t
+    w = 1.2 * aspect * np.sin(0.4) - 0.5
+    assert ng.CF(arc.gap(ng.CF(u), ng.CF(w)))(at) == pytest.approx(0.0, abs=1e-12)
+    n_r, n_z = stone.normal(1.0 + u, 0.5 + w)
+    for exact, function, (du, dw) in (
+        (arc.virtual_gap, arc.gap, (0.7, -0.4)),
+        # Along the arc: off it, the place on it is not that of the nearest point.
+        (arc.virtual_slip, lambda a, b: arc.profile.radius * arc.along(a, b), (-n_z, n_r)),
     ):
         up, down = (ng.CF(function(u + s * h * du, w + s * h * dw))(at) for s in (1.0, -1.0))
-        assert ng.CF(exact)(at) == pytest.approx((up - down) / (2 * h), rel=1e-8)
+        slope = (up - down) / (2 * h)
+        assert ng.CF(exact(u, w, du, dw))(at) == pytest.approx(slope, rel=1e-7)
+    # Numbers and symbols go by the same formula.
+    off = ng.CF(arc.gap(ng.CF(u), ng.CF(w + 0.1)))(at)
+    assert off == pytest.approx(stone.gap(1.0 + u, 0.6 + w), rel=1e-12)
+
+
+@pytest.mark.parametrize("aspect", [0.5, 0.8, 1.4, 2.0])
+def test_a_spheroid_by_its_meridian(aspect):
+    stone, t = Profile(1.3, aspect), np.linspace(-1.3, 1.3, 14)
+    r, z = 1.3 * np.cos(t), 1.3 * aspect * np.sin(t)
+    np.testing.assert_allclose(stone.gap(r, z), 0.0, atol=1e-14)
+    n_r, n_z = stone.normal(r, z)
+    np.testing.assert_allclose(np.hypot(n_r, n_z), 1.0)
+    # Normal to the chord between near neighbours, and the gap grows by the way along it.
+    np.testing.assert_allclose(
+        n_r * -1.3 * np.sin(t) + n_z * 1.3 * aspect * np.cos(t), 0.0, atol=1e-14
+    )
+    np.testing.assert_allclose(stone.gap(r + 1e-5 * n_r, z + 1e-5 * n_z), 1e-5, rtol=1e-4)
+    # Arc length of an ellipse by its incomplete elliptic integral E(t | 1 − κ⁻²) × κ radius.
+    expected = aspect * ellipeinc(t, 1.0 - 1.0 / aspect**2)
+    np.testing.assert_allclose(stone.along(r, z), expected, atol=1e-11)
+    np.testing.assert_allclose(stone.parametric(r, z), np.pi / 2.0 + t)
 
 
 def test_values_set_at_nodes_are_read_there():
@@ -229,7 +259,7 @@ def test_a_free_tube_under_load_is_the_far_field():
         object.__setattr__(load, "confining_pressure", type(load.confining_pressure)(0.04))
         object.__setattr__(load, "confinement", confinement)
         tube = Tube(law.energy, 1.5, 2.0, 1.1, 0.04, hydrostatic=load.hydrostatic)
-        wall = discretise(tube, Arc.at(1.2), LAYOUT, 4)
+        wall = discretise(tube, Arc.at(Profile(1.2)), LAYOUT, 4)
         form = wall_form(wall)
         free = free_unknowns(wall, "closed")
         for index in wall.state.space.Range(3):
@@ -247,10 +277,10 @@ def test_the_gap_is_the_distance_from_the_arc():
     # Z = 2, R = 1: a = 1.5, again 2.5; the angle from the equator is atan(2/1.5).
     mesh = structured_mesh(LAYOUT)
     zero = ng.CF(0.0)
-    assert Arc.at(1.0).gap(zero, zero)(mesh(1.5, 2.0)) == pytest.approx(1.5)
-    arc = Arc.at(1.0, -0.5)
+    assert Arc.at(Profile(1.0)).gap(zero, zero)(mesh(1.5, 2.0)) == pytest.approx(1.5)
+    arc = Arc.at(Profile(1.0, 1.0, -0.5))
     assert arc.gap(zero, zero)(mesh(1.0, 2.0)) == pytest.approx(1.5)
-    assert arc.angle(zero, zero)(mesh(1.0, 2.0)) == pytest.approx(np.arctan2(2.0, 1.5))
+    assert arc.along(zero, zero)(mesh(1.0, 2.0)) == pytest.approx(np.arctan2(2.0, 1.5))
 
 
 def test_the_engine_knows_every_function_a_law_may_use():

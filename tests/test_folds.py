@@ -8,7 +8,8 @@ import pytest
 
 import stonepass as sp
 from stonepass.fe.folds import crossing, self_contact
-from stonepass.fe.tube import seat_on_sphere
+from stonepass.fe.profile import Profile
+from stonepass.fe.tube import seat_on_stone
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.model.first_guess import wrap_round_arc
@@ -58,7 +59,9 @@ def solved():
     law = CATALOGUE["latex"].law
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"))
     tube = tube_of(law, 1.5, case.load, 10.0)
-    return seat_on_sphere(tube, 1.2, partial(wrap_round_arc, case, 1.0, hoop_modulus(law)))[0]
+    return seat_on_stone(tube, Profile(1.2), partial(wrap_round_arc, case, 1.0, hoop_modulus(law)))[
+        0
+    ]
 
 
 @pytest.mark.parametrize(

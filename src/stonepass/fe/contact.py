@@ -15,6 +15,9 @@ import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
 
+from stonepass.fe.profile import Profile
+from stonepass.fe.wall import SYMBOLS
+
 __all__ = [
     "Arc",
     "bilateral",
@@ -28,46 +31,45 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Arc:
-    """The rigid meridian: a circle of `radius` whose centre has the radial coordinate `offset`.
+    """The rigid meridian as symbols: a profile whose radius and offset are engine parameters.
 
-    Both are parameters of the engine, so a loading path moves the arc without a new set-up.
+    So a loading path moves the arc without a new set-up.
     """
 
-    radius: Any
-    offset: Any
+    profile: Profile
 
     @classmethod
-    def at(cls, radius: float, offset: float = 0.0) -> Arc:
+    def at(cls, place: Profile) -> Arc:
         """Make an arc at its first place."""
-        return cls(ng.Parameter(radius), ng.Parameter(offset))
+        return cls(Profile(ng.Parameter(place.radius), place.aspect, ng.Parameter(place.offset)))
 
-    def move(self, radius: float, offset: float) -> None:
-        """Go to another place of the path."""
-        self.radius.Set(radius)
-        self.offset.Set(offset)
+    @property
+    def place(self) -> Profile:
+        """Where it is now, in numbers."""
+        return Profile(self.profile.radius.Get(), self.profile.aspect, self.profile.offset.Get())
+
+    def move(self, place: Profile) -> None:
+        """Go to another place of the path, of the same aspect."""
+        self.profile.radius.Set(place.radius)
+        self.profile.offset.Set(place.offset)
 
     def gap(self, u: Any, w: Any) -> Any:
         """Distance of the deformed wall point from the arc."""
-        a, z = self._from_centre(u, w)
-        return ng.sqrt(a * a + z * z) - self.radius
+        return self.profile.gap(ng.x + u, ng.y + w, SYMBOLS)
 
-    def angle(self, u: Any, w: Any) -> Any:
-        """Angle of the wall point at the centre, from the equator: where it lies on the arc."""
-        a, z = self._from_centre(u, w)
-        return ng.atan(z / a)
+    def along(self, u: Any, w: Any) -> Any:
+        """Where the wall point lies on the arc: arc length from the equator over the radius."""
+        return self.profile.along(ng.x + u, ng.y + w, SYMBOLS)
 
     def virtual_gap(self, u: Any, w: Any, du: Any, dw: Any) -> Any:
-        """Change of the gap under virtual displacements."""
-        a, z = self._from_centre(u, w)
-        return (a * du + z * dw) / ng.sqrt(a * a + z * z)
+        """Change of the gap of a point on the arc under virtual displacements."""
+        n_r, n_z = self.profile.normal(ng.x + u, ng.y + w, SYMBOLS)
+        return n_r * du + n_z * dw
 
     def virtual_slip(self, u: Any, w: Any, du: Any, dw: Any) -> Any:
-        """Change of the arc length, radius × angle, under virtual displacements."""
-        a, z = self._from_centre(u, w)
-        return self.radius * (a * dw - z * du) / (a * a + z * z)
-
-    def _from_centre(self, u: Any, w: Any) -> tuple[Any, Any]:
-        return ng.x + u - self.offset, ng.y + w
+        """Change of the arc length of a point on the arc under virtual displacements."""
+        n_r, n_z = self.profile.normal(ng.x + u, ng.y + w, SYMBOLS)
+        return n_r * dw - n_z * du
 
 
 def unilateral(multiplier: Any, gap: Any, c: Any) -> Any:

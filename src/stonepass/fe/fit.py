@@ -29,6 +29,7 @@ from stonepass.fe.mesh import INNER, Layout, graded, growing, intervals, place
 from stonepass.fe.newton import Bordered, Plain, Report, newton_or_homotopy
 from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
 from stonepass.fe.problem import Failure, Resolution, Tube
+from stonepass.fe.profile import Profile
 from stonepass.fe.scout import Start, edge_of_contact
 
 __all__ = ["Fitted", "fit", "settle"]
@@ -52,7 +53,6 @@ class Fitted:
     """
 
     discrete: Discrete
-    radius: float
     layout: Layout
     steps: int
     dofs: int
@@ -64,7 +64,7 @@ class Fitted:
 
 
 def fit(
-    tube: Tube, radius: float, start: Start, resolution: Resolution, friction: float
+    tube: Tube, stone: Profile, start: Start, resolution: Resolution, friction: float
 ) -> Fitted | Failure:
     """Solve with the contact edge as a grid line whose place is an unknown.
 
@@ -75,7 +75,7 @@ def fit(
     def layout(edge: float) -> Layout:
         return _layout(edge, start.edge, tube, resolution)
 
-    d = discretise(tube, Arc.at(radius), layout(start.edge), resolution.order)
+    d = discretise(tube, Arc.at(stone), layout(start.edge), resolution.order)
     _take_over(d, start)
     free = free_unknowns(d, "closed", friction=start.origin is not None)
     at_edge = edge_unknown(d, resolution.closed)
@@ -100,14 +100,14 @@ def fit(
     report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
     if not report.converged:
         return Failure(report.reason, report.steps)
-    flaw = _flaw(d, radius)
+    flaw = _flaw(d)
     if flaw:
         return Failure(flaw, report.steps)
-    return _fitted(d, radius, layout(float(system.values[0])), system, report, start, friction)
+    return _fitted(d, layout(float(system.values[0])), system, report, start, friction)
 
 
 def settle(
-    tube: Tube, radius: float, start: Start, resolution: Resolution, friction: float
+    tube: Tube, stone: Profile, start: Start, resolution: Resolution, friction: float
 ) -> Fitted | Failure:
     """Solve with contact as an inequality on meshes that are moved to the edge they find.
 
@@ -117,7 +117,7 @@ def settle(
     edge, steps = start.edge, 0
     for _ in range(SETTLING_ROUNDS):
         layout = _layout(edge, start.edge, tube, resolution)
-        d = discretise(tube, Arc.at(radius), layout, resolution.order)
+        d = discretise(tube, Arc.at(stone), layout, resolution.order)
         _take_over(d, start)
         free = free_unknowns(d, INNER, friction=start.origin is not None)
         system = Plain(_open_form(d, start, friction), d.state, free)
@@ -131,7 +131,7 @@ def settle(
         if abs(found - edge) <= slack:
             if not smallest_volume_ratio(d) > 0.0:
                 return Failure(INSIDE_OUT, steps)
-            solved = _fitted(d, radius, layout, system, report, start, friction)
+            solved = _fitted(d, layout, system, report, start, friction)
             return replace(solved, slack=slack, steps=steps)
         edge = found
     return Failure("the contact edge does not settle", steps)
@@ -139,7 +139,6 @@ def settle(
 
 def _fitted(
     d: Discrete,
-    radius: float,
     layout: Layout,
     system: Plain,
     report: Report,
@@ -149,14 +148,13 @@ def _fitted(
     force = contact_force(d, system)
     return Fitted(
         discrete=d,
-        radius=radius,
         layout=layout,
         steps=report.steps,
         dofs=int(sum(system.free)),
         residual=report.residual / force,
         force=force,
         friction=friction,
-        dissipated=start.dissipated + _last_dissipation(d, start, radius),
+        dissipated=start.dissipated + _last_dissipation(d, start),
     )
 
 
@@ -188,18 +186,18 @@ def _open_form(d: Discrete, start: Start, friction: float) -> Any:
 
 
 def _origin(start: Start) -> Any:
-    """The angles from which the last increment slips, as a smooth function of Z."""
+    """The places on the arc from which the last increment slips, as a smooth function of Z."""
     assert start.origin is not None
     spline = make_interp_spline(*start.origin, k=3)
     return ng.BSpline(4, spline.t.tolist(), spline.c.tolist())(ng.y)
 
 
-def _last_dissipation(d: Discrete, start: Start, radius: float) -> float:
+def _last_dissipation(d: Discrete, start: Start) -> float:
     if start.origin is None:
         return 0.0
     wall = inner_wall(d, "closed")
     origin = make_interp_spline(*start.origin, k=3)(wall.station)
-    return dissipation(wall, (radius, 0.0), origin)
+    return dissipation(wall, d.arc.place, origin)
 
 
 def _layout(edge: float, reference: float, tube: Tube, resolution: Resolution) -> Layout:
@@ -230,7 +228,7 @@ def _take_over(d: Discrete, start: Start) -> None:
         set_at_nodes(d.state.components[component], carried, d)
 
 
-def _flaw(d: Discrete, radius: float) -> str:
+def _flaw(d: Discrete) -> str:
     """Empty where λ_n ≥ 0 on the closed and gap ≥ 0 on the open part of the wall, and J > 0."""
     if not smallest_volume_ratio(d) > 0.0:  # NaN too
         return INSIDE_OUT
@@ -238,6 +236,7 @@ def _flaw(d: Discrete, radius: float) -> str:
     if force.min() < -1e-6 * force.max():
         return "the contact is not one closed band: the wall would lift off inside it"
     opened = inner_wall(d, "open")
-    if (np.hypot(opened.r, opened.z) - radius).min() < -1e-7 * radius:
+    stone = d.arc.place
+    if stone.gap(opened.r, opened.z).min() < -1e-7 * stone.radius:
         return "the wall would touch the stone again beyond the contact edge"
     return ""

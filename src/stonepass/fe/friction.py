@@ -1,8 +1,8 @@
 """Coulomb friction on the arc, in residual form with a return map.
 
-λ_n and λ_t are normal and tangential contact force per reference area, λ_t positive along growing
-angle. In one increment the wall point slips by s = radius × (angle − origin), where `origin` is
-the angle at which it stuck, or at which it came into contact. Then
+λ_n and λ_t are normal and tangential contact force per reference area, λ_t positive downstream. In
+one increment the wall point slips by s = radius × (place − origin), where `origin` is the place on
+the arc at which it stuck, or at which it came into contact. Then
 
     λ_t = λ_t − c s   projected on   |λ_t| ≤ μ λ_n :
 
@@ -46,7 +46,7 @@ def _residual(
 ) -> Any:
     u, w, _, _, tangential = trial
     du, dw, _, d_normal, d_tangential = test
-    sticking = tangential - c * arc.radius * (arc.angle(u, w) - origin)
+    sticking = tangential - c * arc.profile.radius * (arc.along(u, w) - origin)
     traction = _clamp(sticking, friction * ng.IfPos(force, force, 0.0 * force))
     work = force * arc.virtual_gap(u, w, du, dw) + traction * arc.virtual_slip(u, w, du, dw)
     rows = constraint * d_normal + (tangential - traction) / c * d_tangential

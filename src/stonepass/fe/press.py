@@ -2,7 +2,7 @@
 
 Contact grows with the square root of the way, so t = s² with equal increments of s: each adds about
 as much contact as the others. Wall points remember where they stuck. A point that comes into
-contact within an increment starts from the angle at which it touches, extrapolated from its free
+contact within an increment starts from the place at which it touches, extrapolated from its free
 motion in the increment before.
 """
 
@@ -30,6 +30,7 @@ from stonepass.fe.friction import open_contact
 from stonepass.fe.mesh import INNER
 from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Path, Resolution, Tube, Wrap
+from stonepass.fe.profile import Profile
 from stonepass.fe.scout import SCOUT_ORDER, Start, edge_of_contact, scout_layout, wrap_round
 
 __all__ = ["FRICTION_WEIGHT", "WrapAt", "along_wall", "dissipation", "press"]
@@ -40,18 +41,18 @@ MARGIN = 1.15  # the equal columns reach this much beyond the frictionless conta
 MOST_HALVINGS = 4
 CARRIES = 1e-6  # share of the largest contact force that a point in contact carries at least
 
-# (radius, offset of the centre) of the arc to a first guess for it.
-WrapAt = Callable[[float, float], Wrap]
+# The arc at a place to a first guess for it.
+WrapAt = Callable[[Profile], Wrap]
 
 
 @dataclass(frozen=True)
 class _Moment:
-    """The inner wall seen from the arc's centre: gap, angle, which points touch; the state."""
+    """The inner wall seen from the arc: gap, place along it, which points touch; the state."""
 
     t: float
     touching: Bool[np.ndarray, "edges points"]
     gap: Float[np.ndarray, "edges points"]
-    angle: Float[np.ndarray, "edges points"]
+    along: Float[np.ndarray, "edges points"]
     state: Any
 
 
@@ -65,7 +66,7 @@ def press(
     """
     reach = MARGIN * frictionless.edge
     layout = scout_layout(tube, reach, resolution.path_columns, growth=1.7)
-    d = discretise(tube, Arc.at(*path.place(0.0)), layout, SCOUT_ORDER)
+    d = discretise(tube, Arc.at(path.place(0.0)), layout, SCOUT_ORDER)
     origin = ng.GridFunction(d.nodal[0])
     system = Plain(_form(d, path, origin), d.state, free_unknowns(d, INNER, friction=True))
     before, now = None, _untouched(d, path)
@@ -74,8 +75,8 @@ def press(
     while True:
         ahead = s + step if s + step < 1.0 - 1e-9 else 1.0
         t = ahead**2
-        d.arc.move(*path.place(t))
-        touch = _touching_angle(before or _rigid_motion(now, d, path, t), now, t)
+        d.arc.move(path.place(t))
+        touch = _touching_place(before or _rigid_motion(now, d, path, t), now, t)
         set_at_nodes(origin, along_wall(inner_wall(d).station, touch), d)
         _guess(d, before, now, t, path, wrap_at)
         tolerance = PATH_TOLERANCE * frictionless.force
@@ -100,11 +101,10 @@ def press(
 
 
 def dissipation(
-    wall: InnerWall, place: tuple[float, float], origin: Float[np.ndarray, "edges points"]
+    wall: InnerWall, place: Profile, origin: Float[np.ndarray, "edges points"]
 ) -> float:
     """Energy that friction took in one increment, half tube: −2π ∫ λ_t slip R_a dZ."""
-    radius, offset = place
-    slip = radius * (np.arctan2(wall.z, wall.r - offset) - origin)
+    slip = place.radius * (place.along(wall.r, wall.z) - origin)
     return float(-2.0 * np.pi * (wall.weight * wall.tangential * slip).sum())
 
 
@@ -137,19 +137,20 @@ def _moment(t: float, wall: InnerWall, path: Path, d: Discrete) -> _Moment:
 
 def _untouched(d: Discrete, path: Path) -> _Moment:
     """The start: a uniform tube whose lumen is what the arc reaches."""
-    radius, offset = path.place(0.0)
+    place = path.place(0.0)
     Z = inner_wall(d).station
-    lumen = np.full_like(Z, radius + offset)
-    return _seen(0.0, lumen, d.tube.axial_stretch * Z, (radius, offset))
+    lumen = np.full_like(Z, place.radius + place.offset)
+    return _seen(0.0, lumen, d.tube.axial_stretch * Z, place)
 
 
 def _rigid_motion(start: _Moment, d: Discrete, path: Path, t: float) -> _Moment:
     """A moment before the start, made up: the wall at rest, the arc coming at its first speed."""
-    radius, offset = path.place(0.0)
-    next_radius, next_offset = path.place(t)
+    place, ahead = path.place(0.0), path.place(t)
     Z = inner_wall(d).station
-    lumen = np.full_like(Z, radius + offset)
-    past = (2.0 * radius - next_radius, 2.0 * offset - next_offset)
+    lumen = np.full_like(Z, place.radius + place.offset)
+    past = Profile(
+        2.0 * place.radius - ahead.radius, place.aspect, 2.0 * place.offset - ahead.offset
+    )
     return _seen(-t, lumen, d.tube.axial_stretch * Z, past)
 
 
@@ -157,27 +158,25 @@ def _seen(
     t: float,
     r: Float[np.ndarray, "edges points"],
     z: Float[np.ndarray, "edges points"],
-    place: tuple[float, float],
+    place: Profile,
     state: Any = None,
     touching: Bool[np.ndarray, "edges points"] | None = None,
 ) -> _Moment:
-    radius, offset = place
     if touching is None:
         touching = np.zeros(r.shape, dtype=bool)
-    gap = np.hypot(r - offset, z) - radius
-    return _Moment(t, touching, gap, np.arctan2(z, r - offset), state)
+    return _Moment(t, touching, place.gap(r, z), place.along(r, z), state)
 
 
-def _touching_angle(before: _Moment, now: _Moment, t: float) -> Float[np.ndarray, "edges points"]:
-    """Angle at which each wall point touches before `t`; where it is, if it touches already.
+def _touching_place(before: _Moment, now: _Moment, t: float) -> Float[np.ndarray, "edges points"]:
+    """Where on the arc each wall point touches before `t`; where it is, if it touches already.
 
-    Gap and angle of open points are taken to go on as between the last two moments.
+    Gap and place of open points are taken to go on as between the last two moments.
     """
     ahead = (t - now.t) / (now.t - before.t)
     closing = np.maximum((before.gap - now.gap) * ahead, 1e-15)
     fraction = np.clip(np.maximum(now.gap, 0.0) / closing, 0.0, 1.0)
     fraction[now.touching] = 0.0
-    return now.angle + fraction * ahead * (now.angle - before.angle)
+    return now.along + fraction * ahead * (now.along - before.along)
 
 
 def _guess(
@@ -185,12 +184,12 @@ def _guess(
 ) -> None:
     """First guess of an increment: the wall wrapped, or the motion so far continued."""
     if now.state is None:
-        wrap_round(d, wrap_at(*path.place(t)))
+        wrap_round(d, wrap_at(path.place(t)))
     elif before is None or before.state is None:
-        wrap_round(d, wrap_at(*path.place(now.t)))
+        wrap_round(d, wrap_at(path.place(now.t)))
         change = d.state.vec.CreateVector()
         change.data = -1.0 * d.state.vec
-        wrap_round(d, wrap_at(*path.place(t)))
+        wrap_round(d, wrap_at(path.place(t)))
         change.data += d.state.vec
         d.state.vec.data = now.state + change
     else:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from stonepass.fe.profile import Profile
 from stonepass.fe.wall import Energy
 
 __all__ = ["Failure", "Path", "Resolution", "Tube", "Wrap"]
@@ -35,7 +36,7 @@ class Tube:
 class Wrap:
     """First guess: inner radius and inner pressure along the tube, at reference stations Z/R_a.
 
-    `reach` is the station up to which the wall is taken to touch the sphere.
+    `reach` is the station up to which the wall is taken to touch the stone.
     """
 
     station: Float[np.ndarray, " n"]
@@ -53,12 +54,11 @@ class Path:
     friction : float
         Coulomb coefficient during the path.
     place : callable
-        ``place(t)`` gives (radius, offset of the centre) of the arc, t from 0, where it just
-        touches the unloaded lumen, to 1.
+        ``place(t)`` gives the arc, t from 0, where it just touches the unloaded lumen, to 1.
     """
 
     friction: float
-    place: Callable[[float], tuple[float, float]]
+    place: Callable[[float], Profile]
 
 
 @dataclass(frozen=True)

@@ -51,9 +51,9 @@ class Solved(Protocol):
 class ContactProfile:
     """Contact pressure along the half in contact, from the contact edge (θ = α₀) to θ = π/2.
 
-    `theta` in rad is measured at the sphere's centre from the tube axis; `pressure` and `traction`
-    (friction on the wall, positive away from the equator) are forces per deformed area, in units
-    of the modulus; `station` is the reference coordinate Z/R_a.
+    `theta` in rad is measured from the tube axis, at the centre of a sphere, else parametric;
+    `pressure` and `traction` (friction on the wall, positive away from the equator) are forces per
+    deformed area, in units of the modulus; `station` is the reference coordinate Z/R_a.
     """
 
     theta: Float[np.ndarray, " n"]
@@ -121,7 +121,7 @@ def contact_profile(solved: Fitted) -> ContactProfile:
         return samples.ravel()[keep][::-1]
 
     return ContactProfile(
-        theta=outwards(np.arctan2(r, z)),
+        theta=outwards(solved.discrete.arc.place.parametric(r, -z)),
         pressure=outwards((wall.normal @ values.T) / area),
         traction=outwards((wall.tangential @ values.T) / area),
         station=station[keep][::-1],
@@ -173,8 +173,8 @@ def axial_balance(solved: Fitted) -> float:
     """
     d, tube = solved.discrete, solved.discrete.tube
     wall = inner_wall(d, "closed")
-    angle = np.arctan2(wall.z, wall.r)
-    axial = wall.normal * np.sin(angle) + wall.tangential * np.cos(angle)
+    n_r, n_z = d.arc.place.normal(wall.r, wall.z)
+    axial = wall.normal * n_z + wall.tangential * n_r
     contact = 2.0 * np.pi * (wall.weight * axial).sum()
     scale = 2.0 * np.pi * (wall.weight * wall.normal).sum()
     middle, outer_middle = _section_force(solved, 0.0)

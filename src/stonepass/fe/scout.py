@@ -21,6 +21,7 @@ from stonepass.fe.discrete import (
 from stonepass.fe.mesh import INNER, Layout, growing
 from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Tube, Wrap
+from stonepass.fe.profile import Profile
 from stonepass.fe.wall import SYMBOLS
 
 __all__ = ["SCOUT_ORDER", "Start", "edge_of_contact", "scout", "scout_layout", "wrap_round"]
@@ -33,8 +34,8 @@ SCOUT_TOLERANCE = 1e-6  # of the contact force
 class Start:
     """A solution to start from: last station in contact, norm of the contact force, steps so far.
 
-    With friction, `origin` has the stations and the angles from which the last increment slips,
-    and `dissipated` the energy that the increments before it took.
+    With friction, `origin` has the stations and the places on the arc from which the last
+    increment slips, and `dissipated` the energy that the increments before it took.
     """
 
     discrete: Discrete
@@ -45,13 +46,13 @@ class Start:
     dissipated: float = 0.0
 
 
-def scout(tube: Tube, radius: float, wrap: Wrap, columns: int, weight: float) -> Start | Failure:
+def scout(tube: Tube, stone: Profile, wrap: Wrap, columns: int, weight: float) -> Start | Failure:
     """Solve the contact inequality on `columns` equal columns over the guessed contact.
 
     `weight` is the factor of the gap in the augmented Lagrangian, in units of the modulus.
     """
     layout = scout_layout(tube, wrap.reach, columns, growth=2.0)
-    d = discretise(tube, Arc.at(radius), layout, SCOUT_ORDER)
+    d = discretise(tube, Arc.at(stone), layout, SCOUT_ORDER)
     wrap_round(d, wrap)
     system = Plain(_form(d, weight), d.state, free_unknowns(d, INNER))
     force = contact_force(d, system)

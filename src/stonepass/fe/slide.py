@@ -109,11 +109,11 @@ class Slide:
         offset: float = 0.0,
     ) -> None:
         edge = float(seated.layout.axial[seated.layout.closed])
-        self.tube, self.radius, self.wetted = tube, seated.radius, wetted
+        self.tube, self.wetted, self.stone = tube, wetted, seated.discrete.arc.place
         self._resolution, self._contact, self._seal = resolution, edge, 0.5
         self._upstream, self._downstream = tube.half_length + offset, tube.half_length - offset
         self.layout = self._layout(-edge, edge)
-        self.discrete = discretise(tube, Arc.at(seated.radius), self.layout, resolution.order)
+        self.discrete = discretise(tube, Arc.at(self.stone), self.layout, resolution.order)
         self._values = np.array([-edge, edge, 0.0])
         self._first, self._last = ng.Parameter(-edge), ng.Parameter(edge)
         self._pressure, self._friction = ng.Parameter(0.0), ng.Parameter(0.0)
@@ -327,9 +327,10 @@ class Slide:
         )
 
     def _penetration(self) -> float:
-        """How far the open wall passes through the stone, in radii of the stone."""
+        """How far the open wall passes through the stone, in half-widths of the stone."""
         opened = inner_wall(self.discrete, "wet|open")
-        return max(0.0, 1.0 - float(np.hypot(opened.r, opened.z).min()) / self.radius)
+        gap = float(self.stone.gap(opened.r, opened.z).min())
+        return max(0.0, -gap / self.stone.radius)
 
     def far_field(self) -> FarField:
         """Inner radius and axial stretch, between halfway to the ends and nearly there."""
@@ -351,7 +352,8 @@ class Slide:
         """
         wall, total, area = self._contact_forces()
         pressure, traction = self._pressure.Get(), self._traction(total, area)
-        axial = (total * wall.z + traction * wall.r) / self.radius
+        n_r, n_z = self.stone.normal(wall.r, wall.z)
+        axial = total * n_z + traction * n_r
         on_wall = 2.0 * np.pi * (wall.weight * axial).sum()
         return float(np.pi * pressure * wall.r[0, 0] ** 2 - on_wall)
 

@@ -1,4 +1,4 @@
-"""The tube on a rigid sphere: a scout finds the contact edge, with friction a path follows the
+"""The tube on a rigid stone: a scout finds the contact edge, with friction a path follows the
 loading, and a fitted solve makes the edge a grid line.
 
 The scout treats contact as an inequality on a coarse mesh. The fitted solve closes the columns up
@@ -17,23 +17,24 @@ from stonepass.fe.fit import Fitted, fit, settle
 from stonepass.fe.folds import self_contact
 from stonepass.fe.press import WrapAt, press
 from stonepass.fe.problem import Failure, Path, Resolution, Tube
+from stonepass.fe.profile import Profile
 from stonepass.fe.scout import Start, scout
 from stonepass.fe.threads import one_thread
 
-__all__ = ["seat_on_sphere"]
+__all__ = ["seat_on_stone"]
 
 # (columns in contact, weight of the gap) of the scout, tried in turn.
 SCOUTS = ((6, 8.0), (12, 30.0), (24, 3.0))
 
 
-def seat_on_sphere(
+def seat_on_stone(
     tube: Tube,
-    radius: float,
+    stone: Profile,
     wrap_at: WrapAt,
     resolutions: Sequence[Resolution] = (Resolution(),),
     path: Path | None = None,
 ) -> list[Fitted | Failure]:
-    """Solve for the tube stretched over a sphere of `radius` (in inner radii) at its middle.
+    """Solve for the tube stretched over a stone (lengths in inner radii) at its middle.
 
     Once for each resolution, coarse before fine: they share the scout, and without friction each
     starts from the one before. Without a path there is no friction.
@@ -41,7 +42,7 @@ def seat_on_sphere(
 
     @cache
     def scouted(columns: int, weight: float) -> Start | Failure:
-        return scout(tube, radius, wrap_at(radius, 0.0), columns, weight)
+        return scout(tube, stone, wrap_at(stone), columns, weight)
 
     def starts(resolution: Resolution) -> Iterator[Start | Failure]:
         """Where to start from, best first; the steps of a scout count where it is first used."""
@@ -61,14 +62,14 @@ def seat_on_sphere(
     counted: set[tuple[int, float]] = set()
     with one_thread():
         for resolution in resolutions:
-            found.append(_first(starts(resolution), tube, radius, resolution, path))
+            found.append(_first(starts(resolution), tube, stone, resolution, path))
     return found
 
 
 def _first(
     starts: Iterator[Start | Failure],
     tube: Tube,
-    radius: float,
+    stone: Profile,
     resolution: Resolution,
     path: Path | None,
 ) -> Fitted | Failure:
@@ -80,7 +81,7 @@ def _first(
             failure = start
             continue
         for solve in (fit, settle):
-            result = _sound(solve(tube, radius, start, resolution, friction))
+            result = _sound(solve(tube, stone, start, resolution, friction))
             steps += result.steps
             if isinstance(result, Fitted):
                 return replace(result, steps=steps)

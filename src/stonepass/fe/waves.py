@@ -23,6 +23,7 @@ from stonepass.fe.discrete import (
 from stonepass.fe.mesh import Layout, place
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Tube
+from stonepass.fe.profile import Profile
 
 __all__ = ["unstable_motions", "unstable_wave"]
 
@@ -38,7 +39,7 @@ def unstable_wave(tube: Tube, lumen: float) -> float | None:
     wave long; the wave lowers the energy where the tangent has more negative eigenvalues than it
     has pressure unknowns, which are as many as its constraints of volume.
     """
-    d = discretise(tube, Arc.at(lumen), _half_wave(tube, 1.0), ORDER)
+    d = discretise(tube, Arc.at(Profile(lumen)), _half_wave(tube, 1.0), ORDER)
     _uniform(d, lumen)
     free = free_unknowns(d, "")
     if not newton(Plain(wall_form(d), d.state, free), TOLERANCE).converged:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from stonepass.fe.problem import Wrap
+from stonepass.fe.profile import Profile
 from stonepass.model.case import Case
 from stonepass.model.far_field import inflation
 
 __all__ = ["wrap_round_arc"]
 
 
-def wrap_round_arc(case: Case, lumen: float, modulus: float, radius: float, offset: float) -> Wrap:
-    """Inner radius and pressure along the tube round an arc (radius, radial place of its centre).
+def wrap_round_arc(case: Case, lumen: float, modulus: float, place: Profile) -> Wrap:
+    """Inner radius and pressure along the tube round an arc at a place.
 
     The wall is taken to leave the arc where the axial coordinate is half that of the place at
     which the arc has the radius of the lumen, with the slope it has there, and to return to the
@@ -20,10 +21,11 @@ def wrap_round_arc(case: Case, lumen: float, modulus: float, radius: float, offs
     """
     stretch, law = case.load.prestretch, case.ureter.material.law
     end = case.method.half_length * stretch
-    leave = 0.5 * np.sqrt(radius**2 - (lumen - offset) ** 2)
-    height = np.sqrt(radius**2 - leave**2)
+    radius, offset, aspect = place.radius, place.offset, place.aspect
+    leave = 0.5 * aspect * np.sqrt(radius**2 - (lumen - offset) ** 2)
+    height = np.sqrt(radius**2 - (leave / aspect) ** 2)
     rim = offset + height
-    rate = leave / (height * (rim - lumen))
+    rate = leave / aspect**2 / (height * (rim - lumen))
     z = np.concatenate(
         [
             np.linspace(0.0, leave, 200, endpoint=False),
@@ -33,7 +35,7 @@ def wrap_round_arc(case: Case, lumen: float, modulus: float, radius: float, offs
     z = np.append(z[z < end], end)
     inner = np.where(
         z < leave,
-        offset + np.sqrt(np.maximum(radius**2 - z**2, 0.0)),
+        offset + np.sqrt(np.maximum(radius**2 - (z / aspect) ** 2, 0.0)),
         lumen + (rim - lumen) * np.exp(-rate * np.maximum(z - leave, 0.0)),
     )
     pressure = np.asarray(inflation(inner, case.wall_ratio, law, stretch)) / modulus

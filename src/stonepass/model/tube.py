@@ -1,13 +1,14 @@
-"""The ureter and its load in the units of the finite elements: inner radius and hoop modulus."""
+"""Ureter, load and stone in the units of the finite elements: inner radius and hoop modulus."""
 
 from __future__ import annotations
 
 from stonepass.fe.problem import Tube
+from stonepass.fe.profile import Profile
 from stonepass.materials.derivatives import hoop_modulus, rest_gradient
 from stonepass.materials.protocol import Law
-from stonepass.model.case import Load
+from stonepass.model.case import Case, Load
 
-__all__ = ["tube_of"]
+__all__ = ["profile_of", "tube_of"]
 
 
 # The energy of a volume change, as a multiple of the pressure that a law has at rest, and at least
@@ -39,3 +40,8 @@ def tube_of(law: Law, wall_ratio: float, load: Load, half_length: float) -> Tube
         outside_pressure=load.confining_pressure / modulus,
         hydrostatic=load.hydrostatic,
     )
+
+
+def profile_of(case: Case) -> Profile:
+    """The stone in inner radii, its centre on the axis."""
+    return Profile(case.size_ratio, case.stone.aspect)

@@ -13,10 +13,10 @@ from stonepass.model.soundness import Soundness
 EDGE = np.pi / 3
 
 
-def uniform(sigma=7.0, friction=0.4, as_printed=False):
+def uniform(sigma=7.0, friction=0.4, as_printed=False, aspect=1.0):
     """A seated state with constant contact pressure from 60° to 120°."""
     case = Case(
-        Stone(size_ratio=1.2, friction=friction),
+        Stone(size_ratio=1.2, friction=friction, aspect=aspect),
         Ureter(wall_ratio=1.5),
         method=Method(as_printed=as_printed),
     )
@@ -37,6 +37,21 @@ def test_friction_by_hand():
         assert float(resistance(uniform()).friction(np.array(alpha))) == pytest.approx(
             expected, rel=1e-8
         )
+
+
+def test_friction_on_a_spheroid_is_that_of_its_profile():
+    """F_f = 2π μ ∫ σ ρ |dz| over the meridian ρ = R_s sin τ, z = −κ R_s cos τ (model: section 4b).
+
+    σ constant: ∫ ρ dz = κ R_s² ∫ sin² τ dτ, here by the trapezoidal rule along the profile itself.
+    F_σ = −π ∫ σ d(ρ²) does not depend on the length.
+    """
+    tau = np.linspace(1.2, 2.0 * np.pi / 3.0, 20001)
+    rho, z = np.sin(tau), -1.7 * np.cos(tau)
+    expected = 2.0 * 0.4 * 7.0 * np.trapezoid(rho, z)
+    found = resistance(uniform(aspect=1.7))
+    assert float(found.friction(np.array(1.2))) == pytest.approx(expected, rel=1e-6)
+    sphere = resistance(uniform())
+    assert float(found.wall(np.array(1.2))) == float(sphere.wall(np.array(1.2)))
 
 
 def test_wall_force_by_hand():

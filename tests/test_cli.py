@@ -319,6 +319,21 @@ def test_the_direct_model_answers_draws_and_writes(cli, tmp_path):
     assert "leak pressure" in out
 
 
+def test_a_long_stone_needs_more_pressure_and_its_case_file_keeps_the_aspect(cli, tmp_path):
+    for model in ("paper", "direct"):
+        saved = tmp_path / f"long-{model}.toml"
+        common = (*LATEX, "--model", model, "--accuracy", "fast")
+        sphere = json.loads(cli("pressure", *common, "--json")[1])
+        record = json.loads(cli("pressure", *common, "--aspect", 1.4, "--save", saved, "--json")[1])
+        assert record["inputs"]["aspect"] == 1.4
+        assert record["critical_pressure_kPa"] > sphere["critical_pressure_kPa"]
+        again = json.loads(cli("pressure", saved, "--json")[1])
+        assert again["critical_pressure_kPa"] == record["critical_pressure_kPa"]
+    code, _, err = cli("pressure", *LATEX, "--aspect", 3)
+    assert code == 2
+    assert "aspect is 3.0, but must be a number from 0.5 to 2" in err
+
+
 def test_size_and_curve_take_the_direct_model(cli, tmp_path):
     out = tmp_path / "c.csv"
     common = ("--eta", 1.3, "--model", "direct", "--accuracy", "fast")

@@ -20,9 +20,9 @@ FAST = LEVELS["fast"].resolution
 COARSE = LEVELS["fast"].companion
 
 
-def case(material="latex", eta=1.5, xi=1.2, mu=0.0, load=None, **method):
+def case(material="latex", eta=1.5, xi=1.2, mu=0.0, load=None, aspect=1.0, **method):
     return sp.Case(
-        sp.Stone(size_ratio=xi, friction=mu),
+        sp.Stone(size_ratio=xi, friction=mu, aspect=aspect),
         sp.Ureter(wall_ratio=eta, material=material),
         load or sp.Load(),
         sp.Method(model="direct", **method),
@@ -49,8 +49,21 @@ def test_what_an_advance_gains_by_hand():
         (case(load=sp.Load("10 kPa", "dead")), 24.0),
         (case(load=sp.Load("10 kPa", "hydrostatic")), 24.0),
         (case(load=sp.Load(prestretch=1.1)), 24.0),
+        (case(aspect=0.5), 24.0),
+        (case(aspect=2.0), 24.0),
+        (case("ureter", 1.3, 1.2, aspect=1.4), 7.0),
     ],
-    ids=["latex", "thin ureter", "thick ureter", "dead", "hydrostatic", "pre-stretch"],
+    ids=[
+        "latex",
+        "thin ureter",
+        "thick ureter",
+        "dead",
+        "hydrostatic",
+        "pre-stretch",
+        "flat stone",
+        "long stone",
+        "long stone, ureter",
+    ],
 )
 def test_without_friction_the_force_is_what_the_urine_gains(question, kilopascal):
     """N(P) = I(P), exact where the axial stretch is the same on both sides (model: section 7).
@@ -168,15 +181,17 @@ def test_the_claimed_error_covers_a_finer_solve(answer):
     assert abs(equator) <= answer.error.equator_contact_pressure
 
 
-@pytest.mark.parametrize("offset", [-4.0, 0.0, 4.0])
-def test_held_ends_strain_both_sides_and_the_force_is_exact_with_that(offset):
-    """N = (ω − ε S)⁺ − (ω − ε S)⁻ for any strain ε of the sides (`strained_force`)."""
-    question, pressure = case(), 24e3
+@pytest.mark.parametrize(
+    ("offset", "prestretch"), [(-4.0, 1.0), (0.0, 1.0), (4.0, 1.0), (0.0, 1.1)]
+)
+def test_held_ends_strain_both_sides_and_the_force_is_exact_with_that(offset, prestretch):
+    """N = [(ω − ε S)⁺ − (ω − ε S)⁻]/λ_z for any strain ε of the sides (`strained_force`)."""
+    question, pressure = case(load=sp.Load(prestretch=prestretch)), 24e3
     pushed = push_through(question, f"{pressure} Pa", FAST, offset=offset)
     strained = strained_force(
         question, pressure, pushed.upstream_stretch, pushed.downstream_stretch
     )
-    assert pushed.upstream_stretch < 1.0 < pushed.downstream_stretch
+    assert pushed.upstream_stretch < prestretch < pushed.downstream_stretch
     assert abs(pushed.net_force / advance_force(question, pressure) - 1.0) > 1e-3
     assert pushed.net_force == pytest.approx(strained, rel=3e-4)
 

@@ -8,14 +8,14 @@ import pytest
 import stonepass as sp
 from stonepass.fe.problem import Resolution
 from stonepass.fe.readout import contact_profile, stored_energy
-from stonepass.fe.tube import seat_on_sphere
+from stonepass.fe.tube import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.seated import NoSeat, SeatedState, seat
-from stonepass.model.tube import tube_of
+from stonepass.model.tube import profile_of, tube_of
 
 FRICTIONLESS = Method(seating="frictionless")
 LATEX = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material="latex"), method=FRICTIONLESS)
@@ -32,24 +32,33 @@ def fitted(case):
     law = case.ureter.material.law
     tube = tube_of(law, case.wall_ratio, case.load, case.method.half_length)
     guess = partial(wrap_round_arc, case, 1.0, hoop_modulus(law))
-    return seat_on_sphere(tube, case.size_ratio, guess)[0]
+    return seat_on_stone(tube, profile_of(case), guess)[0]
 
 
 @pytest.mark.parametrize(
-    ("material", "eta", "xi"), [("latex", 1.5, 1.2), ("ureter", 1.3, 1.2), ("ureter", 3.4, 1.1)]
+    ("material", "eta", "xi", "aspect"),
+    [
+        ("latex", 1.5, 1.2, 1.0),
+        ("ureter", 1.3, 1.2, 1.0),
+        ("ureter", 3.4, 1.1, 1.0),
+        ("latex", 1.5, 1.2, 0.6),
+        ("latex", 1.5, 1.2, 1.8),
+    ],
 )
-def test_contact_force_is_the_slope_of_the_energy(material, eta, xi):
-    """Growing the sphere by dR does the work ∫ σ dA dR; nothing else moves (ends held).
+def test_contact_force_is_the_slope_of_the_energy(material, eta, xi, aspect):
+    """Growing the stone by dR does the work ∫ σ x·n dA dR/R; nothing else moves (ends held).
 
-    Half tube: ∫ σ dA = 2π ξ² ∫_{α₀}^{π/2} σ sin θ dθ. An error in the contact pressure or its
-    area would show here, since the energy does not know of the multiplier.
+    Half tube, sphere: ∫ σ dA = 2π ξ² ∫_{α₀}^{π/2} σ sin θ dθ. Spheroid r = R sin θ, z = κ R cos θ:
+    x·n = R/m and ds = κ m R dθ with m = √(sin² θ + cos² θ/κ²), so the same times κ. An error in the
+    contact pressure or its area would show here, since the energy does not know of the multiplier.
     """
-    case = Case(Stone(size_ratio=xi), Ureter(wall_ratio=eta, material=material))
+    stone = Stone(size_ratio=xi, aspect=aspect)
+    case = Case(stone, Ureter(wall_ratio=eta, material=material))
     h = 2e-3
     up, down = (stored_energy(fitted(case.with_size_ratio(xi + s * h))) for s in (1, -1))
     profile = contact_profile(fitted(case))
     integrand = profile.pressure * np.sin(profile.theta)
-    force = 2 * np.pi * xi**2 * np.trapezoid(integrand, profile.theta)
+    force = 2 * np.pi * aspect * xi**2 * np.trapezoid(integrand, profile.theta)
     assert (up - down) / (2 * h) == pytest.approx(force, rel=2e-4)
 
 
@@ -150,3 +159,34 @@ def test_axial_compression_of_the_ureter_is_named_not_hidden():
 def test_a_loose_stone_is_not_seated():
     with pytest.raises(sp.BadInput, match="larger than the lumen"):
         seat(LATEX.with_size_ratio(0.99))
+
+
+@pytest.mark.parametrize("seating", ["frictionless", "pressed", "growing"])
+def test_a_spheroid_of_aspect_one_is_the_sphere(seating):
+    """The general formulas at aspect 1 + 1e-9 against the sphere's own."""
+
+    def solved(aspect):
+        stone = Stone(size_ratio=1.2, friction=0.4, aspect=aspect)
+        return sp.solve(Case(stone, Ureter(wall_ratio=1.5, material="latex"),
+                          method=Method(seating=seating, accuracy="fast")))  # fmt: skip
+
+    sphere, nearly = solved(1.0), solved(1.0 + 1e-9)
+    assert nearly.pressure == pytest.approx(sphere.pressure, rel=1e-7)
+    assert nearly.seated.contact_angle == pytest.approx(sphere.seated.contact_angle, abs=1e-7)
+    np.testing.assert_allclose(
+        nearly.seated.contact_pressure, sphere.seated.contact_pressure, rtol=1e-5, atol=1.0
+    )
+
+
+@pytest.mark.parametrize("aspect", [0.5, 1.4, 2.0])
+def test_a_spheroid_is_seated_in_balance_and_its_wall_lies_on_it(aspect):
+    stone = Stone(size_ratio=1.2, friction=0.4, aspect=aspect)
+    state = seat(Case(stone, Ureter(wall_ratio=1.3)))
+    assert isinstance(state, SeatedState)
+    assert state.solver.axial_balance < 5e-3
+    assert state.solver.cone_excess < 1e-6
+    inner = state.wall.R == 1.0
+    r, z = state.wall.r[inner] / 1.2, state.wall.z[inner] / (1.2 * aspect)
+    closed = z < np.cos(state.contact_angle) * (1.0 - 1e-9)
+    np.testing.assert_allclose(np.hypot(r, z)[closed], 1.0, atol=1e-6)
+    assert np.hypot(r, z)[~closed].min() > 1.0 - 1e-6

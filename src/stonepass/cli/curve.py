@@ -46,7 +46,9 @@ def command(
     from stonepass.report.record import curve_rows, write_curve
     from stonepass.studies.curve import curve
 
-    stone = Stone(size_ratio=sizes[-1], friction=settings.friction_value())
+    stone = Stone(
+        size_ratio=sizes[-1], friction=settings.friction_value(), aspect=settings.aspect_value()
+    )
     case = Case(stone, settings.ureter(), settings.load(), settings.method())
     case.with_size_ratio(sizes[0])  # both ends are checked before the first solve
     with counting("size ratios") as progress:

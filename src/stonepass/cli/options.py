@@ -15,6 +15,7 @@ from stonepass.errors import BadInput
 
 if TYPE_CHECKING:
     from stonepass.model.case import Case, Load, Method, Ureter
+    from stonepass.units import Length
 
 __all__ = ["Json", "Settings", "takes_settings"]
 
@@ -68,6 +69,10 @@ class Settings:
     friction: Annotated[
         float | None,
         typer.Option("--friction", help="Coulomb friction coefficient.  [default: 0.5]"),
+    ] = None
+    aspect: Annotated[
+        float | None,
+        typer.Option("--aspect", help="Length of the stone over its diameter.  [default: 1]"),
     ] = None
     seating: Annotated[
         str | None,
@@ -142,14 +147,16 @@ class Settings:
         from stonepass.model.case import Case, Stone
 
         base = self._base
+        diameter: str | Length | None
         if self.stone is not None and self.xi is not None:
             raise BadInput("combination of --stone and --xi", "ambiguous", "one of the two")
         if self.stone is None and self.xi is None:
             if base is None:
                 raise BadInput("size of the stone", "missing", "given as --stone or --xi")
-            stone = Stone(base.stone.diameter, self.friction_value(), base.stone.size_ratio)
+            diameter, size_ratio = base.stone.diameter, base.stone.size_ratio
         else:
-            stone = Stone(self.stone, self.friction_value(), self.xi)
+            diameter, size_ratio = self.stone, self.xi
+        stone = Stone(diameter, self.friction_value(), size_ratio, self.aspect_value())
         return Case(stone, self.ureter(), self.load(), self.method())
 
     def ureter(self) -> Ureter:
@@ -178,6 +185,12 @@ class Settings:
         if self.friction is not None:
             return self.friction
         return 0.5 if self._base is None else self._base.stone.friction
+
+    def aspect_value(self) -> float:
+        """Aspect of the stone of the options, of the case file, or the default."""
+        if self.aspect is not None:
+            return self.aspect
+        return 1.0 if self._base is None else self._base.stone.aspect
 
     def load(self) -> Load:
         """Build the load."""

@@ -30,7 +30,9 @@ def command(
     from stonepass.report.record import size_record
 
     with working("searching the critical size"):
-        answer = critical_size(ureter, limit, settings.friction_value(), load, method)
+        answer = critical_size(
+            ureter, limit, settings.friction_value(), load, method, aspect=settings.aspect_value()
+        )
     if json:
         print_json(size_record(answer))
     else:

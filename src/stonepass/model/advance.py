@@ -58,14 +58,15 @@ def advance_force(case: Case, pressure: float) -> float | None:
 def strained_force(
     case: Case, pressure: float, upstream_stretch: float, downstream_stretch: float
 ) -> float:
-    """N/(π R_s²) without friction where the sides are strained: (ω − ε S)⁺ − (ω − ε S)⁻.
+    """N/(π R_s²) without friction where the sides are strained: [(ω − ε S)⁺ − (ω − ε S)⁻]/λ_z.
 
-    ω(λ_z, p) = min over r_a of 2π ∫ w R dR − p λ_z π r_a² + the work of P_out, S = ∂ω/∂λ_z, ε the
-    change of the axial stretch. The wall slides freely, so ω − λ_z S is the same on both sides;
-    N = S⁺ − S⁻ balances the forces. To second order this is I + ½ (K⁻ ε⁻² − K⁺ ε⁺²), K = ∂S/∂λ_z.
+    ω(λ, p) = min over r_a of 2π ∫ w R dR − p λ π r_a² + the work of P_out, S = ∂ω/∂λ, ε = λ − λ_z
+    the change of the axial stretch from the pre-stretch λ_z. The wall slides freely, so ω − λ S is
+    the same on both sides; N = S⁺ − S⁻ balances the forces. To second order this is
+    I + ½ (K⁻ ε⁻² − K⁺ ε⁺²)/λ_z, K = ∂S/∂λ.
     """
-    downstream = _side(case, 0.0, downstream_stretch)
-    return (downstream - _side(case, pressure, upstream_stretch)) / case.size_ratio**2
+    ahead, behind = _side(case, 0.0, downstream_stretch), _side(case, pressure, upstream_stretch)
+    return (ahead - behind) / (case.load.prestretch * case.size_ratio**2)
 
 
 def _side(case: Case, pressure: float, stretch: float) -> float:

@@ -23,7 +23,7 @@ class Resistance:
 
     `friction` and `wall` are its two parts, both counted positive against the motion:
 
-    * F_f = 2π μ_f R_s² ∫ σ⁰ sin²θ dθ (Eq. 6);
+    * F_f = 2π μ_f R_s c ∫ σ⁰ sin²θ dθ, c the half-length of the stone (Eq. 6, where c = R_s);
     * F_σ = −π R_s² ∫ σ⁰ sin 2θ dθ: pressure on the upstream half pushes the stone downstream, on
       the downstream half upstream; where they no longer cancel, the rest resists. Eq. 5 as
       printed lacks the minus sign, and so would assist.
@@ -34,12 +34,13 @@ class Resistance:
     wall_sign: float
     _shear: Any
     _axial: Any
+    aspect: float
 
     def friction(self, alpha: Values) -> Values:
         """F_f(α)/(π R_s²) in Pa, α in [α₀, π/2]."""
         end = self._shear(np.pi / 2)
         upstream = end - self._shear(alpha)  # ∫ from α to π/2 of σ sin²θ
-        return 2.0 * self.friction_coefficient * (upstream + end)
+        return 2.0 * self.friction_coefficient * self.aspect * (upstream + end)
 
     def wall(self, alpha: Values) -> Values:
         """F_σ(α)/(π R_s²) in Pa, α in [α₀, π/2].
@@ -62,6 +63,7 @@ def resistance(contact: Contact) -> Resistance:
         friction_coefficient=contact.case.stone.friction,
         wall_sign=-1.0 if contact.case.method.as_printed else 1.0,
         _shear=PchipInterpolator(theta, sigma * np.sin(theta) ** 2).antiderivative(),
+        aspect=contact.case.stone.aspect,
         _axial=PchipInterpolator(theta, sigma * np.sin(2.0 * theta)).antiderivative(),
     )
 

@@ -21,6 +21,7 @@ FRICTION = (0.0, 2.0)
 DIAMETER = (1e-5, 1.0)
 CONFINING = (0.0, 1e5)
 PRESTRETCH = (0.8, 1.6)
+ASPECT = (0.5, 2.0)
 HALF_LENGTH = (3.0, 100.0)
 _BY_RATIO = "give both diameters, or the ratio alone"
 
@@ -36,33 +37,38 @@ def find_material(value: str | Material, folder: Path | None = None) -> Material
 
 @dataclass(frozen=True, init=False)
 class Stone:
-    """A rigid sphere, by its diameter or by its size ratio ξ = R_s/R_a.
+    """A rigid sphere or spheroid, by its diameter or by its size ratio ξ = R_s/R_a.
 
     Parameters
     ----------
     diameter : str or Length, optional
-        Text with a unit, e.g. ``"4.2 mm"``; in metres once read.
+        Across the ureter. Text with a unit, e.g. ``"4.2 mm"``; in metres once read.
     friction : float
         Coulomb coefficient μ_f between stone and wall, 0 to 2.
     size_ratio : float, optional
         ξ, where no length is known; 0.1 to 3.
+    aspect : float
+        Length along the ureter over the diameter across it, 0.5 to 2; 1 is a sphere.
     """
 
     diameter: Length | None
     friction: float
     size_ratio: float | None
+    aspect: float
 
     def __init__(
         self,
         diameter: str | Length | None = None,
         friction: float = 0.5,
         size_ratio: float | None = None,
+        aspect: float = 1.0,
     ) -> None:
         _one_of("stone", diameter=diameter, size_ratio=size_ratio)
         _set(self, "diameter", _diameter(diameter, "stone diameter"))
         _set(self, "friction", _number(friction, "friction", *FRICTION))
         ratio = None if size_ratio is None else _number(size_ratio, "size_ratio", *SIZE_RATIO)
         _set(self, "size_ratio", ratio)
+        _set(self, "aspect", _number(aspect, "aspect", *ASPECT))
 
 
 @dataclass(frozen=True, init=False)
@@ -234,11 +240,12 @@ class Case:
             round(self.size_ratio, 6),
             f"{low:g} to {high:g}",
         )
+        least = 2.0 * self.size_ratio * max(1.0, self.stone.aspect)
         require(
-            self.method.half_length >= 2.0 * self.size_ratio,
+            self.method.half_length >= least,
             "half_length",
             self.method.half_length,
-            f"at least twice the size ratio, {2.0 * self.size_ratio:.4g}",
+            f"at least twice the larger half-axis of the stone, {least:.4g}",
         )
 
     @property
@@ -272,8 +279,8 @@ class Case:
         return self.ureter.wall_ratio
 
     def with_size_ratio(self, size_ratio: float) -> Case:
-        """Return the same case with another stone of the same friction."""
-        stone = Stone(size_ratio=size_ratio, friction=self.stone.friction)
+        """Return the same case with another stone of the same friction and aspect."""
+        stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, aspect=self.stone.aspect)
         return Case(stone, self.ureter, self.load, self.method)
 
 

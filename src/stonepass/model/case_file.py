@@ -26,6 +26,7 @@ class _Stone(_Section):
     diameter: str | None = None
     friction: float = 0.5
     size_ratio: float | None = None
+    aspect: float = 1.0
 
 
 class _Ureter(_Section):
@@ -98,6 +99,7 @@ def write_case(case: Case, path: Path) -> None:
             "diameter": None if stone.diameter is None else format_length(stone.diameter),
             "size_ratio": stone.size_ratio,
             "friction": stone.friction,
+            "aspect": stone.aspect,
         },
         "ureter": {
             "inner_diameter": _length(ureter.inner_diameter),

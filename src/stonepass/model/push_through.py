@@ -24,7 +24,7 @@ from stonepass.fe.problem import Failure, Resolution
 from stonepass.fe.readout import Field, Volume, field, loaded_balance, volume
 from stonepass.fe.slide import Slid, Slide
 from stonepass.fe.threads import one_thread
-from stonepass.fe.tube import seat_on_sphere
+from stonepass.fe.tube import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.kinks import relaxed
 from stonepass.materials.stability import check
@@ -33,7 +33,7 @@ from stonepass.model.case import Case
 from stonepass.model.far_field import stuck_lumen, urine_pressure
 from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.soundness import Soundness, far_field_hint, oversize_hint, soundness, waves
-from stonepass.model.tube import tube_of
+from stonepass.model.tube import profile_of, tube_of
 from stonepass.units import Pressure, pressure
 
 __all__ = ["Critical", "NoPush", "PushReport", "PushedState", "critical_push", "push_through"]
@@ -90,10 +90,12 @@ class PushedState:
         negative while the stone is stuck.
     friction_work : float
         D/(π R_s²) in Pa, D = ∫ μ σ λ_s dA with λ_s the wall's meridional stretch: what friction
-        takes as the stone goes on by one length of unloaded wall. N = I − D (`model.advance`).
+        takes as the stone goes on by one length of wall, pre-stretched but not loaded. N = I − D
+        (`model.advance`).
     theta, contact_pressure : arrays
         Total contact pressure in Pa (true stress, compression positive) over θ in rad from the
-        upstream axis, from the upstream edge of the contact to the downstream one.
+        upstream axis (parametric on a spheroid), from the upstream edge of the contact to the
+        downstream one.
     upstream_radius, upstream_stretch : float
         r_a/R_a and axial stretch far from the stone.
     downstream_stretch : float
@@ -305,7 +307,7 @@ def _slides(
     opening = float(urine_pressure(np.array(case.size_ratio), case.wall_ratio, law, case.load))
     found: list[_Ready | Failure] = []
     for half, resolution in zip(
-        seat_on_sphere(tube, case.size_ratio, wrap_at, resolutions), resolutions, strict=True
+        seat_on_stone(tube, profile_of(case), wrap_at, resolutions), resolutions, strict=True
     ):
         if isinstance(half, Failure):
             found.append(half)
@@ -405,8 +407,10 @@ def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedStat
         case=case,
         urine_pressure=modulus * found.pressure,
         net_force=modulus * found.force / (np.pi * case.size_ratio**2),
-        friction_work=modulus * found.friction_work / (np.pi * case.size_ratio**2),
-        theta=np.arctan2(r, -z),
+        friction_work=modulus
+        * found.friction_work
+        / (np.pi * case.size_ratio**2 * case.load.prestretch),
+        theta=slide.stone.parametric(r, z),
         contact_pressure=modulus * np.maximum(sigma, 0.0),
         upstream_radius=far.radius,
         upstream_stretch=far.upstream,

@@ -22,7 +22,7 @@ from stonepass.fe.readout import (
     field,
     volume,
 )
-from stonepass.fe.tube import seat_on_sphere
+from stonepass.fe.tube import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
 from stonepass.model.accuracy import LEVELS, ErrorEstimate, Level
@@ -30,7 +30,7 @@ from stonepass.model.case import Case
 from stonepass.model.far_field import stuck_lumen
 from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.soundness import Soundness, far_field_hint, oversize_hint, soundness, waves
-from stonepass.model.tube import tube_of
+from stonepass.model.tube import profile_of, tube_of
 
 __all__ = ["Contact", "NoSeat", "SeatedState", "SolverReport", "seat"]
 
@@ -82,7 +82,8 @@ class Contact:
         α₀ in rad: contact spans θ from α₀ to π − α₀.
     theta, contact_pressure : arrays
         σ(θ) in Pa, true stress on the deformed wall, compression positive, on a fine grid of the
-        upstream half, θ from α₀ to π/2; the downstream half is its mirror image.
+        upstream half, θ from α₀ to π/2; the downstream half is its mirror image. θ is the angle at
+        the centre of a sphere; of a spheroid the parametric one, ρ = R_s sin θ, z = −c cos θ.
     """
 
     case: Case
@@ -209,7 +210,7 @@ def _solve(case: Case, lumen: float, wanted: Sequence[Resolution]) -> list[Fitte
     law, load = case.ureter.material.law, case.load
     tube = tube_of(law, case.wall_ratio, load, case.method.half_length)
     wrap_at = partial(wrap_round_arc, case, lumen, hoop_modulus(law))
-    return seat_on_sphere(tube, case.size_ratio, wrap_at, wanted, _path(case, lumen))
+    return seat_on_stone(tube, profile_of(case), wrap_at, wanted, _path(case, lumen))
 
 
 def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
@@ -230,12 +231,13 @@ def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
 
 def _path(case: Case, lumen: float) -> Path | None:
     """How the stone comes to its place; None where no friction acts on the way."""
-    friction, radius = case.seating_friction, case.size_ratio
+    friction, last = case.seating_friction, profile_of(case)
     if friction == 0.0:
         return None
+    more = last.radius - lumen
     if case.method.seating == "growing":
-        return Path(friction, lambda t: (lumen + t * (radius - lumen), 0.0))
-    return Path(friction, lambda t: (radius, (1.0 - t) * (lumen - radius)))
+        return Path(friction, lambda t: replace(last, radius=lumen + t * more))
+    return Path(friction, lambda t: replace(last, offset=(t - 1.0) * more))
 
 
 def _contact(case: Case, profile: ContactProfile) -> Contact:
@@ -269,5 +271,7 @@ def _state(case: Case, solved: Fitted, started: float) -> SeatedState:
             dissipated=2.0 * modulus * solved.dissipated,
         ),
         soundness=soundness(case, solved, in_pascals),
-        contact_angle_slack=solved.slack * case.load.prestretch / case.size_ratio,
+        contact_angle_slack=solved.slack
+        * case.load.prestretch
+        / (case.size_ratio * case.stone.aspect),
     )

@@ -62,6 +62,7 @@ def critical_size(
     load: Load | None = None,
     method: Method | None = None,
     progress: Callable[[float], None] | None = None,
+    aspect: float = 1.0,
 ) -> SizeAnswer:
     """How large may a stone be that moves at `limit`?
 
@@ -72,12 +73,17 @@ def critical_size(
     ----------
     limit : str or Pressure
         Bearable urine pressure, e.g. ``"12 kPa"``; 0.001 to 1000 kPa.
+    aspect : float
+        Of the stone: length along the ureter over the diameter across it.
     """
     bound = pressure(limit, "limit")
     require(LIMIT[0] <= bound <= LIMIT[1], "limit", limit, "0.001 kPa to 1000 kPa")
     high = ureter.material.strain_range[1]
     case = Case(
-        Stone(size_ratio=high, friction=friction), ureter, load or Load(), method or Method()
+        Stone(size_ratio=high, friction=friction, aspect=aspect),
+        ureter,
+        load or Load(),
+        method or Method(),
     )
     return _search(case, bound, progress or (lambda size_ratio: None))
 

@@ -35,18 +35,19 @@ def case_figure(answer: Answer) -> Figure:
 def _wall(axes: Axes, seated: SeatedState, wall: Field) -> None:
     """The meridian section, upstream left, coloured by the radial compression of the wall."""
     radius, alpha = seated.case.size_ratio, seated.contact_angle
-    draw_section(axes, wall, radius, seated.peak_contact_pressure, sides=(-1.0, 1.0))
+    length = radius * seated.case.stone.aspect
+    draw_section(axes, wall, seated.case, seated.peak_contact_pressure, sides=(-1.0, 1.0))
     for half in (1.0, -1.0):
         for side in (-1.0, 1.0):
             axes.plot(
-                [0.0, side * radius * np.cos(alpha)],
+                [0.0, side * length * np.cos(alpha)],
                 [0.0, half * radius * np.sin(alpha)],
                 color=COLOURS["grey"],
                 linewidth=0.8,
                 linestyle="--",
             )
     axes.annotate(
-        rf"$\alpha_0$ = {np.degrees(alpha):.1f}°", (-0.12 * radius, 0.0), ha="right", va="center"
+        rf"$\alpha_0$ = {np.degrees(alpha):.1f}°", (-0.12 * length, 0.0), ha="right", va="center"
     )
     axes.set_title("Seated stone: radial compression in the wall")
 

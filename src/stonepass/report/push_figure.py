@@ -35,14 +35,15 @@ def push_figure(answer: Answer) -> Figure:
 
 def _wall(axes: Axes, pushed: PushedState, wall: Field) -> None:
     radius = pushed.case.size_ratio
-    draw_section(axes, wall, radius, pushed.peak_contact_pressure)
+    length = radius * pushed.case.stone.aspect
+    draw_section(axes, wall, pushed.case, pushed.peak_contact_pressure)
     left, _ = axes.get_xlim()
     r, z = _inner_wall(wall)
-    edge = -radius * np.cos(pushed.contact_angle)
+    edge = -length * np.cos(pushed.contact_angle)
     wet = (z < edge) & (z > left - 0.5)
     for half in (1.0, -1.0):
         axes.fill_between(z[wet], 0.0, half * r[wet], color=URINE, alpha=0.12, linewidth=0)
-        for at in np.linspace(left + 0.15, edge - 0.1 * radius, ARROWS):
+        for at in np.linspace(left + 0.15, edge - 0.1 * length, ARROWS):
             top = half * float(np.interp(at, z, r))
             axes.annotate(
                 "",
@@ -53,7 +54,7 @@ def _wall(axes: Axes, pushed: PushedState, wall: Field) -> None:
     for alpha in (pushed.contact_angle, pushed.downstream_angle):
         for half in (1.0, -1.0):
             axes.plot(
-                [0.0, -radius * np.cos(alpha)],
+                [0.0, -length * np.cos(alpha)],
                 [0.0, half * radius * np.sin(alpha)],
                 color=COLOURS["grey"],
                 linewidth=0.8,

@@ -153,6 +153,7 @@ def _inputs(case: Case) -> dict[str, Any]:
         "stone_diameter_m": case.stone_diameter,
         "size_ratio": case.size_ratio,
         "friction": case.stone.friction,
+        "aspect": case.stone.aspect,
         "inner_diameter_m": ureter.inner_diameter,
         "outer_diameter_m": ureter.outer_diameter,
         "wall_ratio": ureter.wall_ratio,

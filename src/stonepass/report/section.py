@@ -6,16 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle
+from matplotlib.patches import Ellipse
 
 from stonepass.fe.readout import Field
+from stonepass.model.case import Case
 from stonepass.report.style import COLOURS
 
 __all__ = ["draw_section"]
 
 
 def draw_section(
-    axes: Axes, wall: Field, radius: float, top: float, sides: Sequence[float] = (1.0,)
+    axes: Axes, wall: Field, case: Case, top: float, sides: Sequence[float] = (1.0,)
 ) -> None:
     """Draw wall and stone, coloured by radial compression in Pa from 0 to `top`.
 
@@ -24,6 +25,7 @@ def draw_section(
     order = round(np.sqrt(wall.r.shape[1])) - 1
     shape = (order + 1, order + 1)
     compression, image = -wall.stress_rr / 1e3, None
+    length = case.size_ratio * case.stone.aspect
     for side in sides:
         for half in (1.0, -1.0):  # above and below the axis
             for r, z, value in zip(wall.r, wall.z, compression, strict=True):
@@ -42,16 +44,17 @@ def draw_section(
                 outline_y = np.r_[y[0], y[:, -1], y[-1, ::-1], y[::-1, 0]]
                 axes.plot(outline, outline_y, color="white", linewidth=0.25, alpha=0.6)
     axes.add_patch(
-        Circle(
+        Ellipse(
             (0.0, 0.0),
-            radius,
+            2.0 * length,
+            2.0 * case.size_ratio,
             facecolor=COLOURS["stone"],
             edgecolor=COLOURS["ink"],
             lw=0.8,
             zorder=1.5,  # above what fills the lumen, below lines
         )
     )
-    extent = 2.2 * radius + 0.6
+    extent = 2.2 * length + 0.6
     height = float(wall.r.max()) * 1.06
     axes.set(xlim=(-extent, extent), ylim=(-height, height), aspect="equal")
     axes.set(xlabel="z / inner radius   (urine comes from the left)", ylabel="r / inner radius")

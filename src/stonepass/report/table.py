@@ -138,6 +138,8 @@ def _title(case: Case, *, with_stone: bool = True) -> str:
     if with_stone:
         sizes.insert(0, f"ξ = {case.size_ratio:.4g}")
     parts = [", ".join(sizes), f"friction {stone.friction:g}", ureter.material.name]
+    if stone.aspect != 1.0:
+        parts.append(f"aspect {stone.aspect:g}")
     if case.load.confining_pressure > 0.0:
         parts.append(f"P_out {case.load.confining_pressure / 1e3:g} kPa {case.load.confinement}")
     if case.load.prestretch != 1.0:

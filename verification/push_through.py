@@ -68,12 +68,12 @@ def section() -> Section:
             "the wall has the same axial stretch far away on both sides, and with the sides' own "
             "stretches where it has not. P is the pressure that opens the tube halfway from its "
             "lumen to R_s. First at default settings with held ends, L = 10: N against I, and "
-            "against the exact force with the measured stretches; then with a weak axial tether, at "
-            "`reference`. What is left of N/I − 1 with held ends is the work of the strained sides, "
-            "not an error. With friction the same holds less D, what friction takes."
-            f"\n\nThe random grid has {GRID} cases (seed {SEED}): η 1.15–3.4, ξ 1.02–1.4 (latex) or "
-            f"to 1.3 (ureter), μ 0.05–0.8. Errors are measured against `reference`, for the first "
-            f"{REFERENCED}."
+            "against the exact force with the measured stretches; then with a weak axial tether, "
+            "at `reference`. What is left of N/I − 1 with held ends is the work of the strained "
+            "sides, not an error. With friction the same holds less D, what friction takes."
+            f"\n\nThe random grid has {GRID} cases (seed {SEED}): η 1.15–3.4, ξ 1.02–1.4 (latex) "
+            "or to 1.3 (ureter), μ 0.05–0.8. Errors are measured against `reference`, for the "
+            f"first {REFERENCED}."
         ),
         tables=[
             (

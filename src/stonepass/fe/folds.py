@@ -15,6 +15,7 @@ from stonepass.fe.fit import Fitted
 __all__ = ["crossing", "self_contact"]
 
 OUTER_POINTS = 6  # per column
+NUDGE = 1e-12
 ROUNDING = 1e-9  # of z at the middle, where symmetry makes it 0
 
 
@@ -75,5 +76,6 @@ def _outer(
     Z = np.append((lines[:-1, None] + np.diff(lines)[:, None] * share).ravel(), lines[-1])
     u, w, *_ = solved.discrete.state.components
     radius = solved.layout.radial[-1]
-    at = solved.discrete.mesh(np.full_like(Z, radius), Z)
+    # A hair inside the mesh: a point on its boundary may not be found in it.
+    at = solved.discrete.mesh(np.full_like(Z, radius - NUDGE), Z * (1.0 - NUDGE))
     return Z, radius + u(at).ravel(), Z + w(at).ravel()

@@ -32,6 +32,7 @@ __all__ = [
 ]
 
 SAMPLES_PER_COLUMN = 33
+NUDGE = 1e-12  # of the mesh
 
 
 @runtime_checkable
@@ -192,8 +193,7 @@ def loaded_balance(solved: Solved, pressure: float, force: float) -> float:
     """
     tube, ends = solved.discrete.tube, solved.layout.axial[[0, -1]]
     (first, outer_first), (last, outer_last) = (_section_force(solved, float(Z)) for Z in ends)
-    u = solved.discrete.state.components[0]
-    lumen = 1.0 + float(u(solved.discrete.mesh(1.0, float(ends[0]))))
+    lumen = inner_wall(solved.discrete).r[0, 0]
     fluid = np.pi * pressure * lumen**2
     bath = np.pi * (outer_last**2 - outer_first**2) * tube.outside_pressure * tube.hydrostatic
     w = solved.discrete.state.components[1]
@@ -220,10 +220,14 @@ def _section_force(solved: Solved, Z: float) -> tuple[float, float]:
     lines = solved.layout.radial
     run = np.diff(lines)[:, None]
     R = (lines[:-1, None] + run * (points + 1.0) / 2.0).ravel()
+    # A hair inside the mesh: a point on its boundary may not be found in it.
+    middle = solved.layout.axial.mean()
+    Z += NUDGE * (middle - Z)
+    outer = lines[-1] - NUDGE * (lines[-1] - lines[0])
     at = d.mesh(R, np.full_like(R, Z))
     density = stress_zz(at).ravel() * (R + u(at).ravel()) * stretch_rr(at).ravel()
     force = 2.0 * np.pi * float(((run * weights / 2.0).ravel() * density).sum())
-    return force, float(lines[-1] + u(d.mesh(float(lines[-1]), Z)))
+    return force, float(lines[-1] + u(d.mesh(float(outer), float(Z))))
 
 
 def stored_energy(solved: Fitted) -> float:

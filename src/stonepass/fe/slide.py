@@ -334,15 +334,15 @@ class Slide:
 
     def far_field(self) -> FarField:
         """Inner radius and axial stretch, between halfway to the ends and nearly there."""
-        u, w, *_ = self.discrete.state.components
-        mesh, up, down = self.discrete.mesh, -self._upstream, self._downstream
+        wall = inner_wall(self.discrete)
+        station, r, z = wall.station.ravel(), wall.r.ravel(), wall.z.ravel()
 
         def stretch(end: float) -> float:
-            near, far = (float(w(mesh(1.0, share * end))) for share in FAR)
-            return 1.0 + (far - near) / ((FAR[1] - FAR[0]) * end)
+            near, far = np.interp([share * end for share in FAR], station, z)
+            return float((far - near) / ((FAR[1] - FAR[0]) * end))
 
-        radius = 1.0 + float(u(mesh(1.0, sum(FAR) / 2.0 * up)))
-        return FarField(radius, stretch(up), stretch(down))
+        radius = float(np.interp(-sum(FAR) / 2.0 * self._upstream, station, r))
+        return FarField(radius, stretch(-self._upstream), stretch(self._downstream))
 
     def force(self) -> float:
         """Axial force on the stone, positive downstream.

@@ -14,7 +14,7 @@ from stonepass.materials.protocol import Law
 from stonepass.model.case import Case
 from stonepass.model.far_field import lumen_ratio, urine_pressure
 
-__all__ = ["advance_force", "opened_radius", "strained_force"]
+__all__ = ["advance_force", "opened_radius", "opening_pressure", "strained_force"]
 
 WIDEST = 4.0  # r_a/R_a that is looked for
 POINTS = 48
@@ -37,6 +37,11 @@ def opened_radius(case: Case, pressure: float) -> float | None:
         if excess(wide) > 0.0:
             return float(brentq(excess, lumen, wide, xtol=1e-13))
     return None
+
+
+def opening_pressure(case: Case) -> float:
+    """P_u in Pa that opens the tube to R_s."""
+    return _urine(case, relaxed(case.ureter.material.law), case.size_ratio)
 
 
 def advance_force(case: Case, pressure: float) -> float | None:

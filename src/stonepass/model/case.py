@@ -278,6 +278,12 @@ class Case:
         """η = R_b/R_a."""
         return self.ureter.wall_ratio
 
+    def with_friction(self, friction: float) -> Case:
+        """Return the same case with another friction coefficient."""
+        stone = self.stone
+        other = Stone(stone.diameter, friction, stone.size_ratio, stone.aspect)
+        return Case(other, self.ureter, self.load, self.method)
+
     def with_size_ratio(self, size_ratio: float) -> Case:
         """Return the same case with another stone of the same friction and aspect."""
         stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, aspect=self.stone.aspect)

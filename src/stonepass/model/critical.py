@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.optimize import brentq
@@ -21,9 +22,11 @@ from stonepass.model.seated import Contact, NoSeat, SeatedState, seat
 from stonepass.model.soundness import folding_warning
 from stonepass.units import Values
 
-__all__ = ["Answer", "critical_pressure", "pressure_of_angle", "solve"]
+__all__ = ["Answer", "balance_pressure", "critical_pressure", "pressure_of_angle", "solve"]
 
 SCAN_POINTS = 721
+# (α, α₀, ξ) to r_a/R_a.
+Closure = Callable[[Values, float, float], Values]
 SMALLEST_OVERSIZE = 1e-4
 
 
@@ -135,12 +138,24 @@ def solve(case: Case, resolution: Resolution | None = None) -> Answer:
     return _balance(case, seated)
 
 
-def pressure_of_angle(contact: Contact, alpha: Values) -> Values:
-    """P_u(α) in Pa (Eq. 16): the far field at the radius the closure gives to the angle α."""
-    case, start = contact.case, _closure_start(contact.case)
-    assert start is not None, "a seated stone under a load that closes the far field"
-    radius = linear_closure(alpha, contact.contact_angle, case.size_ratio, start)
+def pressure_of_angle(contact: Contact, alpha: Values, closure: Closure | None = None) -> Values:
+    """P_u(α) in Pa (Eq. 16): the far field at the radius the closure gives to the angle α.
+
+    `closure` takes α, α₀ and ξ and gives r_a/R_a; Eq. 15 by default.
+    """
+    case = contact.case
+    if closure is None:
+        start = _closure_start(case)
+        assert start is not None, "a seated stone under a load that closes the far field"
+        closure = partial(linear_closure, start=start)
+    radius = closure(alpha, contact.contact_angle, case.size_ratio)
     return urine_pressure(radius, case.wall_ratio, far_field_law(case), case.load)
+
+
+def balance_pressure(contact: Contact, closure: Closure) -> float | None:
+    """P_ucr in Pa of a seated stone with another closure; None where the forces do not balance."""
+    found = _critical(contact, closure)
+    return None if found is None else found.pressure
 
 
 def _unanswered(
@@ -240,7 +255,7 @@ class _Critical:
     at_edge: bool = False
 
 
-def _critical(contact: Contact) -> _Critical | None:
+def _critical(contact: Contact, closure: Closure | None = None) -> _Critical | None:
     """Smallest α in [α₀, π/2] with F_re = F_dr: scan first, since it need not be the only one."""
     forces = resistance(contact)
     first, last = contact.contact_angle, np.pi / 2
@@ -249,14 +264,14 @@ def _critical(contact: Contact) -> _Critical | None:
         return _Critical(first, 0.0)
 
     def excess(alpha: Values) -> Values:
-        return forces.total(alpha) - drive(pressure_of_angle(contact, alpha), alpha)
+        return forces.total(alpha) - drive(pressure_of_angle(contact, alpha, closure), alpha)
 
     found = _first_root(excess, first, last)
     if found is None:
         return None
     if found == first:
         return _Critical(first, _at_contact_edge(forces, first), at_edge=True)
-    return _Critical(found, float(pressure_of_angle(contact, np.array(found))))
+    return _Critical(found, float(pressure_of_angle(contact, np.array(found), closure)))
 
 
 def _closure_end(contact: Contact) -> float:

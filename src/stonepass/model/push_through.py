@@ -36,7 +36,15 @@ from stonepass.model.soundness import Soundness, far_field_hint, oversize_hint, 
 from stonepass.model.tube import profile_of, tube_of
 from stonepass.units import Pressure, pressure
 
-__all__ = ["Critical", "NoPush", "PushReport", "PushedState", "critical_push", "push_through"]
+__all__ = [
+    "Critical",
+    "NoPush",
+    "PushReport",
+    "PushedState",
+    "critical_push",
+    "push_along",
+    "push_through",
+]
 
 SAMPLES = 33  # of each column in contact
 # In units of the pressure that opens the tube to R_s: largest first guess, and a low start.
@@ -241,18 +249,39 @@ def push_through(
     BadInput
         The stone is not larger than the lumen, or a number is out of range.
     """
-    bound = pressure(urine, "urine pressure")
-    require(URINE[0] <= bound <= URINE[1], "urine pressure", urine, "0 kPa to 1000 kPa")
+    (found,) = push_along(case, [urine], resolution, tether=tether, offset=offset)
+    return found
+
+
+def push_along(
+    case: Case,
+    urine: Sequence[str | Pressure],
+    resolution: Resolution | None = None,
+    *,
+    tether: float = 0.0,
+    offset: float = 0.0,
+) -> list[PushedState | NoPush]:
+    """Hold the stone under one pressure after the other, each state the start of the next.
+
+    See `push_through`. Once a state is not found, the rest is not tried.
+    """
+    bounds = [pressure(each, "urine pressure") for each in urine]
+    for bound, each in zip(bounds, urine, strict=True):
+        require(URINE[0] <= bound <= URINE[1], "urine pressure", each, "0 kPa to 1000 kPa")
     started = time.perf_counter()
     wanted = resolution or LEVELS[case.method.accuracy].resolution
     (ready,) = _slides(case, [wanted], tether, offset)
     if isinstance(ready, Failure):
-        return _no_push(case, ready, started)
+        return [_no_push(case, ready, started)] * len(bounds)
+    states: list[PushedState | NoPush] = []
     with one_thread():
-        found = ready.slide.held(bound / ready.modulus, case.stone.friction)
-    if isinstance(found, Failure):
-        return _no_push(case, found, started)
-    return _state(case, ready, found, started)
+        for bound in bounds:
+            found = ready.slide.held(bound / ready.modulus, case.stone.friction)
+            if isinstance(found, Failure):
+                lost = _no_push(case, found, started)
+                return states + [lost] * (len(bounds) - len(states))
+            states.append(_state(case, ready, found, started))
+    return states
 
 
 def critical_push(

@@ -21,13 +21,16 @@ from stonepass.model.size import SizeAnswer
 
 __all__ = [
     "DISCLAIMER",
+    "VERSION",
     "curve_rows",
     "record",
     "size_record",
+    "write_csv",
     "write_curve",
     "write_profile",
 ]
 
+VERSION = stonepass.__version__
 DISCLAIMER = "Research use only. Not a medical device."
 PROFILE_STEP = 0.1  # degrees
 _CURVE_COLUMNS = (
@@ -125,8 +128,8 @@ def curve_rows(answers: Iterable[Answer]) -> list[dict[str, Any]]:
 
 def write_curve(answers: Iterable[Answer], path: Path) -> None:
     """Write a curve as CSV; a number that does not exist is an empty cell."""
-    rows = [[_cell(row[key]) for key in _CURVE_COLUMNS] for row in curve_rows(answers)]
-    _write_csv(path, _CURVE_COLUMNS, rows)
+    rows = [[row[key] for key in _CURVE_COLUMNS] for row in curve_rows(answers)]
+    write_csv(path, _CURVE_COLUMNS, rows)
 
 
 def write_profile(state: SeatedState | PushedState, path: Path) -> None:
@@ -140,8 +143,8 @@ def write_profile(state: SeatedState | PushedState, path: Path) -> None:
     grid = np.linspace(0.0, 180.0, round(180.0 / PROFILE_STEP) + 1)
     theta = np.unique(np.concatenate([grid, [first, last]]))
     pressure = state.pressure_at(np.radians(theta)) / 1e3
-    rows = [[f"{t:.10g}", f"{p:.10g}"] for t, p in zip(theta, pressure, strict=True)]
-    _write_csv(path, ("theta_deg", "contact_pressure_kPa"), rows)
+    rows = zip(theta.tolist(), pressure.tolist(), strict=True)
+    write_csv(path, ("theta_deg", "contact_pressure_kPa"), rows)
 
 
 def _inputs(case: Case) -> dict[str, Any]:
@@ -183,11 +186,12 @@ def _cell(value: Any) -> str:
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def _write_csv(path: Path, header: Iterable[str], rows: list[list[str]]) -> None:
+def write_csv(path: Path, header: Iterable[str], rows: Iterable[Iterable[Any]]) -> None:
+    """Write rows as CSV; a number that does not exist is an empty cell."""
     try:
         with path.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(header)
-            writer.writerows(rows)
+            writer.writerows([_cell(value) for value in row] for row in rows)
     except OSError as problem:
         raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem

@@ -1,0 +1,150 @@
+"""Closures side by side: a table, records, and the map of their errors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from rich import box
+from rich.table import Table
+
+from stonepass.report.record import DISCLAIMER, VERSION, write_csv
+from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.studies.closures import CLOSURES, ClosureComparison
+
+__all__ = ["closures_figure", "closures_record", "closures_table", "map_figure", "write_map"]
+
+_MAP_COLUMNS = (
+    "size_ratio", "wall_ratio", "friction", "aspect", "material", "outcome",
+    *(f"{name}_pressure_kPa" for name in CLOSURES),
+    *(f"{name}_error" for name in CLOSURES if name != "direct"),
+)  # fmt: skip
+
+
+def closures_table(found: ClosureComparison) -> Table:
+    """P_ucr of every closure, and how far it is from the direct model."""
+    case = found.case
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        title=f"ξ = {case.size_ratio:.4g}, η = {case.wall_ratio:.4g} · "
+        f"friction {case.stone.friction:g} · {case.ureter.material.name}",
+        title_justify="left",
+    )
+    for name in ("closure", "kPa", "against direct"):
+        table.add_column(name, justify="left" if name == "closure" else "right")
+    for name, text in CLOSURES.items():
+        pressure, error = found.pressures[name], found.error(name)
+        shown = "–" if error is None or name == "direct" else f"{error:+.1%}"
+        table.add_row(text, "–" if pressure is None else f"{pressure / 1e3:.4g}", shown)
+    return table
+
+
+def closures_record(found: ClosureComparison) -> dict[str, Any]:
+    """One comparison as a JSON-ready record."""
+    coefficients = found.coefficients
+    return {
+        **_row(found),
+        "message": found.message,
+        "series_coefficients": None if coefficients is None else [float(c) for c in coefficients],
+        "version": VERSION,
+        "disclaimer": DISCLAIMER,
+    }
+
+
+def write_map(found: Sequence[ClosureComparison], path: Path) -> None:
+    """Write many comparisons as CSV."""
+    rows = [_row(each) for each in found]
+    write_csv(path, _MAP_COLUMNS, [[row[name] for name in _MAP_COLUMNS] for row in rows])
+
+
+def closures_figure(found: ClosureComparison) -> Figure:
+    """How wide the tube is when the wall has opened to α: direct states, series, Eq. 15."""
+    from stonepass.model.closure import linear_closure, series_closure
+
+    figure = new_figure(6.0, 4.2)
+    axes = figure.add_subplot()
+    if found.pairs is not None and found.coefficients is not None:
+        alpha, radius = found.pairs
+        xi, first = found.case.size_ratio, float(alpha[0])
+        fine = np.linspace(first, np.pi / 2, 200)
+        axes.plot(
+            np.degrees(fine),
+            linear_closure(fine, first, xi),
+            color=COLOURS["orange"],
+            label="Eq. 15, linear in sin α",
+        )
+        axes.plot(
+            np.degrees(fine),
+            series_closure(fine, first, xi, found.coefficients),
+            color=COLOURS["blue"],
+            label=f"series, order {len(found.coefficients)}",
+        )
+        axes.plot(np.degrees(alpha), radius, "o", color=COLOURS["ink"], ms=4, label="direct states")
+        axes.legend()
+    axes.set(
+        xlabel="angle α up to which the wall is open (°)", ylabel="inner radius of the tube / R_a"
+    )
+    axes.set_title("Closure: the tube above the stone")
+    tidy(axes)
+    return figure
+
+
+def map_figure(found: Sequence[ClosureComparison]) -> Figure:
+    """Error of each closure against direct over ξ, a panel for each η, friction by shade."""
+    walls = sorted({each.case.wall_ratio for each in found})
+    frictions = sorted({each.case.stone.friction for each in found})
+    names = [name for name in CLOSURES if name not in ("direct",)]
+    figure = new_figure(3.1 * len(walls) + 0.6, 2.0 * len(names) + 0.6)
+    grid = figure.subplots(len(names), len(walls), sharex=True, sharey="row", squeeze=False)
+    colours = [COLOURS[name] for name in ("green", "blue", "orange", "pink", "grey", "ink")]
+    for i, name in enumerate(names):
+        for j, eta in enumerate(walls):
+            axes = grid[i, j]
+            axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.8)
+            for k, mu in enumerate(frictions):
+                mine = [
+                    each
+                    for each in found
+                    if (each.case.wall_ratio, each.case.stone.friction) == (eta, mu)
+                ]
+                mine.sort(key=lambda each: each.case.size_ratio)
+                errors = [each.error(name) for each in mine]
+                axes.plot(
+                    [each.case.size_ratio for each in mine],
+                    [np.nan if e is None else 100.0 * e for e in errors],
+                    marker="o",
+                    markersize=2.5,
+                    color=colours[k % len(colours)],
+                    label=f"friction {mu:g}",
+                )
+            if i == 0:
+                axes.set_title(f"η = {eta:.3g}")
+            if j == 0:
+                axes.set_ylabel(f"{name}\n(% of direct)")
+            if i == len(names) - 1:
+                axes.set_xlabel("size ratio ξ")
+            tidy(axes)
+    grid[0, -1].legend(fontsize=7)
+    figure.suptitle(
+        f"Critical pressure against the direct model: {found[0].case.ureter.material.name}"
+    )
+    return figure
+
+
+def _row(found: ClosureComparison) -> dict[str, Any]:
+    case = found.case
+    pressures = {f"{n}_pressure_kPa": None if p is None else p / 1e3
+                 for n, p in found.pressures.items()}  # fmt: skip
+    return {
+        "outcome": found.outcome.name,
+        "size_ratio": case.size_ratio,
+        "wall_ratio": case.wall_ratio,
+        "friction": case.stone.friction,
+        "aspect": case.stone.aspect,
+        "material": case.ureter.material.name,
+        **pressures,
+        **{f"{name}_error": found.error(name) for name in CLOSURES if name != "direct"},
+    }

@@ -1,0 +1,139 @@
+"""One stone by every closure: the paper's, a fitted series, energy, and the direct model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import as_completed
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.errors import Outcome
+from stonepass.model.accuracy import LEVELS
+from stonepass.model.advance import advance_force, opened_radius, opening_pressure
+from stonepass.model.case import Case
+from stonepass.model.closure import fit_series, series_closure
+from stonepass.model.critical import Answer, balance_pressure, solve
+from stonepass.model.push_through import PushedState, push_along
+from stonepass.studies.executor import executor
+from stonepass.units import Pressure
+
+__all__ = ["CLOSURES", "ClosureComparison", "closure_map", "compare_closures", "opening_pairs"]
+
+# Names at the door, and what they say.
+CLOSURES = {
+    "derived": "Eq. 15, Eq. 5 with the derived sign",
+    "printed": "Eq. 15, Eq. 5 as printed",
+    "series": "series of Eqs 13–14, fitted to direct states",
+    "energy": "energy: I(P) = D",
+    "direct": "direct push-through",
+}
+SERIES_ORDER, PAIRS = 3, 9
+LAST_PAIR = 0.95  # of the pressure that opens the tube to R_s
+NEAR = 0.03  # how far around the direct answer D is taken
+
+
+@dataclass(frozen=True)
+class ClosureComparison:
+    """Critical pressures of one stone by every closure.
+
+    Attributes
+    ----------
+    case : Case
+        With the paper's model.
+    pressures : dict
+        Name of the closure (`CLOSURES`) to P_ucr in Pa; None where it has none.
+    outcome : Outcome
+        Of the direct model.
+    message : str
+    coefficients : array or None
+        Of the series (`model.closure.series_closure`).
+    pairs : (array, array) or None
+        α in rad and r_a/R_a of the direct states the series was fitted to.
+    """
+
+    case: Case
+    pressures: dict[str, float | None]
+    outcome: Outcome
+    message: str
+    coefficients: Float[np.ndarray, " order"] | None = None
+    pairs: tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]] | None = None
+
+    def error(self, name: str) -> float | None:
+        """P_ucr by the closure `name` over that of the direct model, less 1; None without one."""
+        found, direct = self.pressures[name], self.pressures["direct"]
+        return None if found is None or not direct else found / direct - 1.0
+
+
+def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison:
+    """Answer one case by every closure.
+
+    The seated contact pressure is that of the case's seating for the paper's closures and the
+    series; the loaded one for energy and direct.
+    """
+    paper = solve(replace(case, method=replace(case.method, model="paper", as_printed=False)))
+    printed = solve(replace(case, method=replace(case.method, model="paper", as_printed=True)))
+    direct = solve(replace(case, method=replace(case.method, model="direct")))
+    pressures: dict[str, float | None] = dict.fromkeys(CLOSURES)
+    pressures |= {"derived": paper.pressure, "printed": printed.pressure}
+    pressures |= {"direct": direct.pressure, "energy": _by_energy(direct)}
+    found = ClosureComparison(paper.case, pressures, direct.outcome, direct.message)
+    pairs = opening_pairs(case)
+    if pairs is None or paper.seated is None:
+        return found
+    alpha, radius = pairs
+    coefficients = fit_series(alpha[1:], radius[1:], float(alpha[0]), case.size_ratio, order)
+    pressures["series"] = balance_pressure(
+        paper.seated, lambda a, a0, xi: series_closure(a, a0, xi, coefficients)
+    )
+    return replace(found, coefficients=coefficients, pairs=pairs)
+
+
+def opening_pairs(
+    case: Case,
+) -> tuple[Float[np.ndarray, " pairs"], Float[np.ndarray, " pairs"]] | None:
+    """α and r_a/R_a of frictionless direct states with rising P_u, from P_u = 0 on, α up to 90°.
+
+    Without friction, because the series begins at (α₀, R_a), as the wall opens then.
+    """
+    bare = replace(case.with_friction(0.0), method=replace(case.method, model="direct"))
+    rising = LAST_PAIR * opening_pressure(case) * np.linspace(0.0, 1.0, PAIRS)
+    states = push_along(bare, [Pressure(float(p)) for p in rising], LEVELS["fast"].resolution)
+    kept = [s for s in states if isinstance(s, PushedState) and s.contact_angle <= np.pi / 2]
+    if len(kept) <= SERIES_ORDER:
+        return None
+    radii = [opened_radius(case, s.urine_pressure) for s in kept]
+    return np.array([s.contact_angle for s in kept]), np.array(radii, dtype=float)
+
+
+def closure_map(
+    cases: Sequence[Case],
+    progress: Callable[[int, int], None] | None = None,
+    workers: int = 1,
+) -> list[ClosureComparison]:
+    """Compare the closures for many cases; `progress` is told (done, all) after each."""
+    with executor(workers) as pool:
+        futures = [pool.submit(compare_closures, case) for case in cases]
+        for done, _ in enumerate(as_completed(futures), start=1):
+            if progress is not None:
+                progress(done, len(cases))
+        return [future.result() for future in futures]
+
+
+def _by_energy(direct: Answer) -> float | None:
+    """The root of I(P) = D(P), D of two loaded states around the direct answer."""
+    if direct.pressure is None or direct.pressure == 0.0:
+        return direct.pressure
+    near = [Pressure(direct.pressure * (1.0 + s * NEAR)) for s in (-1.0, 1.0)]
+    states = push_along(direct.case, near, LEVELS["fast"].resolution)
+    excess = []
+    for state in states:
+        if not isinstance(state, PushedState):
+            return None
+        gained = advance_force(direct.case, state.urine_pressure)
+        if gained is None:
+            return None
+        excess.append(gained - state.friction_work)
+    low, high = excess
+    return float(near[0] - low * (near[1] - near[0]) / (high - low))

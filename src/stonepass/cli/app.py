@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import stonepass
-from stonepass.cli import closures, curve, headline, material, pressure, size
+from stonepass.cli import closures, curve, headline, material, pressure, push, size
 
 __all__ = ["app"]
 
@@ -40,6 +40,7 @@ def _root(
 app.command("pressure")(pressure.command)
 app.command("size")(size.command)
 app.command("curve")(curve.command)
+app.command("push")(push.command)
 app.command("closures")(closures.command)
 app.command("headline")(headline.command)
 app.add_typer(material.app, name="material")

@@ -85,7 +85,7 @@ def closures_figure(found: ClosureComparison) -> Figure:
         axes.plot(np.degrees(alpha), radius, "o", color=COLOURS["ink"], ms=4, label="direct states")
         axes.legend()
     axes.set(
-        xlabel="angle α up to which the wall is open (°)", ylabel="inner radius of the tube / R_a"
+        xlabel="angle α up to which the wall is open (°)", ylabel="inner radius of the tube / $R_a$"
     )
     axes.set_title("Closure: the tube above the stone")
     tidy(axes)

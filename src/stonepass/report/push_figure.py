@@ -13,7 +13,7 @@ from stonepass.model.push_through import PushedState
 from stonepass.report.section import draw_section
 from stonepass.report.style import COLOURS, new_figure, tidy
 
-__all__ = ["push_figure"]
+__all__ = ["draw_pressure", "draw_wall", "push_figure"]
 
 ARROWS = 7  # along the wall upstream
 URINE = COLOURS["green"]
@@ -28,15 +28,20 @@ def push_figure(answer: Answer) -> Figure:
         )
     figure = new_figure(8.4, 6.6)
     rows = figure.add_gridspec(2, 1, height_ratios=(1.3, 1.0))
-    _wall(figure.add_subplot(rows[0]), pushed, pushed.wall)
-    _pressure(figure.add_subplot(rows[1]), answer, pushed)
+    axes = figure.add_subplot(rows[0])
+    draw_wall(axes, pushed, pushed.peak_contact_pressure)
+    axes.set_title("Stone about to move: radial compression in the loaded wall")
+    draw_pressure(figure.add_subplot(rows[1]), pushed, answer.leak_pressure)
     return figure
 
 
-def _wall(axes: Axes, pushed: PushedState, wall: Field) -> None:
+def draw_wall(axes: Axes, pushed: PushedState, top: float) -> None:
+    """Draw the section with the urine upstream; `top` in Pa ends the colours."""
+    wall = pushed.wall
+    assert wall is not None, "asked for where the wall was kept"
     radius = pushed.case.size_ratio
     length = radius * pushed.case.stone.aspect
-    draw_section(axes, wall, pushed.case, pushed.peak_contact_pressure)
+    draw_section(axes, wall, pushed.case, top)
     left, _ = axes.get_xlim()
     r, z = _inner_wall(wall)
     edge = -length * np.cos(pushed.contact_angle)
@@ -66,10 +71,10 @@ def _wall(axes: Axes, pushed: PushedState, wall: Field) -> None:
         va="center",
         color=URINE,
     )
-    axes.set_title("Stone about to move: radial compression in the loaded wall")
 
 
-def _pressure(axes: Axes, answer: Answer, pushed: PushedState) -> None:
+def draw_pressure(axes: Axes, pushed: PushedState, leak_pressure: float | None) -> None:
+    """Draw the pressure on the stone over θ."""
     theta = np.unique(np.concatenate([np.linspace(0.0, np.pi, 721), pushed.theta]))
     pressure = pushed.pressure_at(theta) / 1e3
     degrees = np.degrees(theta)
@@ -90,13 +95,13 @@ def _pressure(axes: Axes, answer: Answer, pushed: PushedState) -> None:
         linestyle="none",
         label=f"seal, {seal:.0f}°",
     )
-    if answer.leak_pressure is not None:
+    if leak_pressure is not None:
         axes.axhline(
-            answer.leak_pressure / 1e3,
+            leak_pressure / 1e3,
             color=COLOURS["grey"],
             linewidth=0.9,
             linestyle=":",
-            label=f"leak pressure, {answer.leak_pressure / 1e3:.3g} kPa",
+            label=f"leak pressure, {leak_pressure / 1e3:.3g} kPa",
         )
     axes.set(
         xlabel="θ from the upstream axis (°)",

@@ -12,9 +12,12 @@ from rich.table import Table
 from stonepass.model.case import Case
 from stonepass.model.critical import Answer
 from stonepass.model.size import SizeAnswer
+from stonepass.studies.rising import Rising
 from stonepass.units import PASCAL_PER
 
-__all__ = ["curve_table", "grouped_warnings", "pressure_table", "size_table"]
+NO_FORCE = 1e-2  # Pa; less than the solver tells from none
+
+__all__ = ["curve_table", "grouped_warnings", "pressure_table", "rising_table", "size_table"]
 
 
 def pressure_table(answer: Answer) -> Table:
@@ -62,6 +65,24 @@ def curve_table(answers: Sequence[Answer]) -> Table:
         )
         size = f"{answer.case.size_ratio:.4g}"
         table.add_row(size, answer.outcome.name, *pressures, error, angle)
+    return table
+
+
+def rising_table(rising: Rising) -> Table:
+    """A held stone under rising pressure: one row per pressure."""
+    table = Table(box=box.SIMPLE_HEAD, title=_title(rising.critical.case), title_justify="left")
+    for name in ("urine kPa", "net force kPa", "contact", "seal", "peak kPa", "r_a/R_a", "σ − σ⁰"):
+        table.add_column(name, justify="right")
+    for state, deviation in zip(rising.states, rising.deviation, strict=True):
+        table.add_row(
+            _significant(state.urine_pressure / 1e3),
+            _significant(0.0 if abs(state.net_force) < NO_FORCE else state.net_force / 1e3),
+            f"{_deg(state.contact_angle):.1f}–{_deg(state.downstream_angle):.1f}°",
+            f"{_deg(state.seal_angle):.1f}°",
+            _significant(state.peak_contact_pressure / 1e3),
+            f"{state.upstream_radius:.4f}",
+            "–" if math.isnan(deviation) else f"{deviation:.0%}",
+        )
     return table
 
 

@@ -1,0 +1,156 @@
+"""A held stone under rising pressure: rows, a picture, an animation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.animation import FuncAnimation, PillowWriter
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from stonepass.errors import BadInput
+from stonepass.model.advance import advance_force
+from stonepass.report.push_figure import draw_pressure, draw_wall
+from stonepass.report.record import write_csv
+from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.studies.rising import Rising
+
+__all__ = ["rising_figure", "rising_rows", "save_animation", "write_rising"]
+
+COLUMNS = (
+    "urine_pressure_kPa", "net_force_kPa", "friction_work_kPa", "contact_angle_deg",
+    "downstream_angle_deg", "seal_angle_deg", "peak_contact_pressure_kPa",
+    "equator_contact_pressure_kPa", "upstream_radius_ratio", "contact_deviation",
+)  # fmt: skip
+CURVES = 5  # contact pressures drawn
+FRAMES_PER_SECOND = 6
+
+
+def rising_rows(rising: Rising) -> list[dict[str, Any]]:
+    """One row for each state."""
+    rows = []
+    for state, deviation in zip(rising.states, rising.deviation, strict=True):
+        values = (
+            state.urine_pressure / 1e3,
+            state.net_force / 1e3,
+            state.friction_work / 1e3,
+            np.degrees(state.contact_angle),
+            np.degrees(state.downstream_angle),
+            np.degrees(state.seal_angle),
+            state.peak_contact_pressure / 1e3,
+            state.equator_contact_pressure / 1e3,
+            state.upstream_radius,
+            None if np.isnan(deviation) else deviation,
+        )
+        known = (None if value is None else float(value) for value in values)
+        rows.append(dict(zip(COLUMNS, known, strict=True)))
+    return rows
+
+
+def write_rising(rising: Rising, path: Path) -> None:
+    """Write the states as CSV."""
+    write_csv(path, COLUMNS, [[row[name] for name in COLUMNS] for row in rising_rows(rising)])
+
+
+def rising_figure(rising: Rising) -> Figure:
+    """Net force, opening, contact pressure against the seated one, and how far it deviates."""
+    figure = new_figure(8.4, 6.4)
+    grid = figure.subplots(2, 2)
+    pressures = np.array([state.urine_pressure for state in rising.states]) / 1e3
+    _force(grid[0, 0], rising, pressures)
+    _opening(grid[0, 1], rising, pressures)
+    _contact(grid[1, 0], rising)
+    axes = grid[1, 1]
+    axes.plot(pressures, 100.0 * rising.deviation, "o-", color=COLOURS["blue"], ms=3)
+    axes.set(xlabel="urine pressure (kPa)", ylabel="mean deviation (%)", ylim=(0.0, None))
+    axes.set_title("How far σ is from the seated σ⁰")
+    tidy(axes)
+    return figure
+
+
+def save_animation(rising: Rising, path: Path) -> None:
+    """Write the states one after the other as a GIF."""
+    if path.suffix.lower() != ".gif":
+        raise BadInput("animation", str(path), "a file name ending in .gif")
+    figure = new_figure(7.6, 6.0)
+    rows = figure.add_gridspec(2, 1, height_ratios=(1.3, 1.0))
+    top = max(state.peak_contact_pressure for state in rising.states)
+
+    def draw(k: int) -> list[Any]:
+        figure.clear()
+        state = rising.states[k]
+        wall, pressure = figure.add_subplot(rows[0]), figure.add_subplot(rows[1])
+        draw_wall(wall, state, top)
+        wall.set_title("A held stone: radial compression in the loaded wall")
+        draw_pressure(pressure, state, None)
+        pressure.set_ylim(0.0, 1.05 * top / 1e3)
+        return []
+
+    frames = [*range(len(rising.states)), *[len(rising.states) - 1] * FRAMES_PER_SECOND]
+    animation = FuncAnimation(figure, draw, frames=frames)
+    try:
+        animation.save(path, writer=PillowWriter(fps=FRAMES_PER_SECOND), dpi=90)
+    except OSError as problem:
+        raise BadInput("animation", str(path), f"writable ({problem.strerror})") from problem
+
+
+def _force(axes: Axes, rising: Rising, pressures: np.ndarray) -> None:
+    case = rising.critical.case
+    forces = [state.net_force / 1e3 for state in rising.states]
+    axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.8)
+    axes.plot(pressures, forces, "o-", color=COLOURS["blue"], ms=3, label="net force N")
+    gained = [advance_force(case, state.urine_pressure) for state in rising.states]
+    work = [state.friction_work for state in rising.states]
+    balance = [
+        np.nan if gain is None else (gain - lost) / 1e3
+        for gain, lost in zip(gained, work, strict=True)
+    ]
+    axes.plot(pressures, balance, color=COLOURS["orange"], lw=1.0, ls="--", label="I − D, energy")
+    if rising.critical.pressure:
+        axes.axvline(rising.critical.pressure / 1e3, color=COLOURS["grey"], lw=0.8, ls=":")
+    axes.set(xlabel="urine pressure (kPa)", ylabel=r"force / ($\pi R_s^2$)  (kPa)")
+    axes.set_title("Force on the stone")
+    axes.legend(fontsize=8)
+    tidy(axes)
+
+
+def _opening(axes: Axes, rising: Rising, pressures: np.ndarray) -> None:
+    for name, colour, angles in (
+        ("contact begins", COLOURS["blue"], [s.contact_angle for s in rising.states]),
+        ("seal", COLOURS["orange"], [s.seal_angle for s in rising.states]),
+        ("contact ends", COLOURS["green"], [s.downstream_angle for s in rising.states]),
+    ):
+        axes.plot(pressures, np.degrees(angles), "o-", color=colour, ms=3, label=name)
+    axes.set(xlabel="urine pressure (kPa)", ylabel="θ (°)")
+    axes.set_title("Where wall and stone touch")
+    axes.legend(fontsize=8)
+    tidy(axes)
+
+
+def _contact(axes: Axes, rising: Rising) -> None:
+    chosen = np.unique(np.linspace(0, len(rising.states) - 1, CURVES).round().astype(int))
+    for share, k in zip(np.linspace(0.25, 1.0, len(chosen)), chosen, strict=True):
+        state = rising.states[k]
+        axes.plot(
+            np.degrees(state.theta),
+            state.contact_pressure / 1e3,
+            color=COLOURS["blue"],
+            alpha=float(share),
+            label=f"{state.urine_pressure / 1e3:.3g} kPa",
+        )
+    if rising.seated is not None:
+        theta = np.linspace(rising.seated.contact_angle, rising.seated.downstream_angle, 400)
+        axes.plot(
+            np.degrees(theta),
+            rising.seated.pressure_at(theta) / 1e3,
+            color=COLOURS["ink"],
+            linestyle="--",
+            linewidth=1.0,
+            label="seated, σ⁰",
+        )
+    axes.set(xlabel="θ from the upstream axis (°)", ylabel="contact pressure (kPa)", ylim=(0, None))
+    axes.set_title("Contact pressure")
+    axes.legend(fontsize=7)
+    tidy(axes)

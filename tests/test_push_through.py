@@ -5,7 +5,8 @@ import pytest
 
 import stonepass as sp
 from stonepass.errors import Outcome
-from stonepass.fe.problem import Resolution
+from stonepass.fe.problem import Failure, Resolution
+from stonepass.fe.slide import Slid
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import energy_derivatives, hoop_modulus
 from stonepass.materials.kinks import KEPT, Relaxed, relaxed
@@ -13,7 +14,14 @@ from stonepass.materials.protocol import Material
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.advance import advance_force, opened_radius, strained_force
 from stonepass.model.far_field import urine_pressure
-from stonepass.model.push_through import NoPush, PushedState, push_through
+from stonepass.model.push_through import (
+    Critical,
+    NoPush,
+    PushedState,
+    _critical,
+    _Ready,
+    push_through,
+)
 
 DIRECT = sp.Method(model="direct")
 FAST = LEVELS["fast"].resolution
@@ -270,3 +278,46 @@ def test_what_is_kept_of_the_ground_matrix_hardly_changes_the_answer(monkeypatch
     assert np.ptp(pressures) < 2e-3 * pressures.mean()
     assert found[-1].pushed.soundness.margin < 0.0
     assert any("kinks at R" in text for text in found[-1].warnings)
+
+
+class Clearing:
+    """Stands for a tube whose seal gives way while the stone is still held: N stays negative."""
+
+    def __init__(self, force, last):
+        self.force, self.last = force, last
+
+    def moving(self, pressure, friction):
+        return Failure("no root", 3)
+
+    def held(self, pressure, friction):
+        return self._state(pressure, 2.0)
+
+    def sealing(self, excess, pressure, friction):
+        if excess < self.last:
+            return Failure("lost", 1)
+        return self._state(10.0 - 0.5 * excess**2, excess)  # leaks at P = 10
+
+    def _state(self, pressure, excess):
+        line = np.array([[pressure, pressure * (1.0 + excess), 0.0]])
+        zero = np.zeros_like(line)
+        return Slid(pressure, self.force, 0.5, False, zero, zero, zero, line, 1, 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("force", "last", "clears"), [(-1.0, 0.01, True), (1.0, 0.01, False), (-1.0, 0.5, False)]
+)
+def test_urine_passes_first_only_where_the_seal_was_followed_to_its_end(
+    monkeypatch, force, last, clears
+):
+    """No wall we know does; so the decision is tested on a made-up one."""
+    monkeypatch.setattr(
+        "stonepass.model.push_through._state", lambda case, ready, found, started: found
+    )
+    ready = _Ready(Clearing(force, last), modulus=100.0, guess=5.0, opening=8.0, steps=0)
+    found = _critical(case(), ready, None, 0.0, leak=True)
+    assert isinstance(found, Critical) is clears
+    if clears:
+        assert found.clears
+        assert found.leak_pressure == pytest.approx(1000.0, rel=1e-2)
+    else:
+        assert found.reason.startswith("no root")

@@ -152,8 +152,8 @@ def pressure_of_angle(contact: Contact, alpha: Values, closure: Closure | None =
     return urine_pressure(radius, case.wall_ratio, far_field_law(case), case.load)
 
 
-def balance_pressure(contact: Contact, closure: Closure) -> float | None:
-    """P_ucr in Pa of a seated stone with another closure; None where the forces do not balance."""
+def balance_pressure(contact: Contact, closure: Closure | None = None) -> float | None:
+    """P_ucr in Pa of a seated stone by a closure; None where the forces do not balance."""
     found = _critical(contact, closure)
     return None if found is None else found.pressure
 
@@ -226,7 +226,9 @@ def _direct(case: Case, resolution: Resolution | None) -> Answer:
         ),
     )
     if not found.clears:
-        answer = replace(answer, pressure=state.urine_pressure, critical_angle=state.contact_angle)
+        # Without friction nothing holds the stone: the root is 0, and rounding tells nothing.
+        pressure = 0.0 if case.stone.friction == 0.0 else state.urine_pressure
+        answer = replace(answer, pressure=pressure, critical_angle=state.contact_angle)
     if coarse is None or undecided:
         return answer
     return replace(answer, error=_push_error(level, coarse.state, state, answer.pressure))

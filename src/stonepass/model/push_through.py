@@ -50,7 +50,8 @@ SAMPLES = 33  # of each column in contact
 # In units of the pressure that opens the tube to R_s: largest first guess, and a low start.
 HIGHEST_GUESS, LOW_START = 1.2, 0.3
 # Excess of the seal over P_u, relative: where the search for the leak begins and ends, its step.
-HIGHEST_EXCESS, LEAK_EXCESS, LEAK_STEP = 3.0, 0.06, 0.6
+# From farther than the last no leak pressure is extrapolated.
+HIGHEST_EXCESS, LEAK_EXCESS, LEAK_STEP, LEAK_FAR = 3.0, 0.06, 0.6, 0.4
 UNSEALED = "the state that balances does not hold the urine back"
 URINE = (0.0, 1e6)
 IMBALANCE = 0.01
@@ -373,7 +374,8 @@ def _critical(
     start = slide.held(LOW_START * ready.opening, friction)
     if isinstance(start, Slid):
         passed, last = _leak(slide, start, ready.opening)
-        if passed is not None and last.force < 0.0:
+        # Only from close by: what is extrapolated from afar says nothing of the force there.
+        if passed is not None and last.force < 0.0 and _excess(last) <= 2.0 * LEAK_EXCESS:
             state = _state(case, ready, last, started)
             return Critical(state, passed * ready.modulus, clears=True)
     reason = found if isinstance(found, Failure) else Failure(UNSEALED, found.steps)
@@ -400,7 +402,7 @@ def _leak(slide: Slide, start: Slid, opening: float) -> tuple[float | None, Slid
             break
         states.append(found)
         pressure = found.pressure
-    if len(states) < 3:
+    if len(states) < 3 or _excess(states[-1]) > LEAK_FAR:
         return None, states[-1]
     before, now = states[-2:]
     first, second = ((_excess(each) * each.pressure) ** 2 for each in (before, now))

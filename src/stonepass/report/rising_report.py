@@ -6,12 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.animation import FuncAnimation, PillowWriter
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from PIL import Image
 
 from stonepass.errors import BadInput
 from stonepass.model.advance import advance_force
+from stonepass.model.push_through import PushedState
 from stonepass.report.push_figure import draw_pressure, draw_wall
 from stonepass.report.record import write_csv
 from stonepass.report.style import COLOURS, new_figure, tidy
@@ -25,7 +27,8 @@ COLUMNS = (
     "equator_contact_pressure_kPa", "upstream_radius_ratio", "contact_deviation",
 )  # fmt: skip
 CURVES = 5  # contact pressures drawn
-FRAMES_PER_SECOND = 6
+FRAME, LAST_FRAME = 170, 1500  # milliseconds
+RESOLUTION = 90  # dots per inch
 
 
 def rising_rows(rising: Rising) -> list[dict[str, Any]]:
@@ -71,29 +74,36 @@ def rising_figure(rising: Rising) -> Figure:
 
 
 def save_animation(rising: Rising, path: Path) -> None:
-    """Write the states one after the other as a GIF."""
+    """Write the states one after the other as a GIF that stays on the last."""
     if path.suffix.lower() != ".gif":
         raise BadInput("animation", str(path), "a file name ending in .gif")
-    figure = new_figure(7.6, 6.0)
-    rows = figure.add_gridspec(2, 1, height_ratios=(1.3, 1.0))
     top = max(state.peak_contact_pressure for state in rising.states)
-
-    def draw(k: int) -> list[Any]:
-        figure.clear()
-        state = rising.states[k]
-        wall, pressure = figure.add_subplot(rows[0]), figure.add_subplot(rows[1])
-        draw_wall(wall, state, top)
-        wall.set_title("A held stone: radial compression in the loaded wall")
-        draw_pressure(pressure, state, None)
-        pressure.set_ylim(0.0, 1.05 * top / 1e3)
-        return []
-
-    frames = [*range(len(rising.states)), *[len(rising.states) - 1] * FRAMES_PER_SECOND]
-    animation = FuncAnimation(figure, draw, frames=frames)
+    first, *others = (_frame(state, top) for state in rising.states)
     try:
-        animation.save(path, writer=PillowWriter(fps=FRAMES_PER_SECOND), dpi=90)
+        first.save(
+            path,
+            save_all=True,
+            append_images=others,
+            duration=[FRAME] * len(others) + [LAST_FRAME],
+            loop=0,
+        )
     except OSError as problem:
         raise BadInput("animation", str(path), f"writable ({problem.strerror})") from problem
+
+
+def _frame(state: PushedState, top: float) -> Image.Image:
+    figure = new_figure(7.6, 6.0)
+    rows = figure.add_gridspec(2, 1, height_ratios=(1.3, 1.0))
+    wall, pressure = figure.add_subplot(rows[0]), figure.add_subplot(rows[1])
+    draw_wall(wall, state, top)
+    wall.set_title("A held stone: radial compression in the loaded wall")
+    draw_pressure(pressure, state, None)
+    pressure.set_ylim(0.0, 1.05 * top / 1e3)
+    figure.set_dpi(RESOLUTION)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()  # type: ignore[no-untyped-call]
+    pixels: Any = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
+    return Image.fromarray(np.asarray(pixels)).convert("RGB").quantize()
 
 
 def _force(axes: Axes, rising: Rising, pressures: np.ndarray) -> None:

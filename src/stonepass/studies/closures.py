@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -72,15 +73,20 @@ def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison
     The seated contact pressure is that of the case's seating for the paper's closures and the
     series; the loaded one for energy and direct.
     """
-    paper = solve(replace(case, method=replace(case.method, model="paper", as_printed=False)))
-    printed = solve(replace(case, method=replace(case.method, model="paper", as_printed=True)))
-    direct = solve(replace(case, method=replace(case.method, model="direct")))
+    # No errors are estimated: closures differ by more.
+    resolution = LEVELS[case.method.accuracy].resolution
+    paper = solve(_by(case, model="paper", as_printed=False), resolution)
+    direct = solve(_by(case, model="direct"), resolution)
     pressures: dict[str, float | None] = dict.fromkeys(CLOSURES)
-    pressures |= {"derived": paper.pressure, "printed": printed.pressure}
-    pressures |= {"direct": direct.pressure, "energy": _by_energy(direct)}
+    pressures |= {"derived": paper.pressure, "direct": direct.pressure}
+    pressures["energy"] = _by_energy(direct)
     found = ClosureComparison(paper.case, pressures, direct.outcome, direct.message)
+    if paper.seated is None:
+        return found
+    printed = replace(paper.seated, case=_by(paper.case, as_printed=True))
+    pressures["printed"] = balance_pressure(printed)
     pairs = opening_pairs(case)
-    if pairs is None or paper.seated is None:
+    if pairs is None:
         return found
     alpha, radius = pairs
     coefficients = fit_series(alpha[1:], radius[1:], float(alpha[0]), case.size_ratio, order)
@@ -97,7 +103,7 @@ def opening_pairs(
 
     Without friction, because the series begins at (α₀, R_a), as the wall opens then.
     """
-    bare = replace(case.with_friction(0.0), method=replace(case.method, model="direct"))
+    bare = _by(case.with_friction(0.0), model="direct")
     rising = LAST_PAIR * opening_pressure(case) * np.linspace(0.0, 1.0, PAIRS)
     states = push_along(bare, [Pressure(float(p)) for p in rising], LEVELS["fast"].resolution)
     kept = [s for s in states if isinstance(s, PushedState) and s.contact_angle <= np.pi / 2]
@@ -119,6 +125,11 @@ def closure_map(
             if progress is not None:
                 progress(done, len(cases))
         return [future.result() for future in futures]
+
+
+def _by(case: Case, **changed: Any) -> Case:
+    """The case by another method."""
+    return replace(case, method=replace(case.method, **changed))
 
 
 def _by_energy(direct: Answer) -> float | None:

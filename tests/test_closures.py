@@ -1,0 +1,127 @@
+"""Closures side by side, the fitted series, and pressure rising on a held stone."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.cli import run
+from stonepass.errors import BadInput, Outcome
+from stonepass.model.advance import opening_pressure
+from stonepass.model.closure import fit_series, linear_closure, series_closure
+from stonepass.model.far_field import urine_pressure
+from stonepass.studies.closures import CLOSURES, compare_closures, opening_pairs
+from stonepass.studies.rising import contact_deviation, raise_pressure
+
+EDGE, XI = np.radians(70.0), 1.2
+FAST = sp.Method(accuracy="fast")
+
+
+def case(mu=0.475, method=FAST):
+    stone = sp.Stone(size_ratio=1.2, friction=mu)
+    return sp.Case(stone, sp.Ureter(wall_ratio=1.5, material="latex"), method=method)
+
+
+def test_the_series_of_first_order_is_the_linear_closure():
+    alpha = np.linspace(EDGE, np.pi / 2, 7)
+    series = series_closure(alpha, EDGE, XI, np.array([1.0]))
+    np.testing.assert_allclose(series, linear_closure(alpha, EDGE, XI), rtol=1e-14)
+
+
+def test_the_series_begins_at_the_lumen_whatever_its_coefficients():
+    assert series_closure(np.array(EDGE), EDGE, XI, np.array([3.0, -7.0, 1.0])) == 1.0
+
+
+def test_a_series_is_recovered_from_its_own_pairs():
+    alpha = np.linspace(EDGE, np.pi / 2, 12)
+    wanted = np.array([0.7, -0.4, 0.6])
+    radius = series_closure(alpha, EDGE, XI, wanted)
+    np.testing.assert_allclose(fit_series(alpha, radius, EDGE, XI, 3), wanted, atol=1e-10)
+    with pytest.raises(BadInput, match="order is 0, but must be 1 to 8"):
+        fit_series(alpha, radius, EDGE, XI, 0)
+    with pytest.raises(BadInput, match="at least as many as coefficients, 5"):
+        fit_series(alpha[:4], radius[:4], EDGE, XI, 5)
+
+
+def test_the_pressure_that_opens_the_tube_to_the_stone_by_the_far_field():
+    question = case()
+    expected = float(urine_pressure(np.array(1.2), 1.5, question.ureter.material.law, sp.Load()))
+    assert opening_pressure(question) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.fixture(scope="module")
+def compared():
+    return compare_closures(case())
+
+
+def test_pairs_begin_at_the_seated_state_and_lie_below_the_linear_closure(compared):
+    alpha, radius = opening_pairs(case())
+    assert radius[0] == pytest.approx(1.0, abs=1e-9)
+    seated = sp.seat(case(method=sp.Method(seating="frictionless", accuracy="fast")))
+    assert alpha[0] == pytest.approx(seated.contact_angle, abs=1e-4)
+    assert np.all(np.diff(alpha) > 0.0)
+    assert np.all(radius[1:] < linear_closure(alpha[1:], alpha[0], 1.2))
+    # model.md, section 5: at α = 77.6° r_a is 1.066, Eq. 15 says 1.108.
+    assert np.interp(np.radians(77.6), alpha, radius) == pytest.approx(1.066, abs=0.004)
+    assert linear_closure(np.radians(77.6), alpha[0], 1.2) == pytest.approx(1.108, abs=0.004)
+
+
+def test_energy_and_direct_agree_and_the_paper_lies_around_them(compared):
+    assert set(compared.pressures) == set(CLOSURES)
+    assert abs(compared.error("energy")) < 2e-3
+    assert abs(compared.error("series")) < 0.03
+    assert compared.error("printed") < 0.0 < compared.error("derived")
+    assert compared.outcome is Outcome.MOVES
+    alone = sp.solve(case(method=sp.Method(model="direct", accuracy="fast")))
+    assert compared.pressures["direct"] == pytest.approx(alone.pressure, rel=1e-7)
+    printed = sp.solve(case(method=sp.Method(as_printed=True, accuracy="fast")))
+    assert compared.pressures["printed"] == printed.pressure
+
+
+def test_without_friction_every_closure_says_that_the_stone_moves_at_once():
+    found = compare_closures(case(mu=0.0))
+    for name, pressure in found.pressures.items():
+        assert pressure == pytest.approx(0.0, abs=1e-6), name
+        assert found.error(name) is None
+
+
+def test_rising_pressure_ends_where_the_stone_moves_and_the_seat_is_measured_against():
+    rising = raise_pressure(case(), steps=4)
+    forces = [state.net_force for state in rising.states]
+    assert len(forces) == 4
+    assert np.all(np.diff(forces) > 0.0)
+    assert forces[-1] == pytest.approx(0.0, abs=1e-3 * abs(forces[0]))
+    assert np.all((rising.deviation > 0.01) & (rising.deviation < 0.3))
+    # Without friction and pressure it is the seated state itself.
+    bare = raise_pressure(case(0.0, sp.Method(seating="frictionless", accuracy="fast")), steps=2)
+    assert bare.states[0].urine_pressure == 0.0
+    assert contact_deviation(bare.states[0], bare.seated) < 1e-3
+
+
+def test_closures_and_push_at_the_door(tmp_path, capsys):
+    stone = ["--xi", "1.2", "--eta", "1.5", "--material", "latex", "--accuracy", "fast"]
+    assert run(["closures", *stone, "--figure", str(tmp_path / "c.svg"), "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert set(record) >= {"direct_pressure_kPa", "energy_error", "series_coefficients"}
+    assert (tmp_path / "c.svg").read_text(encoding="utf-8").startswith("<?xml")
+    rows, gif, csv_file = tmp_path / "m.csv", tmp_path / "p.gif", tmp_path / "p.csv"
+    assert run(["closures", "--map", "1.1:1.1:0.1", "--map-eta", "1.5,2", "--map-friction", "0.3",
+                "--material", "latex", "--accuracy", "fast", "--out", str(rows),
+                "--figure", str(tmp_path / "m.png")]) == 0  # fmt: skip
+    assert "energy: I(P) = D: " in capsys.readouterr().out
+    with rows.open(encoding="utf-8") as file:
+        errors = [float(row["energy_error"]) for row in csv.DictReader(file)]
+    assert len(errors) == 2
+    assert max(map(abs, errors)) < 5e-3
+    assert run(["push", *stone, "--steps", "2", "--to", "10kPa", "--animation", str(gif),
+                "--out", str(csv_file)]) == 0  # fmt: skip
+    assert gif.read_bytes()[:3] == b"GIF"
+    with csv_file.open(encoding="utf-8") as file:
+        last = list(csv.DictReader(file))[-1]
+    assert float(last["urine_pressure_kPa"]) == pytest.approx(10.0)
+    assert run(["closures", *stone, "--map", "1.1:1.2:0.1", "--map-eta", "1.5;2"]) == 2
+    assert "numbers with commas between" in capsys.readouterr().err
+    assert run(["push", *stone, "--steps", "1"]) == 2
+    assert "steps is 1, but must be 2 to 200" in capsys.readouterr().err

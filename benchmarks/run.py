@@ -47,20 +47,31 @@ def in_process() -> list[dict]:
     import stonepass as sp
 
     def solve(
-        seating: str, material: str, eta: float, xi: float, friction: float = 0.5
+        seating: str,
+        material: str,
+        eta: float,
+        xi: float,
+        friction: float = 0.5,
+        model: str = "paper",
     ) -> Callable[[], object]:
         case = sp.Case(
             sp.Stone(size_ratio=xi, friction=friction),
             sp.Ureter(wall_ratio=eta, material=material),
-            method=sp.Method(seating=seating),
+            method=sp.Method(seating=seating, model=model),
         )
         return lambda: sp.solve(case)
+
+    def direct(*case: object) -> Callable[[], object]:
+        return solve("pressed", *case, "direct")  # type: ignore[arg-type]
 
     cases = [
         ("frictionless latex, η 1.5, ξ 1.2", solve("frictionless", "latex", 1.5, 1.2), 0.3),
         ("pressed latex, η 1.5, ξ 1.2, μ 0.475", solve("pressed", "latex", 1.5, 1.2, 0.475), 1.2),
         ("pressed ureter, η 1.3, ξ 1.212", solve("pressed", "ureter", 1.3, 1.212), 4.0),
         ("pressed ureter, η 3.4, ξ 1.109", solve("pressed", "ureter", 3.4, 1.109), 4.0),
+        ("direct latex, η 1.5, ξ 1.2, μ 0.475", direct("latex", 1.5, 1.2, 0.475), 2.0),
+        ("direct ureter, η 1.3, ξ 1.212", direct("ureter", 1.3, 1.212, 0.5), 6.0),
+        ("direct ureter, η 3.4, ξ 1.109", direct("ureter", 3.4, 1.109, 0.5), 6.0),
     ]
     rows = [row(f"{what} (after import)", timed(call), target) for what, call, target in cases]
     return [*rows, *curves()]

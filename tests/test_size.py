@@ -3,6 +3,8 @@
 import pytest
 
 import stonepass as sp
+from stonepass.model.critical import Answer
+from stonepass.model.size import _top, _Unanswered
 
 THIN = sp.Ureter(wall_ratio=1.3)
 
@@ -85,3 +87,22 @@ def test_progress_is_told_every_size():
     sp.critical_size(THIN, "12 kPa", progress=tried.append)
     assert tried[0] == 1.3
     assert 3 < len(tried) < 15
+
+
+def test_where_the_largest_stone_has_no_answer_a_smaller_one_bounds_the_search():
+    """ξ up to 1.3 with answers below 1.2 only; the limit is crossed where the excess changes sign."""
+    case = sp.Case(sp.Stone(size_ratio=1.3), THIN)
+    none = Answer(case, sp.Outcome.NO_SOLUTION, "No equilibrium was found.")
+
+    def excess(crossing):
+        def function(size_ratio):
+            if size_ratio > 1.2:
+                raise _Unanswered(none)
+            return size_ratio - crossing
+
+        return function
+
+    # 1 + 0.75 × 0.3 = 1.225 has none either, 1 + 0.5 × 0.3 = 1.15 has.
+    assert _top(1.3, 1.0, excess(1.1)) == pytest.approx((1.15, 0.05))
+    with pytest.raises(_Unanswered):  # the limit lies where nothing is known
+        _top(1.3, 1.0, excess(1.19))

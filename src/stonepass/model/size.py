@@ -21,6 +21,7 @@ SLOPE_BASE = 1e-4  # sizes nearer than this say too little of the slope
 # Stones less than this fraction above the lumen are not told from the lumen itself.
 SMALLEST_OVERSIZE = 2e-4
 SMALL_LIMIT = 100.0  # Pa; only below it can a limit lie under every stuck stone
+SMALLER = (0.75, 0.5, 0.35, 0.25)  # of the largest oversize
 LIMIT = (1.0, 1e6)
 
 
@@ -106,13 +107,14 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
             return end - limit  # no balance below the closure's end: P_ucr is above the limit
         raise _Unanswered(answer)
 
-    high = case.size_ratio
+    lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
     try:
-        top = excess(high)
+        if lumen is None:  # then solve() says why, and so do we
+            excess(case.size_ratio)
+        assert lumen is not None
+        high, top = _top(case.size_ratio, lumen, excess)
         if top < 0.0:
             return _beyond_range(case, limit, tried[high])
-        lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
-        assert lumen is not None, "solve() answers NO_SOLUTION where there is no lumen"
         smallest = lumen * (1.0 + SMALLEST_OVERSIZE)
         if limit < SMALL_LIMIT and excess(smallest) > 0.0:
             return _below_range(case, limit)
@@ -134,6 +136,28 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
             case, answer.outcome, answer.message[:-1] + where + ".", limit, at_size=answer
         )
     return _found(case, limit, root, lumen, tried)
+
+
+def _top(largest: float, lumen: float, excess: Callable[[float], float]) -> tuple[float, float]:
+    """The largest size that has an answer, and its excess over the limit.
+
+    Where the largest of all has none, smaller ones are tried; they serve as the upper end if their
+    pressure is above the limit.
+    """
+    try:
+        return largest, excess(largest)
+    except _Unanswered as stop:
+        unanswered = stop
+    for share in SMALLER:
+        size_ratio = lumen + share * (largest - lumen)
+        try:
+            top = excess(size_ratio)
+        except _Unanswered:
+            continue
+        if top >= 0.0:
+            return size_ratio, top
+        break
+    raise unanswered
 
 
 def _found(

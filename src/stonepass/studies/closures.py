@@ -17,7 +17,7 @@ from stonepass.model.case import Case
 from stonepass.model.closure import fit_series, series_closure
 from stonepass.model.critical import Answer, balance_pressure, solve
 from stonepass.model.push_through import PushedState, push_along
-from stonepass.studies.executor import executor
+from stonepass.studies.executor import can_travel, executor
 from stonepass.units import Pressure
 
 __all__ = ["CLOSURES", "ClosureComparison", "closure_map", "compare_closures", "opening_pairs"]
@@ -119,7 +119,7 @@ def closure_map(
     workers: int = 1,
 ) -> list[ClosureComparison]:
     """Compare the closures for many cases; `progress` is told (done, all) after each."""
-    with executor(workers) as pool:
+    with executor(workers if can_travel(list(cases)) else 1) as pool:
         futures = [pool.submit(compare_closures, case) for case in cases]
         for done, _ in enumerate(as_completed(futures), start=1):
             if progress is not None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
 from dataclasses import replace
 
 from stonepass.model.case import Case
 from stonepass.model.critical import Answer, solve
-from stonepass.studies.executor import executor
+from stonepass.studies.executor import can_travel, executor
 
 __all__ = ["curve", "solve_slim"]
 
@@ -26,7 +25,7 @@ def curve(
     A case that cannot be sent to another process (a user's own function) is solved in this one.
     """
     cases = [case.with_size_ratio(float(size_ratio)) for size_ratio in size_ratios]
-    with executor(workers if _can_travel(case) else 1) as pool:
+    with executor(workers if can_travel(case) else 1) as pool:
         futures = [pool.submit(solve_slim, each) for each in cases]
         for done, _ in enumerate(as_completed(futures), start=1):
             if progress is not None:
@@ -43,11 +42,3 @@ def solve_slim(case: Case) -> Answer:
         seated=None if seated is None else replace(seated, wall=None),
         pushed=None if pushed is None else replace(pushed, wall=None),
     )
-
-
-def _can_travel(case: Case) -> bool:
-    try:
-        pickle.dumps(case)
-    except Exception:  # whatever a user's law holds
-        return False
-    return True

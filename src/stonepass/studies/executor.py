@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
 from typing import Any
 
-__all__ = ["executor"]
+__all__ = ["can_travel", "executor"]
 
 
 class _Here(Executor):
@@ -35,3 +36,12 @@ def executor(workers: int) -> Iterator[Executor]:
         return
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
         yield pool
+
+
+def can_travel(work: Any) -> bool:
+    """Whether something can be sent to another process; a user's own function cannot."""
+    try:
+        pickle.dumps(work)
+    except Exception:  # whatever a user's law holds
+        return False
+    return True

@@ -53,8 +53,15 @@ def command(
     from stonepass.report.style import save
 
     if sizes is not None:
-        return _map(settings, size_range(sizes), _numbers(walls, "--map-eta"),
-                    _numbers(frictions, "--map-friction"), out, figure, json)  # fmt: skip
+        for name in ("stone", "inner", "outer", "xi", "eta", "friction"):
+            if getattr(settings, name) is not None:
+                raise BadInput(f"--{name}", "given", "left out beside --map", "use --map-…")
+        grid = (
+            size_range(sizes),
+            _numbers(walls, "--map-eta"),
+            _numbers(frictions, "--map-friction"),
+        )
+        return _map(settings, grid, order, out, figure, json)
     from stonepass.report.closures_report import (
         closures_figure,
         closures_record,
@@ -74,20 +81,19 @@ def command(
         print_json(closures_record(found))
     else:
         show(closures_table(found))
-    if not found.outcome.answered:
-        warn([found.message])
+    warn([*found.warnings, *([] if found.outcome.answered else [found.message])])
     return 0 if found.outcome.answered else 1
 
 
 def _map(
     settings: Settings,
-    sizes: list[float],
-    walls: list[float],
-    frictions: list[float],
+    grid: tuple[list[float], list[float], list[float]],
+    order: int,
     out: Path | None,
     figure: Path | None,
     json: bool,
 ) -> int:
+    sizes, walls, frictions = grid
     from stonepass.cli.terminal import counting, print_json, show
     from stonepass.model.case import Case, Stone, Ureter
     from stonepass.report.closures_report import closures_record, map_figure, write_map
@@ -97,7 +103,7 @@ def _map(
     count = len(sizes) * len(walls) * len(frictions)
     if count > MOST_CASES:
         raise BadInput("map", f"{count} cases", f"at most {MOST_CASES}", "use fewer values")
-    material = settings.material or "ureter"
+    material = settings.material_value()
     cases = [
         Case(
             Stone(size_ratio=xi, friction=mu, aspect=settings.aspect_value()),
@@ -110,7 +116,8 @@ def _map(
         for xi in sizes
     ]
     with counting("cases") as progress:
-        found = closure_map(cases, progress, min(os.cpu_count() or 1, max(1, count // 4)))
+        workers = min(os.cpu_count() or 1, max(1, count // 4))
+        found = closure_map(cases, progress, workers, order)
     if out is not None:
         write_map(found, out)
     if figure is not None:

@@ -14,6 +14,7 @@ import typer
 from stonepass.errors import BadInput
 
 if TYPE_CHECKING:
+    from stonepass.materials.protocol import Material
     from stonepass.model.case import Case, Load, Method, Ureter
     from stonepass.units import Length
 
@@ -185,6 +186,12 @@ class Settings:
         if self.friction is not None:
             return self.friction
         return 0.5 if self._base is None else self._base.stone.friction
+
+    def material_value(self) -> str | Material:
+        """Material of the options, of the case file, or the default."""
+        if self.material is not None:
+            return self.material
+        return "ureter" if self._base is None else self._base.ureter.material
 
     def aspect_value(self) -> float:
         """Aspect of the stone of the options, of the case file, or the default."""

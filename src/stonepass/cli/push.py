@@ -44,7 +44,7 @@ def command(
     writable(animation, (".gif",))
     from stonepass.report.rising_report import (
         rising_figure,
-        rising_rows,
+        rising_record,
         save_animation,
         write_rising,
     )
@@ -64,10 +64,18 @@ def command(
             if animation is not None:
                 save_animation(rising, animation)
     if json:
-        print_json(rising_rows(rising))
+        print_json(rising_record(rising))
     else:
         from stonepass.report.table import rising_table
 
         show(rising_table(rising), f"{rising.critical.outcome.name}: {rising.critical.message}")
-    warn([*rising.critical.warnings, *([rising.reason] if rising.reason else [])])
-    return 0 if len(rising.states) == steps else 1
+    unwritten = not rising.states and any((out, figure, animation))
+    warn(
+        [
+            *rising.critical.warnings,
+            *([rising.reason] if rising.reason else []),
+            *(["no state was found, so nothing was written"] if unwritten else []),
+        ]
+    )
+    complete = len(rising.states) in (0, steps)
+    return 0 if complete and rising.critical.outcome.answered else 1

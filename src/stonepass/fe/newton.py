@@ -133,7 +133,10 @@ def _search(system: System, start: float) -> float:
 def _same_tangent(system: System, norm: float, tolerance: float) -> float:
     """Go on with the last factorisation while the norm falls fast; undo the step that does not."""
     while norm > tolerance:
-        system.direction(again=True)
+        try:
+            system.direction(again=True)
+        except SingularTangent:
+            return norm
         system.move(1.0)
         found = system.residual()
         if not found <= STEADY * norm:  # NaN too
@@ -178,7 +181,9 @@ class Plain:
     def move(self, step: float) -> None:
         """Go to origin − step × change."""
         self._known = False
-        self.state.vec.data = self._origin - step * self._change
+        self.state.vec.data = self._origin
+        if step != 0.0:  # 0 × NaN is NaN, and this is the way back
+            self.state.vec.data -= step * self._change
 
     def remember(self) -> Any:
         """Copy the current state."""
@@ -284,10 +289,11 @@ class Bordered(Plain):
         farthest = np.abs(step * self._rates / self._scale).max() / MOST
         if farthest > 1.0:
             step /= farthest
-        self._known = False
+        super().move(step)
         self.values = self._origin_values + step * self._rates
         self._possible = self._apply(self.values)
-        self.state.vec.data = self._origin - step * self._change
+        if step == 0.0:
+            return
         for rate, column in zip(self._rates, self._columns, strict=True):
             self.state.vec.data -= step * rate * column
 
@@ -310,7 +316,7 @@ class Bordered(Plain):
         length = float(ng.Norm(way))
         if length == 0.0:
             return np.zeros_like(self._missed)
-        increment = DIFFERENCE * float(ng.Norm(self._origin)) / length
+        increment = DIFFERENCE * max(float(ng.Norm(self._origin)), 1.0) / length
         self.state.vec.data = self._origin + increment * way
         slope = (self._conditions() - self._missed) / increment
         self.state.vec.data = self._origin

@@ -19,7 +19,7 @@ is taken from the state without it; the seal is a grid line.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import ngsolve as ng
@@ -174,14 +174,42 @@ class Slide:
                 break
             share, step = ahead, 2.0 * step
         if self.wetted:
-            self._move_seal()
-            self._wet.Set(1.0)
-            report, _ = self._solve(float(self._values[PRESSURE]), float(friction), condition)
+            report = self._wet_contact(condition)
             steps += report.steps
             if not report.converged:
                 return Failure(report.reason, steps)
         flaw = self._flaw()
         return Failure(flaw, steps) if flaw else self._read(steps, report.residual)
+
+    def _wet_contact(self, condition: Callable[[], float] | None) -> Report:
+        """Let the fluid take its share of the friction up to the seal: at once, else by halves.
+
+        Where that fails the state is again the dry one.
+        """
+        seal, pressure, friction = self._seal, float(self._values[PRESSURE]), self._friction.Get()
+        self._move_seal()
+        share, step, steps = 0.0, 1.0, 0
+        while True:
+            ahead = min(share + step, 1.0)
+            self._wet.Set(ahead)
+            report, go_back = self._solve(float(self._values[PRESSURE]), friction, condition)
+            steps += report.steps
+            if report.converged:
+                if ahead == 1.0:
+                    return replace(report, steps=steps)
+                share = ahead
+                continue
+            go_back()
+            self._wet.Set(share)
+            step /= 2.0
+            if step < 0.9 / 2.0**MOST_HALVINGS:
+                break
+        # The way back is dry, and ends where it began.
+        self._wet.Set(0.0)
+        self._seal = seal
+        self._place(self._values)
+        self._solve(pressure, friction, None)
+        return replace(report, steps=steps)
 
     def _flaw(self) -> str:
         """Empty where the contact is pressed all over, and closed nowhere else, and J > 0.

@@ -29,15 +29,17 @@ def series_closure(
     contact_angle: float,
     size_ratio: float,
     coefficients: Float[np.ndarray, " order"],
+    start: float = 1.0,
 ) -> Values:
-    """r_a/R_a = 1 + (ξ − 1) (c₁ t + c₂ t² + …), t = (sin α − sin α₀)/(1 − sin α₀) (Eqs 13–14).
+    """r_a/R_a = s + (ξ − s) (c₁ t + c₂ t² + …), t = (sin α − sin α₀)/(1 − sin α₀) (Eqs 13–14).
 
-    The paper's series in sin α, written in t: at α₀ it is 1 whatever the coefficients, and powers
-    of t tell each other apart, which those of sin α do not. With c₁ = 1 alone it is Eq. 15.
+    The paper's series in sin α, written in t: at α₀ it is `start` s (the lumen) whatever the
+    coefficients, and powers of t tell each other apart, which those of sin α do not. With c₁ = 1
+    alone it is Eq. 15.
     """
     t = _opening(alpha, contact_angle)
     powers = np.stack([t**k for k in range(1, len(coefficients) + 1)], axis=-1)
-    return 1.0 + (size_ratio - 1.0) * (powers @ coefficients)
+    return start + (size_ratio - start) * (powers @ coefficients)
 
 
 def fit_series(
@@ -46,6 +48,7 @@ def fit_series(
     contact_angle: float,
     size_ratio: float,
     order: int,
+    start: float = 1.0,
 ) -> Float[np.ndarray, " order"]:
     """Coefficients of `series_closure` by least squares on pairs (α, r_a/R_a), α up to π/2."""
     require(1 <= order <= 8, "order", order, "1 to 8")
@@ -53,7 +56,7 @@ def fit_series(
     t = _opening(alpha, contact_angle)
     powers = np.stack([t**k for k in range(1, order + 1)], axis=-1)
     found: Float[np.ndarray, " order"] = np.linalg.lstsq(
-        powers, (radius - 1.0) / (size_ratio - 1.0), rcond=None
+        powers, (radius - start) / (size_ratio - start), rcond=None
     )[0]
     return found
 

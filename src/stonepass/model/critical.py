@@ -125,11 +125,11 @@ def solve(case: Case, resolution: Resolution | None = None) -> Answer:
             "which is below what the finite elements resolve"
         )
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
+    if case.method.model == "direct":
+        return _direct(case, resolution)
     if _closure_start(case) is None:
         reason = "the far field without the ground matrix has no lumen under this load"
         return _unanswered(case, Outcome.NO_SOLUTION, reason)
-    if case.method.model == "direct":
-        return _direct(case, resolution)
     seated = seat(case, resolution)
     if isinstance(seated, NoSeat):
         return _unanswered(

@@ -21,12 +21,12 @@ from stonepass.fe.contact import resampling
 from stonepass.fe.discrete import inner_wall
 from stonepass.fe.fit import Fitted
 from stonepass.fe.problem import Failure, Resolution
-from stonepass.fe.readout import Field, Volume, field, loaded_balance, volume
+from stonepass.fe.readout import Field, Volume, deformation, field, loaded_balance, volume
 from stonepass.fe.slide import Slid, Slide
 from stonepass.fe.threads import one_thread
 from stonepass.fe.tube import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
-from stonepass.materials.kinks import relaxed
+from stonepass.materials.kinks import Relaxed, relaxed
 from stonepass.materials.stability import check
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.case import Case
@@ -52,8 +52,9 @@ HIGHEST_GUESS, LOW_START = 1.2, 0.3
 # Excess of the seal over P_u, relative: where the search for the leak begins and ends, its step.
 # From farther than the last no leak pressure is extrapolated.
 HIGHEST_EXCESS, LEAK_EXCESS, LEAK_STEP, LEAK_FAR = 3.0, 0.06, 0.6, 0.4
+NO_PRESSURE = 1e-9  # in units of the modulus: rounding around none
+LEAKS = "urine passes the stone: no contact pressure is above that of the urine"
 UNSEALED = "the state that balances does not hold the urine back"
-URINE = (0.0, 1e6)
 IMBALANCE = 0.01
 
 
@@ -115,6 +116,8 @@ class PushedState:
     solver : PushReport
     soundness : Soundness
         Stability of the wall's own law in this state, kinks left out.
+    kinked : bool
+        Whether the law was relaxed somewhere: axial fibres compressed until they kink.
     """
 
     case: Case
@@ -129,6 +132,7 @@ class PushedState:
     wall: Field | None
     solver: PushReport
     soundness: Soundness
+    kinked: bool
 
     @property
     def contact_angle(self) -> float:
@@ -163,15 +167,15 @@ class PushedState:
                 f"the axial forces on tube and stone miss their balance by "
                 f"{self.solver.axial_balance:.1%}"
             )
-        if self.soundness.margin > 0.0:
-            return found
-        R, Z = self.soundness.weakest_at
-        return [
-            *found,
-            f"the wall kinks at R = {R:.3g}, Z = {Z:.3g} (inner radii, downstream positive), where "
-            "friction compresses its axial fibres: it is solved with the energy that it has in the "
-            "limit of fine kinks",
-        ]
+        if self.kinked and self.soundness.margin <= 0.0:
+            R, Z = self.soundness.weakest_at
+            found.append(
+                f"the wall kinks at R = {R:.3g}, Z = {Z:.3g} (inner radii, downstream positive), "
+                "where its axial fibres are compressed: it is solved with the energy that it has "
+                "in the limit of fine kinks"
+            )
+            return [*found, *self.soundness.folding()]
+        return [*found, *self.soundness.warnings()]
 
     def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
         """Pressure on the stone in Pa at any θ in [0, π]: P_u before the contact, 0 behind it."""
@@ -233,7 +237,7 @@ def push_through(
     Parameters
     ----------
     urine : str or Pressure
-        P_u above the stone, e.g. ``"8 kPa"``; 0 to 1000 kPa.
+        P_u above the stone, e.g. ``"8 kPa"``; zero or positive.
     resolution : Resolution, optional
         The mesh; by default that of the case's accuracy.
     tether : float
@@ -268,7 +272,7 @@ def push_along(
     """
     bounds = [pressure(each, "urine pressure") for each in urine]
     for bound, each in zip(bounds, urine, strict=True):
-        require(URINE[0] <= bound <= URINE[1], "urine pressure", each, "0 kPa to 1000 kPa")
+        require(0.0 <= bound < np.inf, "urine pressure", each, "zero or positive")
     started = time.perf_counter()
     wanted = resolution or LEVELS[case.method.accuracy].resolution
     (ready,) = _slides(case, [wanted], tether, offset)
@@ -278,6 +282,8 @@ def push_along(
     with one_thread():
         for bound in bounds:
             found = ready.slide.held(bound / ready.modulus, case.stone.friction)
+            if isinstance(found, Slid) and not _sealed(found):
+                found = Failure(LEAKS, found.steps)
             if isinstance(found, Failure):
                 lost = _no_push(case, found, started)
                 return states + [lost] * (len(bounds) - len(states))
@@ -291,14 +297,11 @@ def critical_push(
     """Find the pressure that moves the stone, once for each resolution, coarse before fine.
 
     The first one also looks for the leak pressure where it is asked for; the others start from its
-    answer, and are not tried where it has none.
+    answer.
     """
     started, found = time.perf_counter(), list[Critical | NoPush]()
     guess = None
     for ready in _slides(case, resolutions):
-        if found and isinstance(found[-1], NoPush):
-            found.append(replace(found[-1], newton_steps=0))
-            continue
         if isinstance(ready, Failure):
             found.append(_no_push(case, ready, started))
             continue
@@ -376,8 +379,10 @@ def _critical(
         passed, last = _leak(slide, start, ready.opening)
         # Only from close by: what is extrapolated from afar says nothing of the force there.
         if passed is not None and last.force < 0.0 and _excess(last) <= 2.0 * LEAK_EXCESS:
-            state = _state(case, ready, last, started)
-            return Critical(state, passed * ready.modulus, clears=True)
+            again = slide.held(last.pressure, friction)  # the search may have gone on from there
+            if isinstance(again, Slid):
+                state = _state(case, ready, again, started)
+                return Critical(state, passed * ready.modulus, clears=True)
     reason = found if isinstance(found, Failure) else Failure(UNSEALED, found.steps)
     return _no_push(case, reason, started)
 
@@ -406,13 +411,15 @@ def _leak(slide: Slide, start: Slid, opening: float) -> tuple[float | None, Slid
         return None, states[-1]
     before, now = states[-2:]
     first, second = ((_excess(each) * each.pressure) ** 2 for each in (before, now))
+    if not second < first:
+        return None, now
     ahead = second * (now.pressure - before.pressure) / (first - second)
     return now.pressure + ahead, now
 
 
 def _excess(state: Slid) -> float:
     """How far the seal is above the fluid, in units of the fluid's pressure."""
-    if state.pressure == 0.0:
+    if state.pressure <= NO_PRESSURE:
         return np.inf
     return float(state.contact_pressure.max()) / state.pressure - 1.0
 
@@ -457,4 +464,14 @@ def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedStat
             penetration=found.penetration,
         ),
         soundness=soundness(case, slide, in_pascals),
+        kinked=_kinked(case, slide),
     )
+
+
+def _kinked(case: Case, slide: Slide) -> bool:
+    """Whether C_zz is anywhere below that at which the relaxed law begins."""
+    law = relaxed(case.ureter.material.law)
+    if not isinstance(law, Relaxed):
+        return False
+    F = deformation(slide)
+    return bool((F.F_rz**2 + F.F_zz**2 < law.kink(F.F_tt**2, np)).any())

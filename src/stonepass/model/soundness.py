@@ -51,14 +51,18 @@ class Soundness:
                 f"the wall is not stable at R = {R:.3g}, Z = {Z:.3g} (inner radii): a shear band "
                 f"lowers its energy (stability margin {self.margin:.2g})"
             )
-        if self.hoop_compression > 1.0:
-            R, Z = self.compressed_at
-            found.append(
-                f"the wall is under hoop compression of {self.hoop_compression:.2g} times its "
-                f"shear modulus at R = {R:.3g}, Z = {Z:.3g} (inner radii): a real tube may "
-                "fold, which no axisymmetric model sees"
-            )
-        return found
+        return [*found, *self.folding()]
+
+    def folding(self) -> list[str]:
+        """A sentence where hoop compression may fold the wall."""
+        if self.hoop_compression <= 1.0:
+            return []
+        R, Z = self.compressed_at
+        return [
+            f"the wall is under hoop compression of {self.hoop_compression:.2g} times its "
+            f"shear modulus at R = {R:.3g}, Z = {Z:.3g} (inner radii): a real tube may "
+            "fold, which no axisymmetric model sees"
+        ]
 
 
 def folding_warning(case: Case) -> list[str]:

@@ -48,6 +48,7 @@ def closures_record(found: ClosureComparison) -> dict[str, Any]:
     return {
         **_row(found),
         "message": found.message,
+        "warnings": list(found.warnings),
         "series_coefficients": None if coefficients is None else [float(c) for c in coefficients],
         "version": VERSION,
         "disclaimer": DISCLAIMER,
@@ -78,7 +79,7 @@ def closures_figure(found: ClosureComparison) -> Figure:
         )
         axes.plot(
             np.degrees(fine),
-            series_closure(fine, first, xi, found.coefficients),
+            series_closure(fine, first, xi, found.coefficients, float(radius[0])),
             color=COLOURS["blue"],
             label=f"series, order {len(found.coefficients)}",
         )

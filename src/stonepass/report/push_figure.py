@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from stonepass.errors import BadInput
+from stonepass.errors import BadInput, Outcome
 from stonepass.fe.readout import Field
 from stonepass.model.critical import Answer
 from stonepass.model.push_through import PushedState
@@ -30,7 +30,8 @@ def push_figure(answer: Answer) -> Figure:
     rows = figure.add_gridspec(2, 1, height_ratios=(1.3, 1.0))
     axes = figure.add_subplot(rows[0])
     draw_wall(axes, pushed, pushed.peak_contact_pressure)
-    axes.set_title("Stone about to move: radial compression in the loaded wall")
+    what = "Stone about to move" if answer.outcome is Outcome.MOVES else "Urine about to pass"
+    axes.set_title(f"{what}: radial compression in the loaded wall")
     draw_pressure(figure.add_subplot(rows[1]), pushed, answer.leak_pressure)
     return figure
 
@@ -49,11 +50,11 @@ def draw_wall(axes: Axes, pushed: PushedState, top: float) -> None:
     for half in (1.0, -1.0):
         axes.fill_between(z[wet], 0.0, half * r[wet], color=URINE, alpha=0.12, linewidth=0)
         for at in np.linspace(left + 0.15, edge - 0.1 * length, ARROWS):
-            top = half * float(np.interp(at, z, r))
+            rim = half * float(np.interp(at, z, r))
             axes.annotate(
                 "",
-                (at, 0.985 * top),
-                (at, 0.985 * top - half * 0.22),
+                (at, 0.985 * rim),
+                (at, 0.985 * rim - half * 0.22),
                 arrowprops={"arrowstyle": "-|>", "color": URINE, "lw": 0.9},
             )
     for alpha in (pushed.contact_angle, pushed.downstream_angle):

@@ -15,11 +15,11 @@ from stonepass.errors import BadInput
 from stonepass.model.advance import advance_force
 from stonepass.model.push_through import PushedState
 from stonepass.report.push_figure import draw_pressure, draw_wall
-from stonepass.report.record import write_csv
+from stonepass.report.record import DISCLAIMER, VERSION, write_csv
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.studies.rising import Rising
 
-__all__ = ["rising_figure", "rising_rows", "save_animation", "write_rising"]
+__all__ = ["rising_figure", "rising_record", "rising_rows", "save_animation", "write_rising"]
 
 COLUMNS = (
     "urine_pressure_kPa", "net_force_kPa", "friction_work_kPa", "contact_angle_deg",
@@ -50,6 +50,24 @@ def rising_rows(rising: Rising) -> list[dict[str, Any]]:
         known = (None if value is None else float(value) for value in values)
         rows.append(dict(zip(COLUMNS, known, strict=True)))
     return rows
+
+
+def rising_record(rising: Rising) -> dict[str, Any]:
+    """The states as a JSON-ready record."""
+    critical = rising.critical
+    return {
+        "outcome": critical.outcome.name,
+        "message": critical.message,
+        "critical_pressure_kPa": None if critical.pressure is None else critical.pressure / 1e3,
+        "leak_pressure_kPa": (
+            None if critical.leak_pressure is None else critical.leak_pressure / 1e3
+        ),
+        "states": rising_rows(rising),
+        "reason": rising.reason,
+        "warnings": list(critical.warnings),
+        "version": VERSION,
+        "disclaimer": DISCLAIMER,
+    }
 
 
 def write_rising(rising: Rising, path: Path) -> None:

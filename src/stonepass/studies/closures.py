@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.errors import Outcome
+from stonepass.errors import Outcome, require
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.advance import advance_force, opened_radius, opening_pressure
 from stonepass.model.case import Case
@@ -30,7 +30,8 @@ CLOSURES = {
     "energy": "energy: I(P) = D",
     "direct": "direct push-through",
 }
-SERIES_ORDER, PAIRS = 3, 9
+SERIES_ORDER, PAIRS = 3, 13
+ORDERS = (1, 8)
 LAST_PAIR = 0.95  # of the pressure that opens the tube to R_s
 NEAR = 0.03  # how far around the direct answer D is taken
 
@@ -48,6 +49,8 @@ class ClosureComparison:
     outcome : Outcome
         Of the direct model.
     message : str
+    warnings : tuple of str
+        Of the paper's model and of the direct one, and why a closure has no pressure.
     coefficients : array or None
         Of the series (`model.closure.series_closure`).
     pairs : (array, array) or None
@@ -58,6 +61,7 @@ class ClosureComparison:
     pressures: dict[str, float | None]
     outcome: Outcome
     message: str
+    warnings: tuple[str, ...] = ()
     coefficients: Float[np.ndarray, " order"] | None = None
     pairs: tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]] | None = None
 
@@ -73,25 +77,32 @@ def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison
     The seated contact pressure is that of the case's seating for the paper's closures and the
     series; the loaded one for energy and direct.
     """
+    require(ORDERS[0] <= order <= ORDERS[1], "order", order, f"{ORDERS[0]} to {ORDERS[1]}")
     # No errors are estimated: closures differ by more.
     resolution = LEVELS[case.method.accuracy].resolution
-    paper = solve(_by(case, model="paper", as_printed=False), resolution)
+    chosen = {"as_printed": False, "closure_start": "inner-radius"}
+    paper = solve(_by(case, model="paper", **chosen), resolution)
     direct = solve(_by(case, model="direct"), resolution)
     pressures: dict[str, float | None] = dict.fromkeys(CLOSURES)
     pressures |= {"derived": paper.pressure, "direct": direct.pressure}
     pressures["energy"] = _by_energy(direct)
-    found = ClosureComparison(paper.case, pressures, direct.outcome, direct.message)
+    lost = () if paper.outcome.answered else (f"{paper.outcome.name} by Eq. 15: {paper.message}",)
+    warnings = _said_once([*paper.warnings, *direct.warnings, *lost])
+    found = ClosureComparison(paper.case, pressures, direct.outcome, direct.message, warnings)
     if paper.seated is None:
         return found
     printed = replace(paper.seated, case=_by(paper.case, as_printed=True))
     pressures["printed"] = balance_pressure(printed)
     pairs = opening_pairs(case)
-    if pairs is None:
+    if pairs is None or len(pairs[0]) <= order:
         return found
     alpha, radius = pairs
-    coefficients = fit_series(alpha[1:], radius[1:], float(alpha[0]), case.size_ratio, order)
+    start = float(radius[0])
+    coefficients = fit_series(alpha[1:], radius[1:], float(alpha[0]), case.size_ratio, order, start)
+    # Back to a pressure by the law that the pairs are of, so that each pair gives its own.
+    whole = replace(paper.seated, case=_by(paper.case, far_field_ground=True))
     pressures["series"] = balance_pressure(
-        paper.seated, lambda a, a0, xi: series_closure(a, a0, xi, coefficients)
+        whole, lambda a, a0, xi: series_closure(a, a0, xi, coefficients, start)
     )
     return replace(found, coefficients=coefficients, pairs=pairs)
 
@@ -101,30 +112,38 @@ def opening_pairs(
 ) -> tuple[Float[np.ndarray, " pairs"], Float[np.ndarray, " pairs"]] | None:
     """α and r_a/R_a of frictionless direct states with rising P_u, from P_u = 0 on, α up to 90°.
 
-    Without friction, because the series begins at (α₀, R_a), as the wall opens then.
+    Without friction, because the series begins at the seated stone, as the wall opens then. None
+    where no such states are found.
     """
     bare = _by(case.with_friction(0.0), model="direct")
     rising = LAST_PAIR * opening_pressure(case) * np.linspace(0.0, 1.0, PAIRS)
     states = push_along(bare, [Pressure(float(p)) for p in rising], LEVELS["fast"].resolution)
     kept = [s for s in states if isinstance(s, PushedState) and s.contact_angle <= np.pi / 2]
-    if len(kept) <= SERIES_ORDER:
+    if not kept:
         return None
     radii = [opened_radius(case, s.urine_pressure) for s in kept]
-    return np.array([s.contact_angle for s in kept]), np.array(radii, dtype=float)
+    pairs = [(s.contact_angle, r) for s, r in zip(kept, radii, strict=True) if r is not None]
+    return np.array([alpha for alpha, _ in pairs]), np.array([r for _, r in pairs])
 
 
 def closure_map(
     cases: Sequence[Case],
     progress: Callable[[int, int], None] | None = None,
     workers: int = 1,
+    order: int = SERIES_ORDER,
 ) -> list[ClosureComparison]:
     """Compare the closures for many cases; `progress` is told (done, all) after each."""
     with executor(workers if can_travel(list(cases)) else 1) as pool:
-        futures = [pool.submit(compare_closures, case) for case in cases]
+        futures = [pool.submit(compare_closures, case, order) for case in cases]
         for done, _ in enumerate(as_completed(futures), start=1):
             if progress is not None:
                 progress(done, len(cases))
         return [future.result() for future in futures]
+
+
+def _said_once(sentences: Sequence[str]) -> tuple[str, ...]:
+    """Each sentence once; that no error is estimated is our own choice here."""
+    return tuple(dict.fromkeys(s for s in sentences if not s.startswith("the error is not")))
 
 
 def _by(case: Case, **changed: Any) -> Case:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.errors import require
+from stonepass.errors import Outcome, require
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.advance import opening_pressure
 from stonepass.model.case import Case
@@ -50,25 +50,40 @@ class Rising:
 def raise_pressure(case: Case, top: Pressure | None = None, steps: int = 13) -> Rising:
     """Hold the stone while P_u rises in equal steps from 0 to `top`, by default to P_ucr.
 
-    Without friction, where P_ucr is 0, to the pressure that opens the tube to R_s.
+    Without friction, where P_ucr is 0, and where there is none, to the pressure that opens the tube
+    to R_s. A loose stone has no states.
     """
     require(STEPS[0] <= steps <= STEPS[1], "steps", steps, f"{STEPS[0]} to {STEPS[1]}")
+    if top is not None:
+        require(0.0 < top < np.inf, "highest pressure", f"{top:g} Pa", "above zero")
     direct = replace(case, method=replace(case.method, model="direct"))
     critical = solve(direct)
-    last = top or critical.pressure or opening_pressure(case)
+    if critical.pushed is None and critical.outcome is not Outcome.NO_SOLUTION:
+        return Rising(critical, [], None, np.empty(0), "")
+    last = opening_pressure(case) if top is None and not critical.pressure else top
+    if last is None:
+        assert critical.pressure is not None
+        last = critical.pressure
     pressures = [Pressure(float(p)) for p in np.linspace(0.0, last, steps)]
     found = push_along(direct, pressures, LEVELS[case.method.accuracy].resolution)
     states = [state for state in found if isinstance(state, PushedState)]
     lost = next((state for state in found if isinstance(state, NoPush)), None)
     seated = seat(replace(case, method=replace(case.method, model="paper")))
+    reason = "" if lost is None else lost.reason
     if isinstance(seated, NoSeat):
-        return Rising(critical, states, None, np.full(len(states), np.nan), seated.reason)
+        return Rising(critical, states, None, np.full(len(states), np.nan), reason)
     deviation = np.array([contact_deviation(state, seated) for state in states])
-    return Rising(critical, states, seated, deviation, "" if lost is None else lost.reason)
+    return Rising(critical, states, seated, deviation, reason)
 
 
 def contact_deviation(state: PushedState, seated: SeatedState) -> float:
-    """∫ |σ − σ⁰| dθ over ∫ σ⁰ dθ, where the loaded wall is closed: what the paper takes as 0."""
+    """∫ |σ − σ⁰| dθ over ∫ σ⁰ dθ, where the loaded wall is closed: what the paper takes as 0.
+
+    NaN where the seated stone touches nowhere there.
+    """
     theta = np.linspace(state.contact_angle, state.downstream_angle, SAMPLES)
     loaded, unloaded = state.pressure_at(theta), seated.pressure_at(theta)
-    return float(np.trapezoid(np.abs(loaded - unloaded), theta) / np.trapezoid(unloaded, theta))
+    all_of_it = float(np.trapezoid(unloaded, theta))
+    if all_of_it == 0.0:
+        return float("nan")
+    return float(np.trapezoid(np.abs(loaded - unloaded), theta)) / all_of_it

@@ -20,6 +20,7 @@ from stonepass.model.push_through import (
     PushedState,
     _critical,
     _Ready,
+    _slides,
     push_through,
 )
 
@@ -158,9 +159,11 @@ def test_contact_is_pressed_and_urine_stands_before_it(answer):
 
 
 def test_without_friction_every_stone_moves_at_once():
-    found = sp.solve(case(), FAST)
+    found = sp.solve(case(accuracy="fast"))
     assert found.outcome is Outcome.MOVES
-    assert found.pressure == pytest.approx(0.0, abs=1e-6)
+    assert found.pressure == 0.0
+    assert found.pushed.urine_pressure == pytest.approx(0.0, abs=1e-6)
+    assert found.leak_pressure == pytest.approx(65.5e3, rel=0.02)
 
 
 def test_pressure_scales_with_stiffness_and_never_with_size(answer):
@@ -321,3 +324,28 @@ def test_urine_passes_first_only_where_the_seal_was_followed_to_its_end(
         assert found.leak_pressure == pytest.approx(1000.0, rel=1e-2)
     else:
         assert found.reason.startswith("no root")
+
+
+def ready(question):
+    (found,) = _slides(question, [COARSE])
+    return found
+
+
+def test_a_slide_that_failed_goes_on_as_if_it_had_not():
+    """Asked for more than the tube bears, it comes back to where it was."""
+    question = case("ureter", 1.3, 1.2, wetted=True)
+    failed, fresh = ready(question).slide, ready(question).slide
+    for slide in (failed, fresh):
+        assert isinstance(slide.held(0.01, 0.4), Slid)
+    assert isinstance(failed.held(1.0, 0.4), Failure)  # 336 kPa: no such tube
+    again, first = failed.held(0.02, 0.4), fresh.held(0.02, 0.4)
+    assert again.force == pytest.approx(first.force, abs=1e-9)
+    assert again.contact_pressure.max() == pytest.approx(first.contact_pressure.max(), rel=1e-7)
+
+
+def test_only_a_wall_that_kinks_is_said_to():
+    """Latex has no fibres; a bare Fung wall that is stable has no kinks."""
+    assert not sp.solve(case(mu=0.475), COARSE).pushed.kinked
+    bare = push_through(case("ureter", 1.3, 1.1), "1 kPa", COARSE)
+    assert not bare.kinked
+    assert not any("kinks" in text for text in bare.warnings())

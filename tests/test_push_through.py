@@ -303,7 +303,7 @@ class Clearing:
     def _state(self, pressure, excess):
         line = np.array([[pressure, pressure * (1.0 + excess), 0.0]])
         zero = np.zeros_like(line)
-        return Slid(pressure, self.force, 0.5, False, zero, zero, zero, line, 1, 0.0, 0.0, 0.0)
+        return Slid(pressure, self.force, 0.5, zero, zero, zero, line, 1, 0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize(

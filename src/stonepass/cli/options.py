@@ -242,6 +242,7 @@ def takes_settings(*left_out: str) -> Callable[[Callable[..., int]], Callable[..
     shared = [field.name for field in fields(Settings) if field.name not in left_out]
 
     def decorate(function: Callable[..., int]) -> Callable[..., int]:
+        """Make the command of `function`."""
         own_hints = get_type_hints(function, include_extras=True)
         own = [p for p in inspect.signature(function).parameters.values() if p.name != "settings"]
         annotations = {name: hints[name] for name in shared}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol, runtime_checkable
 
 import ngsolve as ng
@@ -32,6 +32,7 @@ __all__ = [
 ]
 
 SAMPLES_PER_COLUMN = 33
+STRESSES = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
 NUDGE = 1e-12  # of the mesh
 
 
@@ -79,6 +80,11 @@ class Field:
     stress_tt: Float[np.ndarray, "elements points"]
     stress_zz: Float[np.ndarray, "elements points"]
     stress_rz: Float[np.ndarray, "elements points"]
+
+    def in_units(self, modulus: float) -> Field:
+        """The same wall with its stresses times `modulus`."""
+        stresses = {name: modulus * getattr(self, name) for name in STRESSES}
+        return replace(self, **stresses)
 
 
 @dataclass(frozen=True)
@@ -135,13 +141,12 @@ def field(solved: Solved) -> Field:
     (R, Z), at, shape = _field_points(solved)
     # Compiled, the components share what they have in common: the slopes of the energy.
     stress = ng.CF(cauchy_stress(solved.discrete.tube.energy, u, w, p)).Compile()(at)
-    names = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
     return Field(
         R=R.reshape(shape),
         Z=Z.reshape(shape),
         r=(R + u(at)).reshape(shape),
         z=(Z + w(at)).reshape(shape),
-        **{name: stress[:, k].reshape(shape) for k, name in enumerate(names)},
+        **{name: stress[:, k].reshape(shape) for k, name in enumerate(STRESSES)},
     )
 
 

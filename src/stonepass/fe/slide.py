@@ -48,7 +48,7 @@ from stonepass.fe.problem import Failure, Resolution, Tube
 
 __all__ = ["Slid", "Slide"]
 
-FIRST, LAST, PRESSURE = range(3)  # of the scalars
+PRESSURE = 2  # of the scalars, after the two edges
 MOST_STEPS = 16  # of Newton's method, before the way there is halved
 MOST_HALVINGS = 3
 CONTACT = "wetted|closed"
@@ -72,7 +72,6 @@ class Slid:
     pressure: float
     force: float
     friction: float
-    wetted: bool
     station: Float[np.ndarray, "edges points"]
     r: Float[np.ndarray, "edges points"]
     z: Float[np.ndarray, "edges points"]
@@ -401,7 +400,6 @@ class Slide:
             pressure=float(self._values[PRESSURE]),
             force=self.force(),
             friction=self._friction.Get(),
-            wetted=self.wetted,
             station=wall.station,
             r=wall.r,
             z=wall.z,

@@ -29,8 +29,9 @@ from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.kinks import Relaxed, relaxed
 from stonepass.materials.stability import check
 from stonepass.model.accuracy import LEVELS
+from stonepass.model.advance import opening_pressure
 from stonepass.model.case import Case
-from stonepass.model.far_field import stuck_lumen, urine_pressure
+from stonepass.model.far_field import stuck_lumen
 from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.soundness import Soundness, far_field_hint, oversize_hint, soundness, waves
 from stonepass.model.tube import profile_of, tube_of
@@ -337,7 +338,7 @@ def _slides(
     modulus = hoop_modulus(law)
     tube = tube_of(law, case.wall_ratio, case.load, case.method.half_length)
     wrap_at = partial(wrap_round_arc, case, lumen, modulus)
-    opening = float(urine_pressure(np.array(case.size_ratio), case.wall_ratio, law, case.load))
+    opening = opening_pressure(case)
     found: list[_Ready | Failure] = []
     for half, resolution in zip(
         seat_on_stone(tube, profile_of(case), wrap_at, resolutions), resolutions, strict=True
@@ -437,9 +438,7 @@ def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedStat
     keep = np.arange(len(found.station) * SAMPLES) % SAMPLES > 0
     keep[0] = True
     r, z, sigma = ((x @ fine).ravel()[keep] for x in (found.r, found.z, found.contact_pressure))
-    wall = field(slide)
-    stresses = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
-    in_pascals = replace(wall, **{name: modulus * getattr(wall, name) for name in stresses})
+    in_pascals = field(slide).in_units(modulus)
     far = slide.far_field()
     return PushedState(
         case=case,

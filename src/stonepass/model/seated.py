@@ -247,9 +247,8 @@ def _contact(case: Case, profile: ContactProfile) -> Contact:
 
 def _state(case: Case, solved: Fitted, started: float) -> SeatedState:
     modulus = hoop_modulus(case.ureter.material.law)
-    profile, wall, kept = contact_profile(solved), field(solved), volume(solved)
-    stresses = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
-    in_pascals = replace(wall, **{name: modulus * getattr(wall, name) for name in stresses})
+    profile, kept = contact_profile(solved), volume(solved)
+    in_pascals = field(solved).in_units(modulus)
     cone = case.seating_friction * np.maximum(profile.pressure, 0.0)
     contact = _contact(case, profile)
     return SeatedState(

@@ -1,0 +1,93 @@
+"""Tables of numbers from outside: CSV files, refused in one sentence that says where."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.errors import BadInput, refuse_unknown
+
+__all__ = ["read_columns"]
+
+LARGEST_FILE = 10_000_000  # bytes
+
+
+def read_columns(
+    path: Path, required: Sequence[str], optional: Sequence[str] = ()
+) -> dict[str, Float[np.ndarray, " rows"]]:
+    """Read columns of numbers by the names in the first row, in any order.
+
+    Empty lines and those that begin with ``#`` are left out; rows count as an editor's lines do.
+
+    Raises
+    ------
+    BadInput
+        Naming the file, and row and column where one is at fault: a missing file, one larger than
+        10 MB or not of text, a column that is missing, unknown (with the nearest known one) or
+        there twice, a row of another length, a cell that is no finite number, no rows at all.
+    """
+    rows = _rows(path)
+    if not rows:
+        raise BadInput("file", str(path), f"a table with the columns {', '.join(required)}")
+    header = [name.strip() for name in rows[0][1]]
+    _check_header(path, header, required, optional)
+    if len(rows) == 1:
+        raise BadInput("file", str(path), "a table with at least one row under its header")
+    values = np.array([_numbers(path, line, header, cells) for line, cells in rows[1:]])
+    return {name: values[:, k] for k, name in enumerate(header)}
+
+
+def _rows(path: Path) -> list[tuple[int, list[str]]]:
+    """Line number and cells of every row that says something."""
+    if not path.is_file():
+        raise BadInput("file", str(path), "a file that exists", "check the path")
+    if path.stat().st_size > LARGEST_FILE:
+        raise BadInput("file", str(path), f"smaller than {LARGEST_FILE // 1_000_000} MB")
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            reader = csv.reader(file, strict=True)
+            rows = [(reader.line_num, cells) for cells in reader]
+    except (csv.Error, UnicodeDecodeError, OSError) as problem:
+        raise BadInput("file", str(path), f"a CSV file of text ({problem})") from problem
+    return [
+        (line, cells)
+        for line, cells in rows
+        if any(cell.strip() for cell in cells) and not cells[0].lstrip().startswith("#")
+    ]
+
+
+def _check_header(
+    path: Path, header: list[str], required: Sequence[str], optional: Sequence[str]
+) -> None:
+    known = [*required, *optional]
+    for name in header:
+        if name not in known:
+            refuse_unknown(f"in {path.name}, column", name, known)
+    for name in known:
+        if header.count(name) > 1:
+            raise BadInput(f"in {path.name}, column", name, "given once")
+    for name in required:
+        if name not in header:
+            raise BadInput(f"in {path.name}, column '{name}'", "missing", "given")
+
+
+def _numbers(path: Path, line: int, header: list[str], cells: list[str]) -> list[float]:
+    if len(cells) != len(header):
+        raise BadInput(
+            f"in {path.name}, row {line}", f"{len(cells)} cells", f"{len(header)}, as in the header"
+        )
+    found = []
+    for name, cell in zip(header, cells, strict=True):
+        try:
+            value = float(cell)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise BadInput(f"in {path.name}, row {line}, column '{name}'", cell, "a number")
+        found.append(value)
+    return found

@@ -1,0 +1,68 @@
+"""Tables from outside: what is read, and the one sentence for what is not."""
+
+import numpy as np
+import pytest
+
+from stonepass.csv_file import LARGEST_FILE, read_columns
+from stonepass.errors import BadInput
+
+
+def read(tmp_path, text, required=("a", "b"), optional=("c",)):
+    path = tmp_path / "data.csv"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return read_columns(path, required, optional)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a,b\n1,2\n3,4\n",
+        "b,a\n2,1\n4,3",
+        "\ufeffa, b\r\n1, 2\r\n\r\n# 9,9\r\n3,4\r\n",
+        "# made by hand\na,b,c\n1,2,7\n3,4,8\n",
+        '"a","b"\n"1","2"\n3e0,4.0\n',
+    ],
+)
+def test_columns_come_by_name(tmp_path, text):
+    found = read(tmp_path, text)
+    np.testing.assert_array_equal(found["a"], [1.0, 3.0])
+    np.testing.assert_array_equal(found["b"], [2.0, 4.0])
+    assert ("c" in found) == ("c" in text)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "but must be a table with the columns a, b"),
+        ("\n\n", "but must be a table with the columns a, b"),
+        ("a,b\n", "at least one row under its header"),
+        ("a\n1\n", "in data.csv, column 'b' is missing, but must be given"),
+        (
+            "a,b,cc\n1,2,3\n",
+            "in data.csv, column is cc, but must be one of a, b, c; did you mean 'c'",
+        ),
+        ("a,b,a\n1,2,3\n", "in data.csv, column is a, but must be given once"),
+        ("a,b\n1,2\n3\n", "in data.csv, row 3 is 1 cells, but must be 2, as in the header"),
+        ("a,b\n1,2\n3,x\n", "in data.csv, row 3, column 'b' is x, but must be a number"),
+        ("a,b\n1,2\n\n\n3,nan\n", "in data.csv, row 5, column 'b' is nan, but must be a number"),
+        ("a,b\n1,\n", "in data.csv, row 2, column 'b' is empty, but must be a number"),
+        ("a,b\n1,1e999\n", "in data.csv, row 2, column 'b' is 1e999, but must be a number"),
+        ("a,b\n1,2,5\n", "in data.csv, row 2 is 3 cells"),
+        (b"\xff\xfe\x00a", "but must be a CSV file of text"),
+        (b"a,b\n1,\x002\n", "in data.csv, row 2, column 'b'"),
+        ('a,b\n"1,2\n', "but must be a CSV file of text"),
+    ],
+)
+def test_what_is_wrong_is_said_with_its_place(tmp_path, text, sentence):
+    with pytest.raises(BadInput) as refused:
+        read(tmp_path, text)
+    assert sentence in str(refused.value)
+
+
+def test_a_file_that_is_missing_or_too_large(tmp_path):
+    with pytest.raises(BadInput, match="a file that exists"):
+        read_columns(tmp_path / "none.csv", ("a",))
+    with pytest.raises(BadInput, match="a file that exists"):
+        read_columns(tmp_path, ("a",))
+    with pytest.raises(BadInput, match="smaller than 10 MB"):
+        read(tmp_path, b"a,b\n" + b"1,2\n" * (LARGEST_FILE // 4))

@@ -3,28 +3,24 @@
 import numpy as np
 import pytest
 
-from stonepass.fe.readout import Volume
 from stonepass.model.balance import drive, resistance
 from stonepass.model.case import Case, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
-from stonepass.model.seated import SeatedState, SolverReport
-from stonepass.model.soundness import Soundness
+from stonepass.model.seated import Contact
+from stonepass.model.shape import Shape
 
 EDGE = np.pi / 3
 
 
-def uniform(sigma=7.0, friction=0.4, as_printed=False, aspect=1.0):
-    """A seated state with constant contact pressure from 60° to 120°."""
+def uniform(sigma=7.0, friction=0.4, as_printed=False, shape=None):
+    """A seated contact with constant pressure from 60° to 120°."""
     case = Case(
-        Stone(size_ratio=1.2, friction=friction, aspect=aspect),
+        Stone(size_ratio=1.2, friction=friction, shape=shape),
         Ureter(wall_ratio=1.5),
         method=Method(as_printed=as_printed),
     )
-    theta = np.linspace(EDGE, np.pi / 2, 400)
-    report = SolverReport(0, 0, 0.0, 0.0, Volume(0.0, 0.0, 1.0), 0.0, 0.0, 0.0)
-    sound = Soundness(1.0, (1.0, 0.0), 0.0, (1.0, 0.0))
-    none = np.zeros(400)
-    return SeatedState(case, EDGE, theta, np.full(400, sigma), none, None, report, sound)
+    theta = np.linspace(EDGE, np.pi - EDGE, 801)
+    return Contact(case, EDGE, theta, np.full(801, sigma))
 
 
 def test_friction_by_hand():
@@ -48,10 +44,29 @@ def test_friction_on_a_spheroid_is_that_of_its_profile():
     tau = np.linspace(1.2, 2.0 * np.pi / 3.0, 20001)
     rho, z = np.sin(tau), -1.7 * np.cos(tau)
     expected = 2.0 * 0.4 * 7.0 * np.trapezoid(rho, z)
-    found = resistance(uniform(aspect=1.7))
+    found = resistance(uniform(shape=Shape(1.7)))
     assert float(found.friction(np.array(1.2))) == pytest.approx(expected, rel=1e-6)
     sphere = resistance(uniform())
-    assert float(found.wall(np.array(1.2))) == float(sphere.wall(np.array(1.2)))
+    wall = float(sphere.wall(np.array(1.2)))
+    assert float(found.wall(np.array(1.2))) == pytest.approx(wall, rel=1e-14)
+
+
+def test_resistance_and_drive_of_a_stone_without_mirror_image():
+    """σ constant: F_f = 2π μ σ ∫ ρ dz by the trapezoidal rule, F_σ = −π σ [ρ²] by its ends.
+
+    The sharper half downstream leaves a smaller ρ at 120° than the blunter one has at 60°, so that
+    F_σ is above zero before anything has opened.
+    """
+    shape = Shape(1.3, (1.0, 0.09, 0.0, 0.03))
+    forces = resistance(uniform(shape=shape))
+    for alpha in (EDGE, 1.2, np.pi / 2):
+        rho, z = shape.meridian(np.linspace(alpha, np.pi - EDGE, 20001))
+        friction = 2.0 * 0.4 * 7.0 * np.trapezoid(rho, z)
+        wall = 7.0 * (rho[0] ** 2 - rho[-1] ** 2)
+        assert float(forces.friction(np.array(alpha))) == pytest.approx(friction, rel=1e-7)
+        assert float(forces.wall(np.array(alpha))) == pytest.approx(wall, rel=1e-6)
+    assert float(shape.turned().width(np.array(EDGE))) == pytest.approx(rho[-1])
+    assert abs(float(forces.wall(np.array(EDGE)))) > 0.1
 
 
 def test_wall_force_by_hand():
@@ -77,16 +92,16 @@ def test_total_is_the_sum():
 
 
 def test_drive_by_hand():
-    # P_u on a disc of radius R_s sin 30° is P_u/4 on the full cross-section.
-    assert float(drive(np.array(8.0), np.array(np.pi / 6))) == pytest.approx(2.0)
+    # P_u on a disc of half the stone's width is P_u/4 on the full cross-section.
+    assert float(drive(np.array(8.0), np.array(0.5))) == pytest.approx(2.0)
 
 
 def test_closure_by_hand():
-    # sin α₀ = 1/2, ξ = 1.3: halfway in sin α (0.75) is halfway in radius (1.15).
-    alpha = np.arcsin([0.5, 0.75, 1.0])
-    np.testing.assert_allclose(linear_closure(alpha, np.pi / 6, 1.3), [1.0, 1.15, 1.3], rtol=1e-14)
+    # ρ₀ = 1/2, ξ = 1.3: halfway in the stone's width (0.75) is halfway in radius (1.15).
+    width = np.array([0.5, 0.75, 1.0])
+    np.testing.assert_allclose(linear_closure(width, 0.5, 1.3), [1.0, 1.15, 1.3], rtol=1e-14)
     np.testing.assert_allclose(
-        linear_closure(alpha, np.pi / 6, 1.3, start=0.9), [0.9, 1.1, 1.3], rtol=1e-14
+        linear_closure(width, 0.5, 1.3, start=0.9), [0.9, 1.1, 1.3], rtol=1e-14
     )
 
 
@@ -95,4 +110,4 @@ def test_closure_is_eq_15_as_printed():
     alpha, first, xi = np.linspace(1.1, np.pi / 2, 9), 1.1, 1.25
     s, s0 = np.sin(alpha), np.sin(first)
     printed = xi * s + (s - 1.0) * (1.0 - xi * s0) / (s0 - 1.0)
-    np.testing.assert_allclose(linear_closure(alpha, first, xi), printed, rtol=1e-13)
+    np.testing.assert_allclose(linear_closure(s, s0, xi), printed, rtol=1e-13)

@@ -51,7 +51,7 @@ NAN = float("nan")
             lambda: sp.Case(
                 sp.Stone(size_ratio=2.0), sp.Ureter(wall_ratio=1.3), method=sp.Method(half_length=3.0)
             ),
-            "at least twice the larger half-axis of the stone, 4",
+            "at least twice the stone's largest extent from its widest place, 4",
         ),
     ],
 )  # fmt: skip

@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -332,6 +333,37 @@ def test_a_long_stone_needs_more_pressure_and_its_case_file_keeps_the_aspect(cli
     code, _, err = cli("pressure", *LATEX, "--aspect", 3)
     assert code == 2
     assert "aspect is 3.0, but must be a number from 0.5 to 2" in err
+
+
+def test_a_stone_by_its_meridian(cli, tmp_path):
+    """The example's egg: both models, its pictures, its case file; and what is refused."""
+    egg = Path(__file__).parents[1] / "examples" / "egg.csv"
+    common = (*LATEX, "--shape", egg, "--accuracy", "fast")
+    for model in ("paper", "direct"):
+        saved, figure = tmp_path / f"{model}.toml", tmp_path / f"{model}.svg"
+        code, out, _ = cli(
+            "pressure", *common, "--model", model, "--save", saved, "--figure", figure, "--json"
+        )
+        assert code == 0
+        record = json.loads(out)
+        assert record["inputs"]["aspect"] == pytest.approx(1.3, abs=0.1)
+        assert len(record["inputs"]["outline"]) > 4
+        assert record["inputs"]["shape_deviation"] < 1e-3
+        assert record["contact_angle_deg"] < 90.0 < record["downstream_angle_deg"]
+        assert figure.stat().st_size > 10_000
+        again = json.loads(cli("pressure", saved, "--json")[1])
+        assert again["critical_pressure_kPa"] == record["critical_pressure_kPa"]
+    table = cli("pressure", *common)[1]
+    assert "shape egg.csv" in table
+    assert "contact ends" in table
+    code, _, err = cli("pressure", *common, "--aspect", 1.2)
+    assert (code, "combination of --aspect and --shape" in err) == (2, True)
+    sphere = json.loads(cli("pressure", tmp_path / "paper.toml", "--aspect", 1, "--json")[1])
+    assert sphere["inputs"]["outline"] == [1.0]
+    broken = tmp_path / "broken.csv"
+    broken.write_text("z,rho\n0,0\n1,x\n")
+    code, _, err = cli("pressure", *LATEX, "--shape", broken)
+    assert (code, "broken.csv, row 3, column 'rho' is x, but must be a number" in err) == (2, True)
 
 
 def test_size_and_curve_take_the_direct_model(cli, tmp_path):

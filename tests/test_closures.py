@@ -15,7 +15,7 @@ from stonepass.model.far_field import urine_pressure
 from stonepass.studies.closures import CLOSURES, compare_closures, opening_pairs
 from stonepass.studies.rising import contact_deviation, raise_pressure
 
-EDGE, XI = np.radians(70.0), 1.2
+EDGE, XI = 0.94, 1.2  # ρ₀ over R_s
 FAST = sp.Method(accuracy="fast")
 
 
@@ -25,9 +25,9 @@ def case(mu=0.475, method=FAST):
 
 
 def test_the_series_of_first_order_is_the_linear_closure():
-    alpha = np.linspace(EDGE, np.pi / 2, 7)
-    series = series_closure(alpha, EDGE, XI, np.array([1.0]))
-    np.testing.assert_allclose(series, linear_closure(alpha, EDGE, XI), rtol=1e-14)
+    width = np.linspace(EDGE, 1.0, 7)
+    series = series_closure(width, EDGE, XI, np.array([1.0]))
+    np.testing.assert_allclose(series, linear_closure(width, EDGE, XI), rtol=1e-14)
 
 
 def test_the_series_begins_at_the_lumen_whatever_its_coefficients():
@@ -35,14 +35,14 @@ def test_the_series_begins_at_the_lumen_whatever_its_coefficients():
 
 
 def test_a_series_is_recovered_from_its_own_pairs():
-    alpha = np.linspace(EDGE, np.pi / 2, 12)
+    width = np.linspace(EDGE, 1.0, 12)
     wanted = np.array([0.7, -0.4, 0.6])
-    radius = series_closure(alpha, EDGE, XI, wanted)
-    np.testing.assert_allclose(fit_series(alpha, radius, EDGE, XI, 3), wanted, atol=1e-10)
+    radius = series_closure(width, EDGE, XI, wanted)
+    np.testing.assert_allclose(fit_series(width, radius, EDGE, XI, 3), wanted, atol=1e-10)
     with pytest.raises(BadInput, match="order is 0, but must be 1 to 8"):
-        fit_series(alpha, radius, EDGE, XI, 0)
+        fit_series(width, radius, EDGE, XI, 0)
     with pytest.raises(BadInput, match="at least as many as coefficients, 5"):
-        fit_series(alpha[:4], radius[:4], EDGE, XI, 5)
+        fit_series(width[:4], radius[:4], EDGE, XI, 5)
 
 
 def test_the_pressure_that_opens_the_tube_to_the_stone_by_the_far_field():
@@ -62,10 +62,12 @@ def test_pairs_begin_at_the_seated_state_and_lie_below_the_linear_closure(compar
     seated = sp.seat(case(method=sp.Method(seating="frictionless", accuracy="fast")))
     assert alpha[0] == pytest.approx(seated.contact_angle, abs=1e-4)
     assert np.all(np.diff(alpha) > 0.0)
-    assert np.all(radius[1:] < linear_closure(alpha[1:], alpha[0], 1.2))
+    first = np.sin(alpha[0])
+    assert np.all(radius[1:] < linear_closure(np.sin(alpha[1:]), first, 1.2))
     # model.md, section 5: at α = 77.6° r_a is 1.066, Eq. 15 says 1.108.
     assert np.interp(np.radians(77.6), alpha, radius) == pytest.approx(1.066, abs=0.004)
-    assert linear_closure(np.radians(77.6), alpha[0], 1.2) == pytest.approx(1.108, abs=0.004)
+    width = np.sin(np.radians(77.6))
+    assert linear_closure(width, first, 1.2) == pytest.approx(1.108, abs=0.004)
 
 
 def test_energy_and_direct_agree_and_the_paper_lies_around_them(compared):

@@ -25,7 +25,7 @@ def test_the_answer_balances_drive_and_resistance():
     found = answer(1.2)
     alpha = np.array(found.critical_angle)
     force = float(resistance(found.seated).total(alpha))
-    push = float(drive(pressure_of_angle(found.seated, alpha), alpha))
+    push = float(drive(pressure_of_angle(found.seated, alpha), np.sin(alpha)))
     assert force == pytest.approx(push, rel=1e-10)
     assert found.pressure == pytest.approx(push / math.sin(found.critical_angle) ** 2, rel=1e-12)
     assert found.seated.contact_angle < found.critical_angle < math.pi / 2
@@ -35,7 +35,7 @@ def test_no_smaller_balance_was_missed():
     found = answer(1.2)
     alpha = np.linspace(found.seated.contact_angle, found.critical_angle - 1e-6, 2000)
     excess = resistance(found.seated).total(alpha) - drive(
-        pressure_of_angle(found.seated, alpha), alpha
+        pressure_of_angle(found.seated, alpha), np.sin(alpha)
     )
     assert excess.min() > 0.0
 

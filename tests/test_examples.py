@@ -18,13 +18,15 @@ EXAMPLES = sorted((ROOT / "examples").iterdir())
 
 
 def test_there_are_examples():
-    assert len([path for path in EXAMPLES if path.suffix in (".py", ".toml")]) >= 4
+    assert len([path for path in EXAMPLES if path.suffix in (".py", ".toml", ".csv")]) >= 5
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_runs(path, capsys):
     if path.suffix == ".toml" and "[stone]" in path.read_text():
         assert run(["pressure", str(path)]) == 0
+    elif path.suffix == ".csv":
+        assert run(["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", str(path)]) == 0
     elif path.suffix == ".toml" or "def energy" in path.read_text():
         law = str(path) if path.suffix == ".toml" else f"{path}:energy"
         assert run(["material", "check", law]) == 0

@@ -22,6 +22,8 @@ SEED, GRID, REFERENCED = 20248, 100, 40
 EXACT, REFINED_EXACT, CONVERGED, SOLVED, COVERED = 2e-3, 5e-4, 5e-3, 0.98, 0.95
 TETHER = 0.1
 SHARE = 0.5  # of the pressure that opens the tube to R_s
+BLUNT, EGG = sp.Shape(1.2, (0.95, 0.0, 0.0, 0.0, 0.05)), sp.Shape(1.3, (1.01, 0.12, 0.01, 0.04))
+NAMES = {BLUNT: "blunt", EGG: "egg"}
 MESHES = ("fast, coarser", "fast", "standard", "reference")
 IDENTITY = (
     ("latex", 1.5, 1.2, sp.Load()),
@@ -30,13 +32,16 @@ IDENTITY = (
     ("latex", 1.5, 1.2, sp.Load("5.4 kPa", "hydrostatic")),
     ("latex", 1.5, 1.2, sp.Load("5.4 kPa", "dead")),
     ("latex", 1.5, 1.2, sp.Load(prestretch=1.1)),
-    ("latex", 1.5, 1.2, sp.Load(), 0.5),
-    ("latex", 1.5, 1.2, sp.Load(), 2.0),
+    ("latex", 1.5, 1.2, sp.Load(), sp.Shape(0.5)),
+    ("latex", 1.5, 1.2, sp.Load(), sp.Shape(2.0)),
+    ("latex", 1.5, 1.2, sp.Load(), BLUNT),
+    ("latex", 1.5, 1.2, sp.Load(), EGG),
     ("ureter", 1.3, 1.1, sp.Load()),
     ("ureter", 1.3, 1.2, sp.Load()),
     ("ureter", 3.4, 1.1, sp.Load()),
     ("ureter", 1.3, 1.2, sp.Load(prestretch=1.05)),
-    ("ureter", 1.3, 1.2, sp.Load(), 1.4),
+    ("ureter", 1.3, 1.2, sp.Load(), sp.Shape(1.4)),
+    ("ureter", 1.3, 1.2, sp.Load(), EGG),
 )
 NAMED = (("latex", 1.5, 1.2, 0.475), ("ureter", 1.3, 1.21, 0.5), ("ureter", 3.4, 1.11, 0.5))
 
@@ -55,7 +60,8 @@ class Drawn:
 
 
 def section() -> Section:
-    identity = on_all_cores("identity", identity_row, [(*row, 1.0)[:5] for row in IDENTITY])
+    rows = [(*row, sp.Shape())[:5] for row in IDENTITY]
+    identity = on_all_cores("identity", identity_row, rows)
     friction = on_all_cores("energy with friction", friction_row, NAMED)
     meshes = on_all_cores("convergence", convergence_row, NAMED)
     kept = on_all_cores("kept stiffness", kept_row, NAMED[1:])
@@ -123,10 +129,10 @@ def case_of(
     xi: float,
     load: sp.Load | None = None,
     mu: float = 0.0,
-    aspect: float = 1.0,
+    shape: sp.Shape | None = None,
 ) -> sp.Case:
     return sp.Case(
-        sp.Stone(size_ratio=xi, friction=mu, aspect=aspect),
+        sp.Stone(size_ratio=xi, friction=mu, shape=shape),
         sp.Ureter(wall_ratio=eta, material=material),
         load or sp.Load(),
         sp.Method(model="direct"),
@@ -152,8 +158,8 @@ def pushed(case: sp.Case, pressure: float, resolution: Resolution, tether: float
     return state
 
 
-def identity_row(material: str, eta: float, xi: float, load: sp.Load, aspect: float):
-    case = case_of(material, eta, xi, load, aspect=aspect)
+def identity_row(material: str, eta: float, xi: float, load: sp.Load, shape: sp.Shape):
+    case = case_of(material, eta, xi, load, shape=shape)
     pressure = half_open(case)
     gained = advance_force(case, pressure)
     assert gained is not None
@@ -169,7 +175,7 @@ def identity_row(material: str, eta: float, xi: float, load: sp.Load, aspect: fl
         load.confining_pressure > 0.0
     )
     loads += f", λ_z {load.prestretch:g}" * (load.prestretch != 1.0)
-    loads += f", aspect {aspect:g}" * (aspect != 1.0)
+    loads += f", {NAMES.get(shape, f'aspect {shape.aspect:g}')}" * (shape != sp.Shape())
     cells = [
         f"{material}, η {eta:g}, ξ {xi:g}{loads}, {pressure / 1e3:.3g} kPa",
         *(f"{value:+.1e}" for value in (to_gain, to_exact, tied_to_gain)),

@@ -23,12 +23,8 @@ from page import Section, renewed
 import stonepass
 
 SIDE_BY_SIDE = ("far_field", "refinement", "accuracy", "half_length", "pressed", "calibration")
-ON_ALL_CORES = (
-    "error_estimates",
-    "smoothness",
-    "robustness",
-    "push_through",
-)  # each has its own workers
+# Each has its own workers.
+ON_ALL_CORES = ("error_estimates", "smoothness", "robustness", "push_through", "shapes")
 SECTIONS = (*SIDE_BY_SIDE, *ON_ALL_CORES)
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "verification.md"

@@ -14,8 +14,10 @@ if TYPE_CHECKING:
     from stonepass.materials.protocol import Material
     from stonepass.model.case import Case, Load, Method, Stone, Ureter
     from stonepass.model.critical import Answer, critical_pressure, solve
+    from stonepass.model.meridian import read_shape, shape_through
     from stonepass.model.push_through import PushedState, push_through
     from stonepass.model.seated import SeatedState, seat
+    from stonepass.model.shape import Shape
     from stonepass.model.size import SizeAnswer, critical_size
 
 __version__ = "0.1.0"
@@ -31,6 +33,7 @@ _HOME = {
     "Outcome": "errors",
     "PushedState": "model.push_through",
     "SeatedState": "model.seated",
+    "Shape": "model.shape",
     "SizeAnswer": "model.size",
     "Stone": "model.case",
     "StonepassError": "errors",
@@ -38,7 +41,9 @@ _HOME = {
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
     "push_through": "model.push_through",
+    "read_shape": "model.meridian",
     "seat": "model.seated",
+    "shape_through": "model.meridian",
     "solve": "model.critical",
 }
 
@@ -52,6 +57,7 @@ __all__ = [
     "Outcome",
     "PushedState",
     "SeatedState",
+    "Shape",
     "SizeAnswer",
     "Stone",
     "StonepassError",
@@ -59,7 +65,9 @@ __all__ = [
     "critical_pressure",
     "critical_size",
     "push_through",
+    "read_shape",
     "seat",
+    "shape_through",
     "solve",
 ]
 

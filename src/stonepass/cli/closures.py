@@ -106,7 +106,7 @@ def _map(
     material = settings.material_value()
     cases = [
         Case(
-            Stone(size_ratio=xi, friction=mu, aspect=settings.aspect_value()),
+            Stone(size_ratio=xi, friction=mu, shape=settings.shape_value()),
             Ureter(wall_ratio=eta, material=material),
             settings.load(),
             settings.method(),

@@ -47,7 +47,7 @@ def command(
     from stonepass.studies.curve import curve
 
     stone = Stone(
-        size_ratio=sizes[-1], friction=settings.friction_value(), aspect=settings.aspect_value()
+        size_ratio=sizes[-1], friction=settings.friction_value(), shape=settings.shape_value()
     )
     case = Case(stone, settings.ureter(), settings.load(), settings.method())
     case.with_size_ratio(sizes[0])  # both ends are checked before the first solve

@@ -16,6 +16,7 @@ from stonepass.errors import BadInput
 if TYPE_CHECKING:
     from stonepass.materials.protocol import Material
     from stonepass.model.case import Case, Load, Method, Ureter
+    from stonepass.model.shape import Shape
     from stonepass.units import Length
 
 __all__ = ["Json", "Settings", "takes_settings"]
@@ -73,7 +74,15 @@ class Settings:
     ] = None
     aspect: Annotated[
         float | None,
-        typer.Option("--aspect", help="Length of the stone over its diameter.  [default: 1]"),
+        typer.Option("--aspect", help="Length of a spheroid over its diameter.  [default: 1]"),
+    ] = None
+    shape: Annotated[
+        Path | None,
+        typer.Option(
+            "--shape",
+            metavar="FILE.csv",
+            help="Any convex shape: meridian points z, rho from pole to pole, z downstream.",
+        ),
     ] = None
     seating: Annotated[
         str | None,
@@ -157,7 +166,7 @@ class Settings:
             diameter, size_ratio = base.stone.diameter, base.stone.size_ratio
         else:
             diameter, size_ratio = self.stone, self.xi
-        stone = Stone(diameter, self.friction_value(), size_ratio, self.aspect_value())
+        stone = Stone(diameter, self.friction_value(), size_ratio, shape=self.shape_value())
         return Case(stone, self.ureter(), self.load(), self.method())
 
     def ureter(self) -> Ureter:
@@ -193,11 +202,18 @@ class Settings:
             return self.material
         return "ureter" if self._base is None else self._base.ureter.material
 
-    def aspect_value(self) -> float:
-        """Aspect of the stone of the options, of the case file, or the default."""
+    def shape_value(self) -> Shape:
+        """Shape of the stone of the options, of the case file, or the default."""
+        from stonepass.model.meridian import read_shape
+        from stonepass.model.shape import Shape
+
+        if self.shape is not None and self.aspect is not None:
+            raise BadInput("combination of --aspect and --shape", "ambiguous", "one of the two")
+        if self.shape is not None:
+            return read_shape(self.shape)
         if self.aspect is not None:
-            return self.aspect
-        return 1.0 if self._base is None else self._base.stone.aspect
+            return Shape(self.aspect)
+        return Shape() if self._base is None else self._base.stone.shape
 
     def load(self) -> Load:
         """Build the load."""

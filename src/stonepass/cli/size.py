@@ -31,7 +31,7 @@ def command(
 
     with working("searching the critical size"):
         answer = critical_size(
-            ureter, limit, settings.friction_value(), load, method, aspect=settings.aspect_value()
+            ureter, limit, settings.friction_value(), load, method, shape=settings.shape_value()
         )
     if json:
         print_json(size_record(answer))

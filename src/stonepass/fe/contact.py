@@ -7,7 +7,7 @@ holds, or pressure vanishes, exactly at each of them, and no penalty error remai
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -41,15 +41,17 @@ class Arc:
     @classmethod
     def at(cls, place: Profile) -> Arc:
         """Make an arc at its first place."""
-        return cls(Profile(ng.Parameter(place.radius), place.aspect, ng.Parameter(place.offset)))
+        moved = {"radius": ng.Parameter(place.radius), "offset": ng.Parameter(place.offset)}
+        return cls(replace(place, **moved))
 
     @property
     def place(self) -> Profile:
         """Where it is now, in numbers."""
-        return Profile(self.profile.radius.Get(), self.profile.aspect, self.profile.offset.Get())
+        radius, offset = self.profile.radius.Get(), self.profile.offset.Get()
+        return replace(self.profile, radius=radius, offset=offset)
 
     def move(self, place: Profile) -> None:
-        """Go to another place of the path, of the same aspect."""
+        """Go to another place of the path, of the same aspect and outline."""
         self.profile.radius.Set(place.radius)
         self.profile.offset.Set(place.offset)
 

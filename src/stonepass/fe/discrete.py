@@ -38,7 +38,10 @@ NORMAL, TANGENTIAL = 3, 4  # components of the state after u, w, p
 
 @dataclass(frozen=True)
 class Discrete:
-    """Mesh, unknowns (u, w, p, λ_n, λ_t), arc and stiffening of one discretisation."""
+    """Mesh, unknowns (u, w, p, λ_n, λ_t), arc and stiffening of one discretisation.
+
+    Of the `whole` tube, or of its half Z ≥ 0.
+    """
 
     tube: Tube
     mesh: Any
@@ -47,6 +50,7 @@ class Discrete:
     stiffening: Any
     rule: Any
     order: int
+    whole: bool
 
     @cached_property
     def nodal(self) -> tuple[Any, Any, Any]:
@@ -94,7 +98,7 @@ def discretise(tube: Tube, arc: Arc, layout: Layout, order: int) -> Discrete:
         ]
     )
     state, stiffening = ng.GridFunction(space), ng.Parameter(0.0)
-    return Discrete(tube, mesh, state, arc, stiffening, lobatto_rule(order), order)
+    return Discrete(tube, mesh, state, arc, stiffening, lobatto_rule(order), order, layout.whole)
 
 
 def wall_form(d: Discrete, *, condense: bool = True) -> Any:
@@ -115,8 +119,8 @@ def wall_form(d: Discrete, *, condense: bool = True) -> Any:
 def free_unknowns(d: Discrete, contact: str, *, friction: bool = False) -> Any:
     """Unknowns to solve for, contact forces on the boundaries `contact` (none where it is empty).
 
-    λ_t is left out without friction, and at Z = 0 always: symmetry makes it zero there, and no
-    displacement could answer it.
+    λ_t is left out without friction, and at the first node always: on a half that is Z = 0, where
+    symmetry makes it zero and no displacement could answer it; on a whole tube nothing touches.
     """
     space = d.state.space
     free = ng.BitArray(space.FreeDofs())

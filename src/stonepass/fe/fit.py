@@ -1,4 +1,4 @@
-"""The fitted solve: the contact edge is a grid line, and its place one of the unknowns."""
+"""The fitted solve: the contact's edges are grid lines, and their places unknowns."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from stonepass.fe.newton import Bordered, Plain, Report, newton_or_homotopy
 from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
 from stonepass.fe.problem import Failure, Resolution, Tube
 from stonepass.fe.profile import Profile
-from stonepass.fe.scout import Start, edge_of_contact
+from stonepass.fe.scout import Start, contact_edges
 
 __all__ = ["Fitted", "fit", "settle"]
 
@@ -48,8 +48,8 @@ class Fitted:
     `steps` counts every Newton step with a tangent of its own on the way, failed attempts too;
     `force`, in units of modulus × inner radius², is the norm of the
     contact forces, `residual` relative to it; `dissipated` is the energy that friction took on the
-    path (half tube, units of modulus × inner radius³). `slack` is how far, along Z, the contact
-    edge is known where it could not be made an unknown, else 0.
+    path (of what the mesh covers, units of modulus × inner radius³). `slack` is how far, along Z,
+    the contact's edges are known where they could not be made unknowns, else 0.
     """
 
     discrete: Discrete
@@ -66,35 +66,41 @@ class Fitted:
 def fit(
     tube: Tube, stone: Profile, start: Start, resolution: Resolution, friction: float
 ) -> Fitted | Failure:
-    """Solve with the contact edge as a grid line whose place is an unknown.
+    """Solve with the contact's edges as grid lines whose places are unknowns.
 
     With friction this is the last increment of the path again, on the fitted mesh: slip counts
     from `start.origin`.
     """
 
-    def layout(edge: float) -> Layout:
-        return _layout(edge, start.edge, tube, resolution)
+    whole = start.discrete.whole
 
-    d = discretise(tube, Arc.at(stone), layout(start.edge), resolution.order)
+    def layout(values: Float[np.ndarray, " edges"]) -> Layout:
+        first, last = values if whole else (-values[0], values[0])
+        return _layout((float(first), float(last)), start, tube, resolution)
+
+    edges = np.array(start.contact if whole else start.contact[1:])
+    at_start = layout(edges)
+    d = discretise(tube, Arc.at(stone), at_start, resolution.order)
     _take_over(d, start)
     free = free_unknowns(d, "closed", friction=start.origin is not None)
-    at_edge = edge_unknown(d, resolution.closed)
+    columns = [at_start.wet, at_start.wet + at_start.closed] if whole else [at_start.closed]
+    at_edges = [edge_unknown(d, column) for column in columns]
 
-    def move_edge(values: Float[np.ndarray, " one"]) -> bool:
-        edge = float(values[0])
-        if not 0.0 < edge < tube.half_length:
+    def move_edges(values: Float[np.ndarray, " edges"]) -> bool:
+        first, last = (values[0], values[-1]) if whole else (0.0, values[0])
+        if not -tube.half_length < first < last < tube.half_length:
             return False
-        place(d.mesh, layout(edge))
+        place(d.mesh, layout(values))
         return True
 
     system = Bordered(
         _closed_form(d, start, friction),
         d.state,
         free,
-        values=np.array([start.edge]),
-        scale=np.array([start.edge]),
-        apply=move_edge,
-        conditions=lambda: np.array([d.state.vec[at_edge]]),
+        values=edges,
+        scale=np.full(len(edges), (start.contact[1] - start.contact[0]) / 2.0),
+        apply=move_edges,
+        conditions=lambda: np.array([d.state.vec[index] for index in at_edges]),
     )
     tolerance = max(FIT_TOLERANCE * start.force, ROUNDING)
     report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
@@ -103,20 +109,20 @@ def fit(
     flaw = _flaw(d)
     if flaw:
         return Failure(flaw, report.steps)
-    return _fitted(d, layout(float(system.values[0])), system, report, start, friction)
+    return _fitted(d, layout(system.values), system, report, start, friction)
 
 
 def settle(
     tube: Tube, stone: Profile, start: Start, resolution: Resolution, friction: float
 ) -> Fitted | Failure:
-    """Solve with contact as an inequality on meshes that are moved to the edge they find.
+    """Solve with contact as an inequality on meshes that are moved to the edges they find.
 
-    The way out where `fit` fails, as at kinks of a wall that has lost its stability: the edge is
-    then known to the spacing of the nodes beside it.
+    The way out where `fit` fails, as at kinks of a wall that has lost its stability: the edges are
+    then known to the spacing of the nodes beside them.
     """
-    edge, steps = start.edge, 0
+    edges, steps = start.contact, 0
     for _ in range(SETTLING_ROUNDS):
-        layout = _layout(edge, start.edge, tube, resolution)
+        layout = _layout(edges, start, tube, resolution)
         d = discretise(tube, Arc.at(stone), layout, resolution.order)
         _take_over(d, start)
         free = free_unknowns(d, INNER, friction=start.origin is not None)
@@ -124,16 +130,16 @@ def settle(
         tolerance = max(FIT_TOLERANCE * start.force, ROUNDING)
         report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
         steps += report.steps
-        found = edge_of_contact(d) if report.converged else None
+        found = contact_edges(d) if report.converged else None
         if found is None:
             return Failure(report.reason or "the wall left the stone", steps)
-        slack = resolution.edge * edge
-        if abs(found - edge) <= slack:
+        slack = resolution.edge * (edges[1] - edges[0]) / 2.0
+        if max(abs(found[0] - edges[0]), abs(found[1] - edges[1])) <= slack:
             if not smallest_volume_ratio(d) > 0.0:
                 return Failure(INSIDE_OUT, steps)
             solved = _fitted(d, layout, system, report, start, friction)
             return replace(solved, slack=slack, steps=steps)
-        edge = found
+        edges = found
     return Failure("the contact edge does not settle", steps)
 
 
@@ -159,7 +165,7 @@ def _fitted(
 
 
 def _closed_form(d: Discrete, start: Start, friction: float) -> Any:
-    """The wall held on the arc up to the edge."""
+    """The wall held on the arc between the edges."""
     where = ng.ds("closed", intrules={ng.SEGM: d.rule})
     form, space = wall_form(d), d.state.space
     trial, test = space.TrialFunction(), space.TestFunction()
@@ -185,10 +191,22 @@ def _open_form(d: Discrete, start: Start, friction: float) -> Any:
     return form
 
 
-def _origin(start: Start) -> Any:
-    """The places on the arc from which the last increment slips, as a smooth function of Z."""
+def _places(start: Start) -> Any:
+    """The places on the arc from which the last increment slips, as a smooth function of Z.
+
+    Odd in Z where the other half of the tube is the mirror image.
+    """
     assert start.origin is not None
-    spline = make_interp_spline(*start.origin, k=3)
+    station, place = start.origin
+    if not start.discrete.whole:
+        station = np.concatenate([-station[:0:-1], station])
+        place = np.concatenate([-place[:0:-1], place])
+    return make_interp_spline(station, place, k=3)
+
+
+def _origin(start: Start) -> Any:
+    """The same for the engine."""
+    spline = _places(start)
     return ng.BSpline(4, spline.t.tolist(), spline.c.tolist())(ng.y)
 
 
@@ -196,35 +214,45 @@ def _last_dissipation(d: Discrete, start: Start) -> float:
     if start.origin is None:
         return 0.0
     wall = inner_wall(d, "closed")
-    origin = make_interp_spline(*start.origin, k=3)(wall.station)
-    return dissipation(wall, d.arc.place, origin)
+    return dissipation(wall, d.arc.place, _places(start)(wall.station))
 
 
-def _layout(edge: float, reference: float, tube: Tube, resolution: Resolution) -> Layout:
-    """Grid lines for a contact edge at `edge`; counts and rows are fixed by `reference`."""
-    n, fraction = resolution.closed, resolution.edge
-    inside = 1.0 - graded(n, fraction, 1.0)[::-1]
-    beyond = intervals(fraction * reference, tube.half_length - reference, resolution.growth)
-    outside = graded(beyond, fraction * edge, tube.half_length - edge)
+def _layout(
+    contact: tuple[float, float], start: Start, tube: Tube, resolution: Resolution
+) -> Layout:
+    """Grid lines for a contact between two stations; counts and rows are fixed by the start."""
+    n, fraction, end = resolution.closed, resolution.edge, tube.half_length
+    first, last = contact
+    half, reference = (last - first) / 2.0, (start.contact[1] - start.contact[0]) / 2.0
+
+    def beyond(room_at_start: float, room: float) -> Float[np.ndarray, " points"]:
+        count = intervals(fraction * reference, room_at_start, resolution.growth)
+        return graded(count, fraction * half, room)
+
+    inside = half * graded(n, fraction, 1.0)
+    downstream = last + beyond(end - start.contact[1], end - last)
     first_row = min(4.0 * fraction, 0.5) * reference
-    return Layout(
-        radial=1.0 + growing(first_row, tube.wall_ratio - 1.0, 1.5 * resolution.growth),
-        axial=np.concatenate([edge * inside, edge + outside[1:]]),
-        closed=n,
-    )
+    radial = 1.0 + growing(first_row, tube.wall_ratio - 1.0, 1.5 * resolution.growth)
+    ending = np.concatenate([last - inside[::-1], downstream[1:]])
+    if not start.discrete.whole:
+        return Layout(radial, ending, closed=n)
+    upstream = first - beyond(end + start.contact[0], end + first)[::-1]
+    axial = np.concatenate([upstream[:-1], first + inside[:-1], ending])
+    return Layout(radial, axial, closed=2 * n, wet=len(upstream) - 1)
 
 
 def _take_over(d: Discrete, start: Start) -> None:
-    """Interpolate the state of another discretisation; contact forces end at the edge."""
+    """Interpolate the state of another discretisation; contact forces end at the edges."""
     for ours, theirs in zip(d.state.components[:3], start.discrete.state.components, strict=False):
         ours.Set(theirs)
     axial = d.state.components[1]  # interpolation has moved the plane of symmetry a little
     for index, on in enumerate(axial.space.GetDofs(d.mesh.Boundaries("middle"))):
         if on:
             axial.vec[index] = 0.0
-    wall = inner_wall(start.discrete)
+    wall, (first, last) = inner_wall(start.discrete), start.contact
     for component, force in ((NORMAL, wall.normal), (TANGENTIAL, wall.tangential)):
-        carried = ng.IfPos(start.edge - ng.y, along_wall(wall.station, force), 0.0)
+        on_wall = along_wall(wall.station, force)
+        carried = ng.IfPos(last - ng.y, ng.IfPos(ng.y - first, on_wall, 0.0), 0.0)
         set_at_nodes(d.state.components[component], carried, d)
 
 
@@ -235,7 +263,7 @@ def _flaw(d: Discrete) -> str:
     force = inner_wall(d, "closed").normal
     if force.min() < -1e-6 * force.max():
         return "the contact is not one closed band: the wall would lift off inside it"
-    opened = inner_wall(d, "open")
+    opened = inner_wall(d, "wet|open")
     stone = d.arc.place
     if stone.gap(opened.r, opened.z).min() < -1e-7 * stone.radius:
         return "the wall would touch the stone again beyond the contact edge"

@@ -22,7 +22,7 @@ ROUNDING = 1e-9  # of z at the middle, where symmetry makes it 0
 def self_contact(solved: Fitted) -> float | None:
     """Station Z/R_a where the inner or outer wall meets itself, the axis or its mirror image.
 
-    None where it does not. The half Z < 0 of the tube is the mirror image.
+    None where it does not. Of a half tube the other half is the mirror image.
     """
     wall = inner_wall(solved.discrete)
     Z, first = np.unique(wall.station, return_index=True)
@@ -30,7 +30,7 @@ def self_contact(solved: Fitted) -> float | None:
     if r.min() <= 0.0:
         return float(Z[np.argmin(r)])
     for station, radius, axial in ((Z, r, z), _outer(solved)):
-        if axial.min() < -ROUNDING:
+        if not solved.layout.whole and axial.min() < -ROUNDING:
             return float(station[np.argmin(axial)])
         found = crossing(radius, axial)
         if found is not None:

@@ -21,8 +21,8 @@ __all__ = [
     "structured_mesh",
 ]
 
-# Inner wall: wet upstream of the contact, wetted the contact up to a seal, closed the rest of the
-# contact (all of it without a fluid), open beyond.
+# Inner wall: wet upstream of the contact (also where there is no fluid), wetted the contact up to a
+# seal, closed the rest of the contact (all of it without a fluid), open beyond.
 BOUNDARIES = ("wet", "wetted", "closed", "open", "outer", "middle", "end")
 INNER = "wet|wetted|closed|open"
 
@@ -32,7 +32,7 @@ class Layout:
     """Where the grid lines lie: `radial` R/R_a, `axial` Z/R_a, and how many columns are what.
 
     In axial order `wet`, `wetted` and `closed` ones, then open ones. Without wet columns Z = 0 is a
-    plane of symmetry.
+    plane of symmetry, and the grid the half Z ≥ 0.
     """
 
     radial: Float[np.ndarray, rows + 1]
@@ -50,6 +50,17 @@ class Layout:
     def columns(self) -> int:
         """Number of element columns along the tube."""
         return len(self.axial) - 1
+
+    @property
+    def whole(self) -> bool:
+        """Whether the grid has both halves of the tube."""
+        return self.wet > 0
+
+    @property
+    def contact(self) -> tuple[float, float]:
+        """Stations of the contact's edges; on a half the first is the mirror image of the last."""
+        last = float(self.axial[self.wet + self.wetted + self.closed])
+        return (float(self.axial[self.wet]) if self.whole else -last), last
 
 
 def structured_mesh(layout: Layout) -> ng.Mesh:

@@ -9,7 +9,7 @@ motion in the increment before.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import ngsolve as ng
@@ -31,7 +31,7 @@ from stonepass.fe.mesh import INNER
 from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Path, Resolution, Tube, Wrap
 from stonepass.fe.profile import Profile
-from stonepass.fe.scout import SCOUT_ORDER, Start, edge_of_contact, scout_layout, wrap_round
+from stonepass.fe.scout import SCOUT_ORDER, Start, contact_edges, scout_layout, wrap_round
 
 __all__ = ["FRICTION_WEIGHT", "WrapAt", "along_wall", "dissipation", "press"]
 
@@ -61,11 +61,17 @@ def press(
 ) -> Start | Failure:
     """Follow the path, from the unloaded wall that the arc just touches to the arc's last place.
 
-    The mesh has equal columns up to beyond the contact edge of the frictionless solution. An
+    The mesh has equal columns to beyond the contact edges of the frictionless solution. An
     increment that does not converge is halved, down to 1/16 of its size.
     """
-    reach = MARGIN * frictionless.edge
-    layout = scout_layout(tube, reach, resolution.path_columns, growth=1.7)
+    first, last = frictionless.contact
+    layout = scout_layout(
+        tube,
+        (MARGIN * first, MARGIN * last),
+        resolution.path_columns,
+        growth=1.7,
+        whole=frictionless.discrete.whole,
+    )
     d = discretise(tube, Arc.at(path.place(0.0)), layout, SCOUT_ORDER)
     origin = ng.GridFunction(d.nodal[0])
     system = Plain(_form(d, path, origin), d.state, free_unknowns(d, INNER, friction=True))
@@ -93,17 +99,17 @@ def press(
         dissipated += dissipation(wall, path.place(t), touch)
         before, now = now, _moment(t, wall, path, d)
         s, step = ahead, usual
-    edge = edge_of_contact(d)
-    if edge is None:
+    edges = contact_edges(d)
+    if edges is None:
         return Failure("the wall left the stone", steps)
-    stations, first = np.unique(wall.station, return_index=True)
-    return Start(d, edge, frictionless.force, steps, (stations, touch.ravel()[first]), dissipated)
+    stations, at = np.unique(wall.station, return_index=True)
+    return Start(d, edges, frictionless.force, steps, (stations, touch.ravel()[at]), dissipated)
 
 
 def dissipation(
     wall: InnerWall, place: Profile, origin: Float[np.ndarray, "edges points"]
 ) -> float:
-    """Energy that friction took in one increment, half tube: −2π ∫ λ_t slip R_a dZ."""
+    """Energy that friction took in one increment on the wall given: −2π ∫ λ_t slip R_a dZ."""
     slip = place.radius * (place.along(wall.r, wall.z) - origin)
     return float(-2.0 * np.pi * (wall.weight * wall.tangential * slip).sum())
 
@@ -148,8 +154,10 @@ def _rigid_motion(start: _Moment, d: Discrete, path: Path, t: float) -> _Moment:
     place, ahead = path.place(0.0), path.place(t)
     Z = inner_wall(d).station
     lumen = np.full_like(Z, place.radius + place.offset)
-    past = Profile(
-        2.0 * place.radius - ahead.radius, place.aspect, 2.0 * place.offset - ahead.offset
+    past = replace(
+        place,
+        radius=2.0 * place.radius - ahead.radius,
+        offset=2.0 * place.offset - ahead.offset,
     )
     return _seen(-t, lumen, d.tube.axial_stretch * Z, past)
 

@@ -36,13 +36,14 @@ class Tube:
 class Wrap:
     """First guess: inner radius and inner pressure along the tube, at reference stations Z/R_a.
 
-    `reach` is the station up to which the wall is taken to touch the stone.
+    `contact` has the stations between which the wall is taken to touch the stone. Of a stone whose
+    halves are mirror images the stations are those of the half Z ≥ 0.
     """
 
     station: Float[np.ndarray, " n"]
     inner_radius: Float[np.ndarray, " n"]
     pressure: Float[np.ndarray, " n"]
-    reach: float
+    contact: tuple[float, float]
 
 
 @dataclass(frozen=True)

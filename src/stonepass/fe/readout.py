@@ -51,11 +51,11 @@ class Solved(Protocol):
 
 @dataclass(frozen=True)
 class ContactProfile:
-    """Contact pressure along the half in contact, from the contact edge (θ = α₀) to θ = π/2.
+    """Contact pressure from the upstream edge of the contact (θ = α₀) to the downstream one.
 
-    `theta` in rad is measured from the tube axis, at the centre of a sphere, else parametric;
-    `pressure` and `traction` (friction on the wall, positive away from the equator) are forces per
-    deformed area, in units of the modulus; `station` is the reference coordinate Z/R_a.
+    `theta` in rad is measured from the upstream axis, at the centre of a sphere, else parametric;
+    `pressure` and `traction` (friction on the wall, positive downstream) are forces per deformed
+    area, in units of the modulus; `station` is the reference coordinate Z/R_a.
     """
 
     theta: Float[np.ndarray, " n"]
@@ -112,26 +112,31 @@ def contact_profile(solved: Fitted) -> ContactProfile:
     """Evaluate the contact forces per deformed area on a fine grid of the closed columns.
 
     The polynomials of each edge are rebuilt from their Gauss–Lobatto values; the area ratio is
-    r ds/dZ / R_a with s the arc length of the deformed inner wall.
+    r ds/dZ / R_a with s the arc length of the deformed inner wall. Half a tube is mirrored.
     """
     wall = inner_wall(solved.discrete, "closed")
     values, slopes = resampling(solved.discrete.order, SAMPLES_PER_COLUMN)
     run = wall.station[:, -1:] - wall.station[:, :1]
     r, z = wall.r @ values.T, wall.z @ values.T
     area = r * np.hypot(wall.r @ slopes.T, wall.z @ slopes.T) / run
-    station = (wall.station @ values.T).ravel()
     # The first sample of every column but the first is the last of the one before.
-    keep = np.arange(station.size) % SAMPLES_PER_COLUMN > 0
+    keep = np.arange(r.size) % SAMPLES_PER_COLUMN > 0
     keep[0] = True
 
-    def outwards(samples: Float[np.ndarray, "edges points"]) -> Float[np.ndarray, " n"]:
-        return samples.ravel()[keep][::-1]
+    def whole(
+        samples: Float[np.ndarray, "edges points"], sign: float = 1.0, middle: float = 0.0
+    ) -> Float[np.ndarray, " n"]:
+        """Samples in axial order; of a half with their image, `sign` × them about the middle."""
+        run = samples.ravel()[keep]
+        if solved.layout.whole:
+            return run
+        return np.concatenate([(middle + sign * (run - middle))[:0:-1], run])
 
     return ContactProfile(
-        theta=outwards(solved.discrete.arc.place.parametric(r, -z)),
-        pressure=outwards((wall.normal @ values.T) / area),
-        traction=outwards((wall.tangential @ values.T) / area),
-        station=station[keep][::-1],
+        theta=whole(solved.discrete.arc.place.parametric(r, z), -1.0, np.pi / 2),
+        pressure=whole((wall.normal @ values.T) / area),
+        traction=whole((wall.tangential @ values.T) / area, -1.0),
+        station=whole(wall.station @ values.T, -1.0),
     )
 
 
@@ -172,10 +177,11 @@ def deformation(solved: Solved) -> Deformation:
 
 
 def axial_balance(solved: Fitted) -> float:
-    """Axial force left over on the half tube, relative to the normal contact force.
+    """Axial force left over on what the mesh covers, relative to the normal contact force.
 
-    The stress at both sections (Z = 0 and Z = L stay plane), the contact forces, and a hydrostatic
-    pressure on the outer wall must add up to nothing; no equation of the solver says so directly.
+    The stress at both sections (Z = 0, or −L, and L stay plane), the contact forces, and a
+    hydrostatic pressure on the outer wall must add up to nothing; no equation of the solver says so
+    directly.
     """
     d, tube = solved.discrete, solved.discrete.tube
     wall = inner_wall(d, "closed")
@@ -183,10 +189,10 @@ def axial_balance(solved: Fitted) -> float:
     axial = wall.normal * n_z + wall.tangential * n_r
     contact = 2.0 * np.pi * (wall.weight * axial).sum()
     scale = 2.0 * np.pi * (wall.weight * wall.normal).sum()
-    middle, outer_middle = _section_force(solved, 0.0)
-    end, outer_end = _section_force(solved, tube.half_length)
-    bath = np.pi * (outer_end**2 - outer_middle**2) * tube.outside_pressure * tube.hydrostatic
-    return float(abs(end - middle + contact + bath) / scale)
+    sections = (_section_force(solved, float(Z)) for Z in solved.layout.axial[[0, -1]])
+    (first, outer_first), (last, outer_last) = sections
+    bath = np.pi * (outer_last**2 - outer_first**2) * tube.outside_pressure * tube.hydrostatic
+    return float(abs(last - first + contact + bath) / scale)
 
 
 def loaded_balance(solved: Solved, pressure: float, force: float) -> float:
@@ -236,7 +242,7 @@ def _section_force(solved: Solved, Z: float) -> tuple[float, float]:
 
 
 def stored_energy(solved: Fitted) -> float:
-    """Strain energy of the half tube Z ≥ 0, in units of modulus × inner radius³.
+    """Strain energy of what the mesh covers, in units of modulus × inner radius³.
 
     Its slope in the radius of the sphere is the contact force: growing the sphere by dR does the
     work ∫ σ dA dR, which is all the work there is where no other load acts (a check by energy).

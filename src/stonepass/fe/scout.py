@@ -24,7 +24,7 @@ from stonepass.fe.problem import Failure, Tube, Wrap
 from stonepass.fe.profile import Profile
 from stonepass.fe.wall import SYMBOLS
 
-__all__ = ["SCOUT_ORDER", "Start", "edge_of_contact", "scout", "scout_layout", "wrap_round"]
+__all__ = ["SCOUT_ORDER", "Start", "contact_edges", "scout", "scout_layout", "wrap_round"]
 
 SCOUT_ORDER = 4
 SCOUT_TOLERANCE = 1e-6  # of the contact force
@@ -32,14 +32,14 @@ SCOUT_TOLERANCE = 1e-6  # of the contact force
 
 @dataclass(frozen=True)
 class Start:
-    """A solution to start from: last station in contact, norm of the contact force, steps so far.
+    """A solution to start from: stations of the contact's edges, norm of its force, steps so far.
 
     With friction, `origin` has the stations and the places on the arc from which the last
     increment slips, and `dissipated` the energy that the increments before it took.
     """
 
     discrete: Discrete
-    edge: float
+    contact: tuple[float, float]
     force: float
     steps: int
     origin: tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]] | None = None
@@ -51,7 +51,7 @@ def scout(tube: Tube, stone: Profile, wrap: Wrap, columns: int, weight: float) -
 
     `weight` is the factor of the gap in the augmented Lagrangian, in units of the modulus.
     """
-    layout = scout_layout(tube, wrap.reach, columns, growth=2.0)
+    layout = scout_layout(tube, wrap.contact, columns, growth=2.0, whole=not stone.symmetric)
     d = discretise(tube, Arc.at(stone), layout, SCOUT_ORDER)
     wrap_round(d, wrap)
     system = Plain(_form(d, weight), d.state, free_unknowns(d, INNER))
@@ -59,10 +59,10 @@ def scout(tube: Tube, stone: Profile, wrap: Wrap, columns: int, weight: float) -
     report = newton_or_homotopy(system, d.stiffening.Set, SCOUT_TOLERANCE * force)
     if not report.converged:
         return Failure(report.reason, report.steps)
-    edge = edge_of_contact(d)
-    if edge is None:
+    edges = contact_edges(d)
+    if edges is None:
         return Failure("the wall left the stone", report.steps)
-    return Start(d, edge, force, report.steps)
+    return Start(d, edges, force, report.steps)
 
 
 def _form(d: Discrete, weight: float) -> Any:
@@ -75,22 +75,34 @@ def _form(d: Discrete, weight: float) -> Any:
     return form
 
 
-def scout_layout(tube: Tube, reach: float, columns: int, growth: float) -> Layout:
-    """Equal columns up to `reach`, growing ones beyond and through the wall."""
-    first = reach / columns
-    beyond = growing(first, tube.half_length - reach, growth)
-    return Layout(
-        radial=1.0 + growing(first, tube.wall_ratio - 1.0, 1.5 * growth),
-        axial=np.concatenate([np.linspace(0.0, reach, columns + 1), reach + beyond[1:]]),
-        closed=columns,
-    )
+def scout_layout(
+    tube: Tube, contact: tuple[float, float], columns: int, growth: float, *, whole: bool
+) -> Layout:
+    """Equal columns over the contact, `columns` in each half; growing ones beyond."""
+    first, last = contact
+    equal = np.linspace(first, last, 2 * columns + 1)
+    size = (last - first) / (2 * columns)
+    downstream = last + growing(size, tube.half_length - last, growth)
+    radial = 1.0 + growing(size, tube.wall_ratio - 1.0, 1.5 * growth)
+    if not whole:
+        half = equal[columns:] - equal[columns]
+        return Layout(radial, np.concatenate([half, downstream[1:]]), closed=columns)
+    upstream = first - growing(size, tube.half_length + first, growth)[::-1]
+    axial = np.concatenate([upstream[:-1], equal, downstream[1:]])
+    return Layout(radial, axial, closed=2 * columns, wet=len(upstream) - 1)
 
 
-def edge_of_contact(d: Discrete) -> float | None:
-    """Last station of the inner wall that carries contact force; None where none does."""
+def contact_edges(d: Discrete) -> tuple[float, float] | None:
+    """First and last station of the inner wall with contact force; None where there is none.
+
+    On a half the first is the mirror image of the last.
+    """
     wall = inner_wall(d)
-    touching = wall.normal > 1e-6 * wall.normal.max()
-    return float(wall.station[touching].max()) if touching.any() else None
+    touching = wall.station[wall.normal > 1e-6 * wall.normal.max()]
+    if not touching.size:
+        return None
+    last = float(touching.max())
+    return (float(touching.min()) if d.whole else -last), last
 
 
 def wrap_round(d: Discrete, wrap: Wrap) -> None:
@@ -114,8 +126,10 @@ def wrap_round(d: Discrete, wrap: Wrap) -> None:
     pressure = along(wrap.pressure)
     depth = (ng.x - 1.0) / (tube.wall_ratio - 1.0)
     p.Set(2.0 * c_rr * U.Diff(c_rr) + pressure * (1.0 - depth) + tube.outside_pressure * depth)
+    first, last = wrap.contact
+    force = pressure * inner * stretch
     multiplier.Set(
-        ng.IfPos(wrap.reach - ng.y, pressure * inner * stretch, 0.0),
+        ng.IfPos(last - ng.y, ng.IfPos(ng.y - first, force, 0.0), 0.0),
         definedon=d.mesh.Boundaries(INNER),
     )
     tangential.vec[:] = 0.0

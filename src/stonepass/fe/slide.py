@@ -94,8 +94,8 @@ class FarField:
 class Slide:
     """A discretisation of the loaded tube that goes from state to state.
 
-    It starts from the tube `seated` without friction, mirrored; pressure and friction are 0. The
-    stone is held `offset` downstream of mid-length, in the reference state.
+    It starts from the tube `seated` without friction, a half of it mirrored; pressure and friction
+    are 0. The stone is held `offset` downstream of mid-length, in the reference state.
     """
 
     def __init__(
@@ -107,22 +107,23 @@ class Slide:
         wetted: bool = False,
         offset: float = 0.0,
     ) -> None:
-        edge = float(seated.layout.axial[seated.layout.closed])
+        first, last = seated.layout.contact
         self.tube, self.wetted, self.stone = tube, wetted, seated.discrete.arc.place
-        self._resolution, self._contact, self._seal = resolution, edge, 0.5
+        self._resolution, self._seal = resolution, 0.5
+        self._start, self._contact = (first, last), (last - first) / 2.0
         self._upstream, self._downstream = tube.half_length + offset, tube.half_length - offset
-        self.layout = self._layout(-edge, edge)
+        self.layout = self._layout(first, last)
         self.discrete = discretise(tube, Arc.at(self.stone), self.layout, resolution.order)
-        self._values = np.array([-edge, edge, 0.0])
-        self._first, self._last = ng.Parameter(-edge), ng.Parameter(edge)
+        self._values = np.array([first, last, 0.0])
+        self._first, self._last = ng.Parameter(first), ng.Parameter(last)
         self._pressure, self._friction = ng.Parameter(0.0), ng.Parameter(0.0)
         self._wet = ng.Parameter(0.0)  # 1 while the fluid takes its share of the friction
         self._free = free_unknowns(self.discrete, CONTACT)
         self._tolerance = max(2.0 * FIT_TOLERANCE * seated.force, ROUNDING)
-        first = self.layout.wet
-        last = first + self.layout.wetted + self.layout.closed
-        self._edges = [edge_unknown(self.discrete, column) for column in (first, last)]
-        _mirror(seated, self.discrete)
+        begins = self.layout.wet
+        ends = begins + self.layout.wetted + self.layout.closed
+        self._edges = [edge_unknown(self.discrete, column) for column in (begins, ends)]
+        _take_over(seated, self.discrete)
         self._form = self._make_form()
 
     @property
@@ -336,10 +337,13 @@ class Slide:
         n, fraction = resolution.closed, resolution.edge / 2.0
         length, size = last - first, fraction * (last - first)
 
-        def beyond(end: float) -> int:
-            return intervals(2.0 * fraction * contact, end - contact, resolution.growth)
+        def beyond(room: float) -> int:
+            return intervals(2.0 * fraction * contact, room, resolution.growth)
 
-        up, down = beyond(self._upstream), beyond(self._downstream)
+        up, down = (
+            beyond(self._upstream + self._start[0]),
+            beyond(self._downstream - self._start[1]),
+        )
         upstream = first - graded(up, size, self._upstream + first)[::-1]
         downstream = last + graded(down, size, self._downstream - last)
         wetted = first + length * graded(n, fraction, self._seal)
@@ -422,15 +426,16 @@ def _area(u: Any, w: Any) -> Any:
     return r * ng.sqrt(r_slope * r_slope + z_slope * z_slope)
 
 
-def _mirror(seated: Fitted, d: Discrete) -> None:
-    """Interpolate a half tube and its mirror image; forces at nodes, the rest by projection."""
+def _take_over(seated: Fitted, d: Discrete) -> None:
+    """Interpolate a tube, a half and its mirror image; forces at nodes, the rest by projection."""
     space = IntegrationRuleSpace(d.mesh, order=2 * d.order)
     rules = space.GetIntegrationRules()
     at = d.mesh.MapToAllElements(rules, ng.VOL)
     R, Z = ng.x(at).ravel(), ng.y(at).ravel()
-    there = seated.discrete.mesh(R, np.minimum(np.abs(Z), seated.layout.axial[-1]))
+    whole, end = seated.layout.whole, seated.layout.axial[-1]
+    there = seated.discrete.mesh(R, np.clip(Z if whole else np.abs(Z), -end, end))
     samples, where = ng.GridFunction(space), ng.dx(intrules=rules)
-    for k, sign in enumerate((1.0, np.sign(Z), 1.0)):
+    for k, sign in enumerate((1.0, 1.0 if whole else np.sign(Z), 1.0)):
         values = seated.discrete.state.components[k](there).ravel()
         samples.vec.FV().NumPy()[:] = sign * values
         target = d.state.components[k]
@@ -440,8 +445,10 @@ def _mirror(seated: Fitted, d: Discrete) -> None:
         target.vec.data = mass.Inverse(inverse="umfpack") * rhs
     _hold_ends(d)
     wall = inner_wall(seated.discrete)
-    station = np.concatenate([-wall.station.ravel()[::-1], wall.station.ravel()])
-    normal = np.concatenate([wall.normal.ravel()[::-1], wall.normal.ravel()])
+    station, normal = wall.station.ravel(), wall.normal.ravel()
+    if not whole:
+        station = np.concatenate([-station[::-1], station])
+        normal = np.concatenate([normal[::-1], normal])
     set_at_nodes(d.state.components[NORMAL], along_wall(station, normal), d)
 
 

@@ -36,6 +36,8 @@ def seat_on_stone(
 ) -> list[Fitted | Failure]:
     """Solve for the tube stretched over a stone (lengths in inner radii) at its middle.
 
+    The half Z ≥ 0 of it where the stone's halves are mirror images, else the whole.
+
     Once for each resolution, coarse before fine: they share the scout, and without friction each
     starts from the one before. Without a path there is no friction.
     """
@@ -104,5 +106,4 @@ def _sound(result: Fitted | Failure) -> Fitted | Failure:
 def _after(solved: Fitted | Failure) -> Iterator[Start]:
     """A solution as the start of a finer one."""
     if isinstance(solved, Fitted) and solved.slack == 0.0:
-        edge = float(solved.layout.axial[solved.layout.closed])
-        yield Start(solved.discrete, edge, solved.force, 0)
+        yield Start(solved.discrete, solved.layout.contact, solved.force, 0)

@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from stonepass.model.seated import Contact
@@ -19,55 +18,57 @@ __all__ = ["Resistance", "drive", "resistance"]
 
 @dataclass(frozen=True)
 class Resistance:
-    """F_re(α)/(π R_s²) of the part of the wall that is still closed, θ from α to π − α₀.
+    """F_re(α)/(π R_s²) of the part of the wall that is still closed, θ from α to its end.
 
-    `friction` and `wall` are its two parts, both counted positive against the motion:
+    With the stone's meridian ρ(θ), z(θ); `friction` and `wall` are its two parts, both counted
+    positive against the motion:
 
-    * F_f = 2π μ_f R_s c ∫ σ⁰ sin²θ dθ, c the half-length of the stone (Eq. 6, where c = R_s);
-    * F_σ = −π R_s² ∫ σ⁰ sin 2θ dθ: pressure on the upstream half pushes the stone downstream, on
-      the downstream half upstream; where they no longer cancel, the rest resists. Eq. 5 as
-      printed lacks the minus sign, and so would assist.
+    * F_f = 2π μ_f ∫ σ⁰ ρ dz (of a sphere 2π μ_f R_s² ∫ σ⁰ sin²θ dθ, Eq. 6);
+    * F_σ = −π ∫ σ⁰ d(ρ²) (of a sphere −π R_s² ∫ σ⁰ sin 2θ dθ): pressure on the upstream half pushes
+      the stone downstream, on the downstream half upstream; where they no longer cancel, the rest
+      resists. Eq. 5 as printed lacks the minus sign, and so would assist.
     """
 
     contact_angle: float
+    downstream_angle: float
     friction_coefficient: float
     wall_sign: float
     _shear: Any
     _axial: Any
-    aspect: float
 
     def friction(self, alpha: Values) -> Values:
         """F_f(α)/(π R_s²) in Pa, α in [α₀, π/2]."""
-        end = self._shear(np.pi / 2)
-        upstream = end - self._shear(alpha)  # ∫ from α to π/2 of σ sin²θ
-        return 2.0 * self.friction_coefficient * self.aspect * (upstream + end)
+        return 2.0 * self.friction_coefficient * self._beyond(self._shear, alpha)
 
     def wall(self, alpha: Values) -> Values:
-        """F_σ(α)/(π R_s²) in Pa, α in [α₀, π/2].
-
-        σ⁰ is symmetric about π/2 and sin 2θ antisymmetric, so the integral from α to π − α₀ is
-        minus that over the opened part, α₀ to α.
-        """
-        return self.wall_sign * self._axial(alpha)
+        """F_σ(α)/(π R_s²) in Pa, α in [α₀, π/2]."""
+        return -self.wall_sign * self._beyond(self._axial, alpha)
 
     def total(self, alpha: Values) -> Values:
         """F_re(α)/(π R_s²) in Pa (Eq. 7)."""
         return self.friction(alpha) + self.wall(alpha)
 
+    def _beyond(self, integral: Any, alpha: Values) -> Values:
+        return integral(self.downstream_angle) - integral(alpha)
+
 
 def resistance(contact: Contact) -> Resistance:
     """Integrate the seated contact pressure into the resistance of every contact angle."""
-    theta, sigma = contact.theta, contact.contact_pressure
+    theta, sigma, shape = contact.theta, contact.contact_pressure, contact.case.stone.shape
+    (rho, _), (rho_slope, z_slope) = shape.meridian(theta), shape.slopes(theta)
     return Resistance(
         contact_angle=contact.contact_angle,
+        downstream_angle=contact.downstream_angle,
         friction_coefficient=contact.case.stone.friction,
         wall_sign=-1.0 if contact.case.method.as_printed else 1.0,
-        _shear=PchipInterpolator(theta, sigma * np.sin(theta) ** 2).antiderivative(),
-        aspect=contact.case.stone.aspect,
-        _axial=PchipInterpolator(theta, sigma * np.sin(2.0 * theta)).antiderivative(),
+        _shear=PchipInterpolator(theta, sigma * rho * z_slope).antiderivative(),
+        _axial=PchipInterpolator(theta, sigma * 2.0 * rho * rho_slope).antiderivative(),
     )
 
 
-def drive(urine_pressure: Values, alpha: Values) -> Values:
-    """F_dr/(π R_s²) in Pa: the urine pressure acts on the disc of radius R_s sin α (Eq. 3)."""
-    return urine_pressure * np.sin(alpha) ** 2
+def drive(urine_pressure: Values, width: Values) -> Values:
+    """F_dr/(π R_s²) in Pa: the urine pressure acts on the disc of radius ρ_α (Eq. 3).
+
+    `width` is ρ_α/R_s, where the wall has opened to; sin α of a sphere.
+    """
+    return urine_pressure * width**2

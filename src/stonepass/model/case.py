@@ -11,6 +11,7 @@ from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.protocol import Material
 from stonepass.materials.user_law import load_material, looks_like_file
+from stonepass.model.shape import ASPECT, Shape
 from stonepass.units import Length, Pressure, length, pressure
 
 __all__ = ["Case", "Load", "Method", "Stone", "Ureter", "find_material"]
@@ -21,7 +22,6 @@ FRICTION = (0.0, 2.0)
 DIAMETER = (1e-5, 1.0)
 CONFINING = (0.0, 1e5)
 PRESTRETCH = (0.8, 1.6)
-ASPECT = (0.5, 2.0)
 HALF_LENGTH = (3.0, 100.0)
 _BY_RATIO = "give both diameters, or the ratio alone"
 
@@ -37,38 +37,52 @@ def find_material(value: str | Material, folder: Path | None = None) -> Material
 
 @dataclass(frozen=True, init=False)
 class Stone:
-    """A rigid sphere or spheroid, by its diameter or by its size ratio ξ = R_s/R_a.
+    """A rigid stone, convex and of revolution, by its diameter or its size ratio ξ = R_s/R_a.
 
     Parameters
     ----------
     diameter : str or Length, optional
-        Across the ureter. Text with a unit, e.g. ``"4.2 mm"``; in metres once read.
+        The largest across the ureter. Text with a unit, e.g. ``"4.2 mm"``; in metres once read.
     friction : float
         Coulomb coefficient μ_f between stone and wall, 0 to 2.
     size_ratio : float, optional
         ξ, where no length is known; 0.1 to 3.
-    aspect : float
-        Length along the ureter over the diameter across it, 0.5 to 2; 1 is a sphere.
+    aspect : float, optional
+        Of a spheroid: length along the ureter over the diameter across it, 0.5 to 2; 1, the
+        default, is a sphere.
+    shape : Shape, optional
+        Any other shape (`read_shape`, `shape_through`); not beside `aspect`.
     """
 
     diameter: Length | None
     friction: float
     size_ratio: float | None
-    aspect: float
+    shape: Shape
 
     def __init__(
         self,
         diameter: str | Length | None = None,
         friction: float = 0.5,
         size_ratio: float | None = None,
-        aspect: float = 1.0,
+        aspect: float | None = None,
+        shape: Shape | None = None,
     ) -> None:
         _one_of("stone", diameter=diameter, size_ratio=size_ratio)
         _set(self, "diameter", _diameter(diameter, "stone diameter"))
         _set(self, "friction", _number(friction, "friction", *FRICTION))
         ratio = None if size_ratio is None else _number(size_ratio, "size_ratio", *SIZE_RATIO)
         _set(self, "size_ratio", ratio)
-        _set(self, "aspect", _number(aspect, "aspect", *ASPECT))
+        if aspect is not None and shape is not None:
+            raise BadInput("aspect", aspect, "left out beside a shape, which has its own")
+        if shape is None:
+            shape = Shape(_number(1.0 if aspect is None else aspect, "aspect", *ASPECT))
+        require(isinstance(shape, Shape), "shape", shape, "a Shape, as read_shape gives it")
+        _set(self, "shape", shape)
+
+    @property
+    def aspect(self) -> float:
+        """Length along the ureter over the diameter across it."""
+        return self.shape.aspect
 
 
 @dataclass(frozen=True, init=False)
@@ -240,12 +254,12 @@ class Case:
             round(self.size_ratio, 6),
             f"{low:g} to {high:g}",
         )
-        least = 2.0 * self.size_ratio * max(1.0, self.stone.aspect)
+        least = 2.0 * self.size_ratio * max(1.0, self.stone.shape.reach)
         require(
             self.method.half_length >= least,
             "half_length",
             self.method.half_length,
-            f"at least twice the larger half-axis of the stone, {least:.4g}",
+            f"at least twice the stone's largest extent from its widest place, {least:.4g}",
         )
 
     @property
@@ -281,12 +295,12 @@ class Case:
     def with_friction(self, friction: float) -> Case:
         """Return the same case with another friction coefficient."""
         stone = self.stone
-        other = Stone(stone.diameter, friction, stone.size_ratio, stone.aspect)
+        other = Stone(stone.diameter, friction, stone.size_ratio, shape=stone.shape)
         return Case(other, self.ureter, self.load, self.method)
 
     def with_size_ratio(self, size_ratio: float) -> Case:
-        """Return the same case with another stone of the same friction and aspect."""
-        stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, aspect=self.stone.aspect)
+        """Return the same case with another stone of the same friction and shape."""
+        stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, shape=self.stone.shape)
         return Case(stone, self.ureter, self.load, self.method)
 
 

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict
 from stonepass.errors import BadInput
 from stonepass.materials.user_law import looks_like_file
 from stonepass.model.case import Case, Load, Method, Stone, Ureter, find_material
+from stonepass.model.meridian import read_shape
 from stonepass.toml_file import read_toml
 from stonepass.units import format_length, format_pressure
 
@@ -26,7 +27,8 @@ class _Stone(_Section):
     diameter: str | None = None
     friction: float = 0.5
     size_ratio: float | None = None
-    aspect: float = 1.0
+    aspect: float | None = None
+    shape: str | None = None
 
 
 class _Ureter(_Section):
@@ -62,7 +64,7 @@ class _CaseFile(_Section):
 
 
 def read_case(path: Path) -> Case:
-    """Read a case file; material files are looked for beside it.
+    """Read a case file; files of materials and shapes are looked for beside it.
 
     Raises
     ------
@@ -71,11 +73,13 @@ def read_case(path: Path) -> Case:
         known one), wrong type, or a value that a `Case` refuses.
     """
     parsed = read_toml(path, _CaseFile)
-    ureter = parsed.ureter.model_dump()
+    stone, ureter = parsed.stone.model_dump(), parsed.ureter.model_dump()
     try:
+        if parsed.stone.shape is not None:
+            stone["shape"] = read_shape(path.parent / parsed.stone.shape)
         ureter["material"] = find_material(parsed.ureter.material, path.parent)
         return Case(
-            Stone(**parsed.stone.model_dump()),
+            Stone(**stone),
             Ureter(**ureter),
             Load(**parsed.load.model_dump()),
             Method(**parsed.method.model_dump()),
@@ -93,13 +97,17 @@ def write_case(case: Case, path: Path) -> None:
     if not reference:
         raise BadInput("material", ureter.material.name, "from the catalogue or a file to be saved")
     if looks_like_file(reference):
-        reference = os.path.relpath(reference, path.resolve().parent)
+        reference = _beside(path, reference)
+    shape = stone.shape
+    if not shape.spheroidal and not shape.reference:
+        raise BadInput("shape of the stone", "made in Python", "from a file to be saved")
     document: dict[str, dict[str, Any]] = {
         "stone": {
             "diameter": None if stone.diameter is None else format_length(stone.diameter),
             "size_ratio": stone.size_ratio,
             "friction": stone.friction,
-            "aspect": stone.aspect,
+            "aspect": shape.aspect if shape.spheroidal and not shape.reference else None,
+            "shape": _beside(path, shape.reference) if shape.reference else None,
         },
         "ureter": {
             "inner_diameter": _length(ureter.inner_diameter),
@@ -122,6 +130,11 @@ def write_case(case: Case, path: Path) -> None:
         path.write_text(tomli_w.dumps(written), encoding="utf-8")
     except OSError as problem:
         raise BadInput("case file", str(path), f"writable ({problem.strerror})") from problem
+
+
+def _beside(path: Path, reference: str) -> str:
+    """Path of a file as seen from the folder of the case file."""
+    return os.path.relpath(reference, path.resolve().parent)
 
 
 def _length(value: float | None) -> str | None:

@@ -13,7 +13,7 @@ from stonepass.errors import Outcome
 from stonepass.fe.problem import Resolution
 from stonepass.materials.stability import check
 from stonepass.model.accuracy import LEVELS, ErrorEstimate, Level
-from stonepass.model.balance import Resistance, drive, resistance
+from stonepass.model.balance import drive, resistance
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
@@ -25,7 +25,7 @@ from stonepass.units import Values
 __all__ = ["Answer", "balance_pressure", "critical_pressure", "pressure_of_angle", "solve"]
 
 SCAN_POINTS = 721
-# (α, α₀, ξ) to r_a/R_a.
+# (ρ_α/R_s, ρ₀/R_s, ξ) to r_a/R_a, ρ₀ that of α₀.
 Closure = Callable[[Values, float, float], Values]
 SMALLEST_OVERSIZE = 1e-4
 
@@ -141,14 +141,16 @@ def solve(case: Case, resolution: Resolution | None = None) -> Answer:
 def pressure_of_angle(contact: Contact, alpha: Values, closure: Closure | None = None) -> Values:
     """P_u(α) in Pa (Eq. 16): the far field at the radius the closure gives to the angle α.
 
-    `closure` takes α, α₀ and ξ and gives r_a/R_a; Eq. 15 by default.
+    `closure` takes the stone's half-widths at α and α₀ over R_s, and ξ, and gives r_a/R_a; Eq. 15
+    by default.
     """
-    case = contact.case
+    case, width = contact.case, contact.case.stone.shape.width
     if closure is None:
         start = _closure_start(case)
         assert start is not None, "a seated stone under a load that closes the far field"
         closure = partial(linear_closure, start=start)
-    radius = closure(alpha, contact.contact_angle, case.size_ratio)
+    first = float(width(np.array(contact.contact_angle)))
+    radius = closure(width(np.asarray(alpha)), first, case.size_ratio)
     return urine_pressure(radius, case.wall_ratio, far_field_law(case), case.load)
 
 
@@ -180,6 +182,7 @@ def _balance(case: Case, seated: SeatedState) -> Answer:
         newton_steps=seated.solver.newton_steps,
         seconds=seated.solver.seconds,
         warnings=(
+            *case.stone.shape.warnings(),
             *_range_warnings(case),
             *folding_warning(case),
             *seated.warnings(),
@@ -219,6 +222,7 @@ def _direct(case: Case, resolution: Resolution | None) -> Answer:
         newton_steps=sum(each.newton_steps for each in (*coarser, found)),
         seconds=found.seconds,
         warnings=(
+            *case.stone.shape.warnings(),
             *_range_warnings(case),
             *folding_warning(case),
             *state.warnings(),
@@ -259,20 +263,23 @@ class _Critical:
 
 def _critical(contact: Contact, closure: Closure | None = None) -> _Critical | None:
     """Smallest α in [α₀, π/2] with F_re = F_dr: scan first, since it need not be the only one."""
-    forces = resistance(contact)
+    forces, width = resistance(contact), contact.case.stone.shape.width
     first, last = contact.contact_angle, np.pi / 2
     # Without friction nothing holds the stone, whatever the load: the root is α₀, and P_ucr = 0.
     if contact.case.stone.friction == 0.0:
         return _Critical(first, 0.0)
 
     def excess(alpha: Values) -> Values:
-        return forces.total(alpha) - drive(pressure_of_angle(contact, alpha, closure), alpha)
+        push = drive(pressure_of_angle(contact, alpha, closure), width(np.asarray(alpha)))
+        return forces.total(alpha) - push
 
     found = _first_root(excess, first, last)
     if found is None:
         return None
     if found == first:
-        return _Critical(first, _at_contact_edge(forces, first), at_edge=True)
+        disc = float(width(np.array(first))) ** 2
+        # P_u whose drive equals the resistance of the whole contact.
+        return _Critical(first, max(float(forces.total(np.array(first))), 0.0) / disc, at_edge=True)
     return _Critical(found, float(pressure_of_angle(contact, np.array(found), closure)))
 
 
@@ -304,11 +311,6 @@ _EDGE_WARNING = (
     "at the unloaded inner radius although the load has narrowed the lumen; the critical pressure "
     "is taken from the seated contact angle, and closure_start = 'lumen' is the alternative"
 )
-
-
-def _at_contact_edge(forces: Resistance, alpha: float) -> float:
-    """P_u whose drive equals the resistance of the whole contact: F_re(α₀)/(π R_s² sin² α₀)."""
-    return max(float(forces.total(np.array(alpha))), 0.0) / float(np.sin(alpha)) ** 2
 
 
 def _first_root(excess: Callable[[Values], Values], first: float, last: float) -> float | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Float
 
 from stonepass.fe.problem import Wrap
 from stonepass.fe.profile import Profile
@@ -10,6 +11,9 @@ from stonepass.model.case import Case
 from stonepass.model.far_field import inflation
 
 __all__ = ["wrap_round_arc"]
+
+REACH = 1.2  # of the place where the wall leaves the arc: so far the contact is guessed to go
+MERIDIAN = 2001  # samples of the arc
 
 
 def wrap_round_arc(case: Case, lumen: float, modulus: float, place: Profile) -> Wrap:
@@ -21,11 +25,31 @@ def wrap_round_arc(case: Case, lumen: float, modulus: float, place: Profile) -> 
     """
     stretch, law = case.load.prestretch, case.ureter.material.law
     end = case.method.half_length * stretch
-    radius, offset, aspect = place.radius, place.offset, place.aspect
-    leave = 0.5 * aspect * np.sqrt(radius**2 - (lumen - offset) ** 2)
-    height = np.sqrt(radius**2 - (leave / aspect) ** 2)
-    rim = offset + height
-    rate = leave / aspect**2 / (height * (rim - lumen))
+    z, inner, last = _side(place, lumen, end)
+    first = last
+    if not place.symmetric:
+        upstream, radius, first = _side(place.turned(), lumen, end)
+        z, inner = np.append(-upstream[:0:-1], z), np.append(radius[:0:-1], inner)
+    pressure = np.asarray(inflation(inner, case.wall_ratio, law, stretch)) / modulus
+    return Wrap(
+        station=z / stretch,
+        inner_radius=inner,
+        pressure=pressure,
+        contact=(-REACH * first / stretch, REACH * last / stretch),
+    )
+
+
+def _side(
+    place: Profile, lumen: float, end: float
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], float]:
+    """Deformed z and inner radius downstream of the widest place, and where the wall leaves."""
+    tau = np.pi / 2 * (1.0 + np.linspace(0.0, 1.0, MERIDIAN))
+    rho, along = place.meridian(tau)
+    arc, axial = place.offset + place.radius * rho, place.radius * along
+    leave = 0.5 * float(np.interp(-lumen, -arc, axial))
+    rim = float(np.interp(leave, axial, arc))
+    n_r, n_z = place.normal(rim, leave)
+    rate = float(n_z / n_r) / (rim - lumen)
     z = np.concatenate(
         [
             np.linspace(0.0, leave, 200, endpoint=False),
@@ -33,12 +57,5 @@ def wrap_round_arc(case: Case, lumen: float, modulus: float, place: Profile) -> 
         ]
     )
     z = np.append(z[z < end], end)
-    inner = np.where(
-        z < leave,
-        offset + np.sqrt(np.maximum(radius**2 - (z / aspect) ** 2, 0.0)),
-        lumen + (rim - lumen) * np.exp(-rate * np.maximum(z - leave, 0.0)),
-    )
-    pressure = np.asarray(inflation(inner, case.wall_ratio, law, stretch)) / modulus
-    return Wrap(
-        station=z / stretch, inner_radius=inner, pressure=pressure, reach=1.2 * leave / stretch
-    )
+    away = lumen + (rim - lumen) * np.exp(-rate * np.maximum(z - leave, 0.0))
+    return z, np.where(z < leave, np.interp(z, axial, arc), away), leave

@@ -105,8 +105,8 @@ class PushedState:
         (`model.advance`).
     theta, contact_pressure : arrays
         Total contact pressure in Pa (true stress, compression positive) over θ in rad from the
-        upstream axis (parametric on a spheroid), from the upstream edge of the contact to the
-        downstream one.
+        upstream axis (parametric where the stone is no sphere, `model.shape`), from the upstream
+        edge of the contact to the downstream one.
     upstream_radius, upstream_stretch : float
         r_a/R_a and axial stretch far from the stone.
     downstream_stretch : float
@@ -328,7 +328,7 @@ class _Ready:
 def _slides(
     case: Case, resolutions: Sequence[Resolution], tether: float = 0.0, offset: float = 0.0
 ) -> list[_Ready | Failure]:
-    """Seat the stone without friction, for each resolution, and make the whole tube of it."""
+    """Seat the stone without friction, for each resolution, and make a loaded tube of it."""
     check(case.ureter.material)
     lumen = stuck_lumen(case)
     unstable = waves(case)
@@ -361,7 +361,9 @@ def _slides(
 def _guess(case: Case, half: Fitted, opening: float) -> float:
     """P_ucr by energy from the unloaded contact: P V = ∫ μ λ dA for an advance by one length."""
     wall = inner_wall(half.discrete, "closed")
-    rubbed = case.stone.friction * 4.0 * np.pi * float((wall.weight * wall.normal).sum())
+    halves = 1.0 if half.layout.whole else 2.0
+    normal = halves * 2.0 * np.pi * float((wall.weight * wall.normal).sum())
+    rubbed = case.stone.friction * normal
     section = np.pi * ((1.0 + case.size_ratio) / 2.0) ** 2
     return min(rubbed / section, HIGHEST_GUESS * opening)
 

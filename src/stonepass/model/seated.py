@@ -54,7 +54,8 @@ class SolverReport:
     volume : Volume
         How well volume is kept.
     axial_balance : float
-        Axial force left over on a half of the tube, relative to the normal contact force.
+        Axial force left over on a half of the tube (for a stone without mirror image the whole),
+        relative to the normal contact force.
     cone_excess : float
         Largest excess of friction over its coefficient times the pressure, at the nodes, relative
         to the largest pressure.
@@ -79,11 +80,13 @@ class Contact:
     Attributes
     ----------
     contact_angle : float
-        α₀ in rad: contact spans θ from α₀ to π − α₀.
+        α₀ in rad, where the contact begins; of a stone whose halves are mirror images it ends at
+        π − α₀.
     theta, contact_pressure : arrays
-        σ(θ) in Pa, true stress on the deformed wall, compression positive, on a fine grid of the
-        upstream half, θ from α₀ to π/2; the downstream half is its mirror image. θ is the angle at
-        the centre of a sphere; of a spheroid the parametric one, ρ = R_s sin θ, z = −c cos θ.
+        σ(θ) in Pa, true stress on the deformed wall, compression positive, on a fine grid from the
+        upstream edge of the contact, θ = α₀, to the downstream one. θ is the angle at the centre of
+        a sphere, from the upstream axis; of other stones the parametric one (`model.shape`), π/2
+        where the stone is widest.
     """
 
     case: Case
@@ -93,24 +96,22 @@ class Contact:
 
     @property
     def downstream_angle(self) -> float:
-        """π − α₀ in rad, where the contact ends."""
-        return float(np.pi - self.contact_angle)
+        """θ in rad, where the contact ends."""
+        return float(self.theta[-1])
 
     @property
     def equator_contact_pressure(self) -> float:
         """σ(π/2) in Pa."""
-        return float(self.contact_pressure[-1])
+        return float(self.pressure_at(np.array(np.pi / 2)))
 
     @property
     def peak_contact_pressure(self) -> float:
         """Largest σ(θ) in Pa."""
         return float(self.contact_pressure.max())
 
-    def pressure_at(self, theta: Float[np.ndarray, " m"]) -> Float[np.ndarray, " m"]:
+    def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
         """σ(θ) in Pa at any θ in [0, π]; zero outside contact."""
-        folded = np.minimum(theta, np.pi - theta)
-        inside = np.interp(folded, self.theta, self.contact_pressure)
-        return np.where(folded < self.contact_angle, 0.0, inside)
+        return np.asarray(np.interp(theta, self.theta, self.contact_pressure, left=0.0, right=0.0))
 
 
 @dataclass(frozen=True)
@@ -120,11 +121,12 @@ class SeatedState(Contact):
     Attributes
     ----------
     friction_traction : array
-        Traction of the stone on the wall along it in Pa at `theta`, positive away from the
-        equator; zero where the seating is frictionless.
+        Traction of the stone on the wall along it in Pa at `theta`, positive downstream; zero where
+        the seating is frictionless.
     wall : Field
-        Deformed wall and Cauchy stress (Pa, tension positive) of the half Z ≥ 0, lengths in
-        inner radii; None where it was not kept (curves).
+        Deformed wall and Cauchy stress (Pa, tension positive), lengths in inner radii, z from the
+        stone's widest place downstream; of a stone whose halves are mirror images the half z ≥ 0.
+        None where it was not kept (curves).
     solver : SolverReport
     soundness : Soundness
         Stability of the wall, and whether it would fold.
@@ -149,7 +151,7 @@ class SeatedState(Contact):
         found = self.soundness.warnings()
         if self.solver.axial_balance > IMBALANCE:
             found.append(
-                f"the axial forces on half the tube miss their balance by "
+                f"the axial forces on the tube miss their balance by "
                 f"{self.solver.axial_balance:.1%} of the contact force"
             )
         if self.solver.cone_excess > CONE_EXCESS:
@@ -219,8 +221,9 @@ def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
     σ(θ) of a path keeps ripples of its increments, and two of them may cross at the equator; so
     the largest difference within the inner half of the contact counts.
     """
-    width = np.pi / 2 - state.contact_angle
-    inner = state.theta >= np.pi / 2 - INNER * width
+    width = (state.downstream_angle - state.contact_angle) / 2.0
+    middle = (state.downstream_angle + state.contact_angle) / 2.0
+    inner = np.abs(state.theta - middle) <= INNER * width
     ripple = np.abs(state.contact_pressure - coarse.pressure_at(state.theta))[inner].max()
     angle = level.claim(state.contact_angle - coarse.contact_angle, width)
     return ErrorEstimate(
@@ -267,7 +270,7 @@ def _state(case: Case, solved: Fitted, started: float) -> SeatedState:
             volume=kept,
             axial_balance=axial_balance(solved),
             cone_excess=cone_excess(solved),
-            dissipated=2.0 * modulus * solved.dissipated,
+            dissipated=(1.0 if solved.layout.whole else 2.0) * modulus * solved.dissipated,
         ),
         soundness=soundness(case, solved, in_pascals),
         contact_angle_slack=solved.slack

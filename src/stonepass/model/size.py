@@ -12,6 +12,7 @@ from stonepass.model.accuracy import LEVELS
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.critical import Answer, solve
 from stonepass.model.far_field import lumen_ratio
+from stonepass.model.shape import Shape
 from stonepass.units import Length, Pressure, pressure
 
 __all__ = ["SizeAnswer", "critical_size"]
@@ -63,7 +64,7 @@ def critical_size(
     load: Load | None = None,
     method: Method | None = None,
     progress: Callable[[float], None] | None = None,
-    aspect: float = 1.0,
+    shape: Shape | None = None,
 ) -> SizeAnswer:
     """How large may a stone be that moves at `limit`?
 
@@ -74,14 +75,14 @@ def critical_size(
     ----------
     limit : str or Pressure
         Bearable urine pressure, e.g. ``"12 kPa"``; 0.001 to 1000 kPa.
-    aspect : float
-        Of the stone: length along the ureter over the diameter across it.
+    shape : Shape, optional
+        Of the stone; a sphere by default, ``Shape(1.4)`` a spheroid 1.4 times as long as wide.
     """
     bound = pressure(limit, "limit")
     require(LIMIT[0] <= bound <= LIMIT[1], "limit", limit, "0.001 kPa to 1000 kPa")
     high = ureter.material.strain_range[1]
     case = Case(
-        Stone(size_ratio=high, friction=friction, aspect=aspect),
+        Stone(size_ratio=high, friction=friction, shape=shape),
         ureter,
         load or Load(),
         method or Method(),

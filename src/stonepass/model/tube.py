@@ -43,5 +43,6 @@ def tube_of(law: Law, wall_ratio: float, load: Load, half_length: float) -> Tube
 
 
 def profile_of(case: Case) -> Profile:
-    """The stone in inner radii, its centre on the axis."""
-    return Profile(case.size_ratio, case.stone.aspect)
+    """The stone in inner radii, its axis that of the tube."""
+    shape = case.stone.shape
+    return Profile(case.size_ratio, shape.aspect, outline=shape.outline)

@@ -11,7 +11,7 @@ from stonepass.fe.readout import Field
 from stonepass.model.balance import drive, resistance
 from stonepass.model.critical import Answer, pressure_of_angle
 from stonepass.model.seated import SeatedState
-from stonepass.report.section import draw_section
+from stonepass.report.section import draw_radii, draw_section
 from stonepass.report.style import COLOURS, new_figure, tidy
 
 __all__ = ["case_figure"]
@@ -34,35 +34,28 @@ def case_figure(answer: Answer) -> Figure:
 
 def _wall(axes: Axes, seated: SeatedState, wall: Field) -> None:
     """The meridian section, upstream left, coloured by the radial compression of the wall."""
-    radius, alpha = seated.case.size_ratio, seated.contact_angle
-    length = radius * seated.case.stone.aspect
-    draw_section(axes, wall, seated.case, seated.peak_contact_pressure, sides=(-1.0, 1.0))
-    for half in (1.0, -1.0):
-        for side in (-1.0, 1.0):
-            axes.plot(
-                [0.0, side * length * np.cos(alpha)],
-                [0.0, half * radius * np.sin(alpha)],
-                color=COLOURS["grey"],
-                linewidth=0.8,
-                linestyle="--",
-            )
+    case, alpha = seated.case, seated.contact_angle
+    sides = (-1.0, 1.0) if case.stone.shape.symmetric else (1.0,)
+    draw_section(axes, wall, case, seated.peak_contact_pressure, sides)
+    draw_radii(axes, case, (alpha, seated.downstream_angle))
     axes.annotate(
-        rf"$\alpha_0$ = {np.degrees(alpha):.1f}°", (-0.12 * length, 0.0), ha="right", va="center"
+        rf"$\alpha_0$ = {np.degrees(alpha):.1f}°",
+        (-0.12 * case.size_ratio * case.stone.aspect, 0.0),
+        ha="right",
+        va="center",
     )
     axes.set_title("Seated stone: radial compression in the wall")
 
 
 def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:
-    theta = np.concatenate([[seated.contact_angle], seated.theta, [np.pi / 2]])
-    theta = np.unique(np.concatenate([theta, np.pi - theta]))
-    pressure = seated.pressure_at(theta) / 1e3
-    axes.fill_between(np.degrees(theta), pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
-    axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"], label="pressure σ")
+    degrees, pressure = np.degrees(seated.theta), seated.contact_pressure / 1e3
+    axes.fill_between(degrees, pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
+    axes.plot(degrees, pressure, color=COLOURS["blue"], label="pressure σ")
     if np.any(seated.friction_traction != 0.0):
         traction = np.abs(seated.friction_traction) / 1e3
-        for side in (np.degrees(seated.theta), 180.0 - np.degrees(seated.theta)):
-            label = None if side[0] > 90.0 else "friction while seated"
-            axes.plot(side, traction, color=COLOURS["grey"], linewidth=0.9, label=label)
+        axes.plot(
+            degrees, traction, color=COLOURS["grey"], linewidth=0.9, label="friction while seated"
+        )
         axes.legend(fontsize=8, loc="center")
     if answer.critical_angle is not None:
         axes.axvline(np.degrees(answer.critical_angle), color=COLOURS["orange"], linewidth=1.0)
@@ -87,7 +80,7 @@ def _balance(axes: Axes, answer: Answer, seated: SeatedState) -> None:
     """F_re and F_dr over α, as pressures on the stone's cross-section."""
     forces = resistance(seated)
     alpha = np.linspace(seated.contact_angle, np.pi / 2, 300)
-    push = drive(pressure_of_angle(seated, alpha), alpha)
+    push = drive(pressure_of_angle(seated, alpha), seated.case.stone.shape.width(alpha))
     degrees = np.degrees(alpha)
     axes.plot(degrees, forces.total(alpha) / 1e3, color=COLOURS["blue"], label="resistance")
     axes.plot(

@@ -71,15 +71,16 @@ def closures_figure(found: ClosureComparison) -> Figure:
         alpha, radius = found.pairs
         xi, first = found.case.size_ratio, float(alpha[0])
         fine = np.linspace(first, np.pi / 2, 200)
+        width = found.case.stone.shape.width(fine)
         axes.plot(
             np.degrees(fine),
-            linear_closure(fine, first, xi),
+            linear_closure(width, width[0], xi),
             color=COLOURS["orange"],
-            label="Eq. 15, linear in sin α",
+            label="Eq. 15, linear in the stone's width",
         )
         axes.plot(
             np.degrees(fine),
-            series_closure(fine, first, xi, found.coefficients, float(radius[0])),
+            series_closure(width, width[0], xi, found.coefficients, float(radius[0])),
             color=COLOURS["blue"],
             label=f"series, order {len(found.coefficients)}",
         )

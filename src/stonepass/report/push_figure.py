@@ -10,12 +10,13 @@ from stonepass.errors import BadInput, Outcome
 from stonepass.fe.readout import Field
 from stonepass.model.critical import Answer
 from stonepass.model.push_through import PushedState
-from stonepass.report.section import draw_section
+from stonepass.report.section import draw_radii, draw_section
 from stonepass.report.style import COLOURS, new_figure, tidy
 
 __all__ = ["draw_pressure", "draw_wall", "push_figure"]
 
 ARROWS = 7  # along the wall upstream
+ARROW, LEAST_ROOM = 0.22, 0.1  # length of an arrow, and room that one needs, in inner radii
 URINE = COLOURS["green"]
 
 
@@ -40,32 +41,27 @@ def draw_wall(axes: Axes, pushed: PushedState, top: float) -> None:
     """Draw the section with the urine upstream; `top` in Pa ends the colours."""
     wall = pushed.wall
     assert wall is not None, "asked for where the wall was kept"
-    radius = pushed.case.size_ratio
-    length = radius * pushed.case.stone.aspect
+    theta = np.linspace(0.0, pushed.contact_angle, 181)
+    stone, along = (pushed.case.size_ratio * x for x in pushed.case.stone.shape.meridian(theta))
+    edge = float(along[-1])
     draw_section(axes, wall, pushed.case, top)
     left, _ = axes.get_xlim()
     r, z = _inner_wall(wall)
-    edge = -length * np.cos(pushed.contact_angle)
     wet = (z < edge) & (z > left - 0.5)
     for half in (1.0, -1.0):
         axes.fill_between(z[wet], 0.0, half * r[wet], color=URINE, alpha=0.12, linewidth=0)
-        for at in np.linspace(left + 0.15, edge - 0.1 * length, ARROWS):
-            rim = half * float(np.interp(at, z, r))
+        for at in np.linspace(left + 0.15, edge - 0.12, ARROWS):
+            rim = 0.985 * float(np.interp(at, z, r))
+            room = rim - float(np.interp(at, along, stone, left=0.0))
+            if room < LEAST_ROOM:
+                continue
             axes.annotate(
                 "",
-                (at, 0.985 * rim),
-                (at, 0.985 * rim - half * 0.22),
+                (at, half * rim),
+                (at, half * (rim - min(ARROW, 0.9 * room))),
                 arrowprops={"arrowstyle": "-|>", "color": URINE, "lw": 0.9},
             )
-    for alpha in (pushed.contact_angle, pushed.downstream_angle):
-        for half in (1.0, -1.0):
-            axes.plot(
-                [0.0, -length * np.cos(alpha)],
-                [0.0, half * radius * np.sin(alpha)],
-                color=COLOURS["grey"],
-                linewidth=0.8,
-                linestyle="--",
-            )
+    draw_radii(axes, pushed.case, (pushed.contact_angle, pushed.downstream_angle))
     axes.annotate(
         f"$P_u$ = {pushed.urine_pressure / 1e3:.4g} kPa",
         (left + 0.15, 0.0),
@@ -111,7 +107,7 @@ def draw_pressure(axes: Axes, pushed: PushedState, leak_pressure: float | None) 
         ylim=(0.0, None),
     )
     axes.set_title("Pressure on the stone")
-    axes.legend(fontsize=8, loc="upper left")
+    axes.legend(fontsize=8, loc="upper left", frameon=True, edgecolor="none", framealpha=0.9)
     tidy(axes)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from pathlib import Path
 
 from rich import box
 from rich.table import Table
@@ -149,7 +150,8 @@ def _state_rows(table: Table, answer: Answer) -> None:
     _angle_row(table, "contact angle", state.contact_angle, angle)
     if answer.pushed is not None:
         _angle_row(table, "seal", answer.pushed.seal_angle)
-        _angle_row(table, "contact ends", answer.pushed.downstream_angle)
+    if answer.pushed is not None or not answer.case.stone.shape.symmetric:
+        _angle_row(table, "contact ends", state.downstream_angle)
     table.add_row("stability margin", f"{state.soundness.margin:.2f}")
 
 
@@ -159,7 +161,10 @@ def _title(case: Case, *, with_stone: bool = True) -> str:
     if with_stone:
         sizes.insert(0, f"ξ = {case.size_ratio:.4g}")
     parts = [", ".join(sizes), f"friction {stone.friction:g}", ureter.material.name]
-    if stone.aspect != 1.0:
+    if not stone.shape.spheroidal:
+        name = Path(stone.shape.reference).name or "of its own"
+        parts.append(f"shape {name}")
+    elif stone.aspect != 1.0:
         parts.append(f"aspect {stone.aspect:g}")
     if case.load.confining_pressure > 0.0:
         parts.append(f"P_out {case.load.confining_pressure / 1e3:g} kPa {case.load.confinement}")

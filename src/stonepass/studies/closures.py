@@ -98,11 +98,12 @@ def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison
         return found
     alpha, radius = pairs
     start = float(radius[0])
-    coefficients = fit_series(alpha[1:], radius[1:], float(alpha[0]), case.size_ratio, order, start)
+    first, *width = case.stone.shape.width(alpha)
+    coefficients = fit_series(np.array(width), radius[1:], first, case.size_ratio, order, start)
     # Back to a pressure by the law that the pairs are of, so that each pair gives its own.
     whole = replace(paper.seated, case=_by(paper.case, far_field_ground=True))
     pressures["series"] = balance_pressure(
-        whole, lambda a, a0, xi: series_closure(a, a0, xi, coefficients, start)
+        whole, lambda rho, rho0, xi: series_closure(rho, rho0, xi, coefficients, start)
     )
     return replace(found, coefficients=coefficients, pairs=pairs)
 

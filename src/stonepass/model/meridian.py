@@ -1,0 +1,209 @@
+"""A stone's shape from points of its meridian: a short series through them, convex and smooth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+from numpy.polynomial import chebyshev
+from scipy.optimize import brentq
+
+from stonepass.csv_file import read_columns
+from stonepass.errors import BadInput, require
+from stonepass.fe.profile import ROUND
+from stonepass.model.shape import ASPECT, Shape, dent
+
+__all__ = ["read_shape", "shape_through"]
+
+FEWEST_POINTS = 9
+MOST_TERMS = 24
+NOTHING = 1e-12  # last terms of a series that say nothing
+EXACT = 1e-7  # of the radius: nearer to the points no series need come
+SAME = 1.2  # fewer terms are taken where they come as near but for this factor
+# As shares of the radius: a series farther from its points is refused, mirror images nearer to each
+# other are one shape, and a point nearer to the axis lies on it.
+FARTHEST, MIRRORED, ON_AXIS = 0.05, 1e-3, 1e-6
+
+Points = tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]
+_SMOOTHER = "smooth the points, or leave out those of a dent"
+
+
+def shape_through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"]) -> Shape:
+    """Put a smooth convex shape through points of a meridian, in any one unit of length.
+
+    Parameters
+    ----------
+    z, rho : arrays
+        Axial coordinate, downstream, and half-width of at least 9 points in order from the
+        upstream pole to the downstream one; both poles on the axis, ρ = 0.
+
+    Raises
+    ------
+    BadInput
+        Where the points are no meridian, or no smooth convex shape comes within 5 % of the
+        radius of all of them.
+    """
+    z, rho = _meridian(z, rho)
+    mirrored = _fit(z, rho, symmetric=True)
+    if mirrored is not None and mirrored.deviation <= MIRRORED:
+        return mirrored
+    found = _fit(z, rho, symmetric=False)
+    if found is None or found.deviation > FARTHEST:
+        raise BadInput(
+            "shape of the stone",
+            f"{len(z)} points",
+            f"within {FARTHEST:.0%} of the radius of a smooth convex meridian",
+            _SMOOTHER,
+        )
+    return found
+
+
+def read_shape(path: Path) -> Shape:
+    """Read a shape from a CSV file with the columns ``z`` and ``rho`` (see `shape_through`).
+
+    Raises
+    ------
+    BadInput
+        Naming the file, and row and column where one is at fault.
+    """
+    columns = read_columns(path, ("z", "rho"))
+    try:
+        found = shape_through(columns["z"], columns["rho"])
+    except BadInput as problem:
+        raise BadInput(
+            f"in {path.name}, {problem.argument}",
+            problem.value,
+            problem.allowed,
+            problem.remedy,
+        ) from problem
+    return replace(found, reference=str(path))
+
+
+def _meridian(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"]) -> Points:
+    """Refuse what is no meridian from pole to pole."""
+    z, rho = np.asarray(z, dtype=float), np.asarray(rho, dtype=float)
+    name = "shape of the stone"
+    require(z.ndim == 1 and z.shape == rho.shape, name, f"{z.shape} and {rho.shape}", "two columns")
+    require(len(z) >= FEWEST_POINTS, name, f"{len(z)} points", f"at least {FEWEST_POINTS} points")
+    require(bool(np.isfinite([z, rho]).all()), name, "a number that is not finite", "finite")
+    least, most = float(rho.min()), float(rho.max())
+    require(least >= 0.0 and most > 0.0, name, f"rho = {least:g}", "zero or positive")
+    for which, end in (("first", rho[0]), ("last", rho[-1])):
+        allowed = f"begun and ended on the axis (rho = 0); the {which} point is not there"
+        require(end <= ON_AXIS * most, name, f"rho = {end:g}", allowed)
+    falls = np.flatnonzero(np.diff(z) < 0.0)
+    if falls.size:
+        at = int(falls[0])
+        raise BadInput(
+            name,
+            f"z = {z[at + 1]:g} after {z[at]:g}",
+            "in order from the upstream pole to the downstream one, z never falling",
+        )
+    low, high = ASPECT
+    aspect = float(z[-1] - z[0]) / (2.0 * most)
+    require(low <= aspect <= high, "aspect of the stone", f"{aspect:.3g}", f"{low} to {high}")
+    return z, rho
+
+
+def _fit(
+    z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"], *, symmetric: bool
+) -> Shape | None:
+    """The convex shape nearest to the points, with few terms; None where there is none.
+
+    Least squares of the distance along rays, each point counted by the angle that it stands for.
+    """
+    found: list[Shape] = []
+    for terms in range(2, min(MOST_TERMS, len(z) // 2) + 1):
+        origin = (z[0] + z[-1]) / 2.0 if symmetric else _widest(z, rho, terms)
+        shape = _nearest(z, rho, float(origin), terms, symmetric)
+        if shape is not None:
+            found.append(shape)
+            if shape.deviation <= EXACT:
+                break
+    if not found:
+        return None
+    enough = max(EXACT, SAME * min(shape.deviation for shape in found))
+    return next(shape for shape in found if shape.deviation <= enough)
+
+
+def _widest(
+    z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"], terms: int
+) -> float:
+    """Where the series nearest to the points is widest; between the neighbours of their largest."""
+    at, free = int(np.argmax(rho)), np.eye(terms + 1)
+
+    def slope(origin: float) -> float:
+        outline = _series(*_polar(z, rho, origin, float(rho.max())), free)
+        return float(chebyshev.chebval(0.0, chebyshev.chebder(outline)))
+
+    low, high = float(z[at - 1]), float(z[at + 1])
+    if not slope(low) * slope(high) < 0.0:
+        return float(z[at])
+    return float(brentq(slope, low, high, xtol=1e-13 * float(z[-1] - z[0])))
+
+
+def _nearest(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    origin: float,
+    terms: int,
+    symmetric: bool,
+) -> Shape | None:
+    """The shape of so many terms nearest to the points; None where it has a dent."""
+    radius, widest, basis = float(rho.max()), 1.0, _basis(terms, symmetric)
+    for _ in range(3):  # the widest place may lie between two points
+        radius = radius / widest
+        size, tau = _polar(z, rho, origin, radius)
+        outline = _series(size, tau, basis)
+        widest = float(chebyshev.chebval(0.0, outline))
+        if not widest > 0.0:
+            return None
+    deviation = float(np.abs(size * chebyshev.chebval(np.cos(tau), outline) - 1.0).max())
+    trimmed = chebyshev.chebtrim(outline / widest, NOTHING)
+    kept = ROUND if len(trimmed) == 1 else tuple(trimmed.tolist())
+    aspect = float(z[-1] - z[0]) / (2.0 * radius)
+    if dent(kept) is not None or not ASPECT[0] <= aspect <= ASPECT[1]:
+        return None
+    return Shape(aspect, kept, deviation)
+
+
+def _polar(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    origin: float,
+    radius: float,
+) -> Points:
+    """Distance from the origin over the radius, and angle τ, with z shrunk as of a spheroid."""
+    s = (z - origin) * 2.0 * radius / float(z[-1] - z[0])
+    return np.hypot(rho, s) / radius, np.arctan2(rho, -s)
+
+
+def _series(
+    size: Float[np.ndarray, " points"],
+    tau: Float[np.ndarray, " points"],
+    basis: Float[np.ndarray, "unknowns coefficients"],
+) -> Float[np.ndarray, " coefficients"]:
+    """The g in the span of the basis that makes size × g(τ) nearest to 1."""
+    weight = size * np.sqrt(np.abs(np.gradient(tau)))
+    rows = basis @ chebyshev.chebvander(np.cos(tau), basis.shape[1] - 1).T * size * weight
+    solved: Float[np.ndarray, " unknowns"] = np.linalg.lstsq(rows.T, weight, rcond=None)[0]
+    return solved @ basis
+
+
+def _basis(terms: int, symmetric: bool) -> Float[np.ndarray, "unknowns coefficients"]:
+    """Series in cos kτ that are widest at τ = π/2: rows of Chebyshev coefficients.
+
+    cos kτ for even k; for odd k it has the slope −k sin(kπ/2) there, which cos τ takes away.
+    """
+    rows = []
+    for k in range(terms + 1):
+        row = np.zeros(terms + 1)
+        row[k] = 1.0
+        if k % 2:
+            if symmetric or k == 1:
+                continue
+            row[1] = -k * np.sin(k * np.pi / 2)
+        rows.append(row)
+    return np.array(rows)

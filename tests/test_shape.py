@@ -48,7 +48,7 @@ def test_an_outline_by_hand():
     rho, z = shape.meridian(np.array([0.0, np.pi / 2, np.pi]))
     np.testing.assert_allclose(rho, [0.0, 1.0, 0.0], atol=1e-15)
     np.testing.assert_allclose(z, [-1.25, 0.0, 1.25], atol=1e-15)
-    assert shape.reach == pytest.approx(1.25)
+    assert shape.reach == shape.length == pytest.approx(1.25)
     assert shape.symmetric
     assert not shape.spheroidal
     assert Shape(1.5).spheroidal
@@ -79,6 +79,8 @@ def test_a_meridian_and_its_slopes(shape):
     ("aspect", "outline", "sentence"),
     [
         (3.0, (1.0,), "aspect is 3.0, but must be a number from 0.5 to 2"),
+        (1.8, (0.9, 0.0, -0.1), "aspect is 2.25, but must be a number from 0.5 to 2"),
+        (0.0, (1.0,), "aspect is 0.0, but must be a number above zero"),
         (1.0, (0.9,), "outline of the stone is g = 0.9 with slope 0 at θ = 90°"),
         (1.0, (1.0, 0.2), "outline of the stone is g = 1 with slope -0.2 at θ = 90°"),
         (1.0, (float("nan"),), "outline of the stone is g = nan"),

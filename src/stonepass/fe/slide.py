@@ -157,59 +157,45 @@ class Slide:
         """
         self._wet.Set(0.0)
         start = np.array([self._values[PRESSURE], self._friction.Get()])
-        share, step, steps = 0.0, 1.0, 0
-        while True:
-            ahead = min(share + step, 1.0)
-            pressure, friction = start + ahead * (target - start)
-            last = condition if ahead == 1.0 else None
-            report, go_back = self._solve(float(pressure), float(friction), last)
-            steps += report.steps
-            if not report.converged:
-                go_back()
-                step /= 2.0
-                if step < 0.9 / 2.0**MOST_HALVINGS:
-                    return Failure(report.reason, steps)
-                continue
-            if ahead == 1.0:
-                break
-            share, step = ahead, 2.0 * step
-        if self.wetted:
+
+        def jump(share: float) -> Report:
+            pressure, friction = start + share * (target - start)
+            last = condition if share == 1.0 else None
+            return self._solve(float(pressure), float(friction), last)
+
+        report = _by_shares(jump)
+        steps = report.steps
+        if report.converged and self.wetted:
             report = self._wet_contact(condition)
             steps += report.steps
-            if not report.converged:
-                return Failure(report.reason, steps)
+        if not report.converged:
+            return Failure(report.reason, steps)
         flaw = self._flaw()
         return Failure(flaw, steps) if flaw else self._read(steps, report.residual)
 
     def _wet_contact(self, condition: Callable[[], float] | None) -> Report:
-        """Let the fluid take its share of the friction up to the seal: at once, else by halves.
+        """Let the fluid take its share of the friction up to the seal.
 
         Where that fails the state is again the dry one.
         """
         seal, pressure, friction = self._seal, float(self._values[PRESSURE]), self._friction.Get()
         self._move_seal()
-        share, step, steps = 0.0, 1.0, 0
-        while True:
-            ahead = min(share + step, 1.0)
-            self._wet.Set(ahead)
-            report, go_back = self._solve(float(self._values[PRESSURE]), friction, condition)
-            steps += report.steps
-            if report.converged:
-                if ahead == 1.0:
-                    return replace(report, steps=steps)
-                share = ahead
-                continue
-            go_back()
+
+        def wet(share: float) -> Report:
+            before = self._wet.Get()
             self._wet.Set(share)
-            step /= 2.0
-            if step < 0.9 / 2.0**MOST_HALVINGS:
-                break
-        # The way back is dry, and ends where it began.
-        self._wet.Set(0.0)
-        self._seal = seal
-        self._place(self._values)
-        self._solve(pressure, friction, None)
-        return replace(report, steps=steps)
+            report = self._solve(float(self._values[PRESSURE]), friction, condition)
+            if not report.converged:
+                self._wet.Set(before)
+            return report
+
+        report = _by_shares(wet)
+        if not report.converged:  # the way back is dry, and ends where it began
+            self._wet.Set(0.0)
+            self._seal = seal
+            self._place(self._values)
+            self._solve(pressure, friction, None)
+        return report
 
     def _flaw(self) -> str:
         """Empty where the contact is pressed all over, and closed nowhere else, and J > 0.
@@ -262,8 +248,8 @@ class Slide:
 
     def _solve(
         self, pressure: float, friction: float, condition: Callable[[], float] | None
-    ) -> tuple[Report, Callable[[], None]]:
-        """Newton's method at one pressure, or for it; and a way back to the state before."""
+    ) -> Report:
+        """Newton's method at one pressure, or for it; back to the state before where it fails."""
         d, before, mu = self.discrete, self._values.copy(), self._friction.Get()
         self._friction.Set(friction)
         unknown = 2 if condition is None else 3
@@ -288,14 +274,12 @@ class Slide:
             conditions=conditions,
         )
         state = system.remember()
-
-        def go_back() -> None:
+        report = newton(system, self._tolerance, most=MOST_STEPS, polish=POLISH)
+        if not report.converged:
             system.recall(state)
             self._friction.Set(mu)
             self._place(before)
-
-        report = newton(system, self._tolerance, most=MOST_STEPS, polish=POLISH)
-        return report, go_back
+        return report
 
     def _place(self, values: Float[np.ndarray, " three"]) -> bool:
         """Move edges and pressure; False where the edges are in the wrong order or off the tube."""
@@ -413,6 +397,21 @@ class Slide:
             penetration=self._penetration(),
             friction_work=self.friction_work(),
         )
+
+
+def _by_shares(attempt: Callable[[float], Report]) -> Report:
+    """Go a way at once, or by halves of it where that fails; `attempt` goes back where it fails."""
+    share, step, steps = 0.0, 1.0, 0
+    while True:
+        ahead = min(share + step, 1.0)
+        report = attempt(ahead)
+        steps += report.steps
+        if report.converged:
+            share, step = ahead, 2.0 * step
+        else:
+            step /= 2.0
+        if share == 1.0 or step < 0.9 / 2.0**MOST_HALVINGS:
+            return replace(report, steps=steps)
 
 
 def _meridian(u: Any, w: Any) -> tuple[Any, Any, Any]:

@@ -81,7 +81,7 @@ class Stone:
 
     @property
     def aspect(self) -> float:
-        """Length along the ureter over the diameter across it."""
+        """Length of a spheroid along the ureter over its diameter across it (see `Shape`)."""
         return self.shape.aspect
 
 

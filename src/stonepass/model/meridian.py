@@ -164,9 +164,7 @@ def _nearest(
     trimmed = chebyshev.chebtrim(outline / widest, NOTHING)
     kept = ROUND if len(trimmed) == 1 else tuple(trimmed.tolist())
     aspect = float(z[-1] - z[0]) / (2.0 * radius)
-    if dent(kept) is not None or not ASPECT[0] <= aspect <= ASPECT[1]:
-        return None
-    return Shape(aspect, kept, deviation)
+    return None if dent(kept) is not None else Shape(aspect, kept, deviation)
 
 
 def _polar(

@@ -32,9 +32,11 @@ class Shape:
     Attributes
     ----------
     aspect : float
-        Length along the ureter over the diameter across it, 0.5 to 2.
+        κ of the formula: of a spheroid its length over its diameter, and nearly so of a shape that
+        was put through points.
     outline : tuple of float
-        Coefficients of g; g(π/2) = 1, g′(π/2) = 0, and g + g″ > 0 (convex).
+        Coefficients of g; g(π/2) = 1, g′(π/2) = 0, and g + g″ > 0 (convex). The length over the
+        diameter, (1/g(0) + 1/g(π)) κ/2, must be 0.5 to 2.
     deviation : float
         Largest distance from the points that the shape was put through, over R_s.
     reference : str
@@ -53,8 +55,7 @@ class Shape:
     reference: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
-        low, high = ASPECT
-        require(low <= self.aspect <= high, "aspect", self.aspect, f"a number from {low} to {high}")
+        require(0.0 < self.aspect < np.inf, "aspect", self.aspect, "a number above zero")
         object.__setattr__(self, "outline", tuple(float(c) for c in self.outline))
         widest = np.array(np.pi / 2)
         middle, tilt = float(self.width(widest)), float(self.slopes(widest)[0])
@@ -64,6 +65,9 @@ class Shape:
             f"g = {1.0 / middle:.6g} with slope {0.0 - round(tilt, 9):.3g} at θ = 90°",
             "1 and level there, where the stone is widest",
         )
+        low, high = ASPECT
+        length = round(self.length, 6)
+        require(low <= length <= high, "aspect", length, f"a number from {low:g} to {high:g}")
         at = dent(self.outline)
         if at is not None:
             raise BadInput("shape of the stone", f"dented at θ = {np.degrees(at):.0f}°", "convex")
@@ -77,6 +81,12 @@ class Shape:
     def spheroidal(self) -> bool:
         """Whether it is a spheroid."""
         return self.outline == ROUND
+
+    @property
+    def length(self) -> float:
+        """Length along the ureter over the diameter across it."""
+        _, (upstream, downstream) = self.meridian(np.array([0.0, np.pi]))
+        return float(downstream - upstream) / 2.0
 
     @property
     def reach(self) -> float:

@@ -21,6 +21,7 @@ SEED, GRID = 20249, 60
 SOLVED, EXACT, MIRRORED, THROUGH, COVERED = 0.98, 5e-4, 1e-5, 1e-4, 0.95
 TETHER, SHARE = 0.1, 0.6
 POINTS = 61
+LENGTHS = (0.55, 1.9)  # over the diameter; what lies at the ends of 0.5 to 2 may be refused
 LEAST_CURVATURE = 0.15  # g + g″: 1 on a spheroid
 
 
@@ -42,8 +43,9 @@ def section() -> Section:
     return Section(
         title="Stones that are not spheres",
         text=(
-            f"{GRID} random convex stones (seed {SEED}) with aspects from 0.5 to 2, outlines g of "
-            f"six terms, curvature g + g″ ≥ {LEAST_CURVATURE}, half with mirror images: "
+            f"{GRID} random convex stones (seed {SEED}) with lengths from {LENGTHS[0]} to "
+            f"{LENGTHS[1]} diameters, outlines g of six terms, curvature g + g″ ≥ "
+            f"{LEAST_CURVATURE}, half with mirror images: "
             "seated without friction, pressed in with friction, and pushed through. Without "
             "friction the force on the held stone must be I(P) whatever the shape (tether, "
             "`reference` mesh); turned round, the stone must be seated as the mirror image, which "
@@ -206,6 +208,8 @@ def random_shape(random: np.random.Generator, *, symmetric: bool) -> sp.Shape:
         if curvature.min() < LEAST_CURVATURE:
             continue
         try:
-            return sp.Shape(random.uniform(0.5, 2.0), tuple(outline))
+            shape = sp.Shape(random.uniform(0.5, 2.0), tuple(outline))
         except BadInput:
             continue
+        if LENGTHS[0] < shape.length < LENGTHS[1]:
+            return shape

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from stonepass.csv_file import read_columns
 from stonepass.errors import BadInput, require
 from stonepass.fe.profile import ROUND
-from stonepass.model.shape import ASPECT, Shape, dent
+from stonepass.model.shape import ASPECT, Shape
 
 __all__ = ["read_shape", "shape_through"]
 
@@ -151,7 +151,7 @@ def _nearest(
     terms: int,
     symmetric: bool,
 ) -> Shape | None:
-    """The shape of so many terms nearest to the points; None where it has a dent."""
+    """The shape of so many terms nearest to the points; None where it is none, as with a dent."""
     radius, widest, basis = float(rho.max()), 1.0, _basis(terms, symmetric)
     for _ in range(3):  # the widest place may lie between two points
         radius = radius / widest
@@ -164,7 +164,10 @@ def _nearest(
     trimmed = chebyshev.chebtrim(outline / widest, NOTHING)
     kept = ROUND if len(trimmed) == 1 else tuple(trimmed.tolist())
     aspect = float(z[-1] - z[0]) / (2.0 * radius)
-    return None if dent(kept) is not None else Shape(aspect, kept, deviation)
+    try:
+        return Shape(aspect, kept, deviation)
+    except BadInput:
+        return None
 
 
 def _polar(

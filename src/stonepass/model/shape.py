@@ -10,7 +10,7 @@ from jaxtyping import Float
 from stonepass.errors import BadInput, require
 from stonepass.fe.profile import ROUND, Profile
 
-__all__ = ["ASPECT", "Shape", "dent"]
+__all__ = ["ASPECT", "Shape"]
 
 ASPECT = (0.5, 2.0)
 ROUGH = 0.01  # deviation that an answer warns of
@@ -68,7 +68,7 @@ class Shape:
         low, high = ASPECT
         length = round(self.length, 6)
         require(low <= length <= high, "aspect", length, f"a number from {low:g} to {high:g}")
-        at = dent(self.outline)
+        at = _dent(self.outline)
         if at is not None:
             raise BadInput("shape of the stone", f"dented at θ = {np.degrees(at):.0f}°", "convex")
 
@@ -124,7 +124,7 @@ class Shape:
         return Profile(1.0, self.aspect, 0.0, self.outline)
 
 
-def dent(outline: tuple[float, ...]) -> float | None:
+def _dent(outline: tuple[float, ...]) -> float | None:
     """θ in rad where g + g″ ≤ 0 is lowest; None where the shape is convex."""
     k = np.arange(len(outline))
     curvature = np.cos(FINE[:, None] * k) @ (np.array(outline) * (1.0 - k**2))

@@ -20,9 +20,10 @@ PRESSURE_KEYS = [
     "critical_angle_deg", "contact_angle_deg", "contact_angle_error_deg",
     "equator_contact_pressure_kPa", "equator_contact_pressure_error_kPa",
     "peak_contact_pressure_kPa", "closure_end_pressure_kPa",
+    "series_coefficients", "printed_series_coefficients",
     "leak_pressure_kPa", "seal_angle_deg", "downstream_angle_deg",
-    "stability_margin", "size_ratio", "wall_ratio", "model", "material", "inputs", "solver", "warnings", "version",
-    "disclaimer",
+    "stability_margin", "size_ratio", "wall_ratio", "model", "material", "inputs", "beam", "solver",
+    "warnings", "version", "disclaimer",
 ]  # fmt: skip
 LATEX = ["--xi", "1.2", "--eta", "1.5", "--material", "latex", "--seating", "frictionless"]
 

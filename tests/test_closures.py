@@ -10,9 +10,12 @@ import stonepass as sp
 from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.advance import opening_pressure
-from stonepass.model.closure import fit_series, linear_closure, series_closure
+from stonepass.model.case_file import read_case, write_case
+from stonepass.model.closure import Series, fit_series, linear_closure
+from stonepass.model.direct_pairs import opening_pairs
 from stonepass.model.far_field import urine_pressure
-from stonepass.studies.closures import CLOSURES, compare_closures, opening_pairs
+from stonepass.model.opening import Pairs, read_pairs
+from stonepass.studies.closures import CLOSURES, compare_closures
 from stonepass.studies.rising import contact_deviation, raise_pressure
 
 EDGE, XI = 0.94, 1.2  # ρ₀ over R_s
@@ -26,19 +29,32 @@ def case(mu=0.475, method=FAST):
 
 def test_the_series_of_first_order_is_the_linear_closure():
     width = np.linspace(EDGE, 1.0, 7)
-    series = series_closure(width, EDGE, XI, np.array([1.0]))
+    series = Series((1.0,))(width, EDGE, XI)
     np.testing.assert_allclose(series, linear_closure(width, EDGE, XI), rtol=1e-14)
 
 
 def test_the_series_begins_at_the_lumen_whatever_its_coefficients():
-    assert series_closure(np.array(EDGE), EDGE, XI, np.array([3.0, -7.0, 1.0])) == 1.0
+    assert Series((3.0, -7.0, 1.0))(np.array(EDGE), EDGE, XI) == 1.0
+    assert Series((3.0, -7.0, 1.0), 0.9)(np.array(EDGE), EDGE, XI) == 0.9
+
+
+def test_the_printed_coefficients_are_those_of_eq_14():
+    """r_a = R_s sin α − Σ aᵢ sinⁱ α (Eqs 13, 14); and at α₀ Σ aᵢ sinⁱ α₀ = R_s sin α₀ − R_a."""
+    series = Series((0.7, -0.4, 0.6))
+    a = series.printed(EDGE, XI)
+    assert len(a) == 4
+    width = np.linspace(EDGE, 1.0, 7)
+    delta = np.polynomial.polynomial.polyval(width, a)
+    np.testing.assert_allclose(XI * width - delta, series(width, EDGE, XI), rtol=1e-9)
+    assert delta[0] == pytest.approx(XI * EDGE - 1.0, rel=1e-9)
 
 
 def test_a_series_is_recovered_from_its_own_pairs():
     width = np.linspace(EDGE, 1.0, 12)
-    wanted = np.array([0.7, -0.4, 0.6])
-    radius = series_closure(width, EDGE, XI, wanted)
-    np.testing.assert_allclose(fit_series(width, radius, EDGE, XI, 3), wanted, atol=1e-10)
+    wanted = Series((0.7, -0.4, 0.6))
+    radius = wanted(width, EDGE, XI)
+    found = fit_series(width, radius, EDGE, XI, 3)
+    np.testing.assert_allclose(found.coefficients, wanted.coefficients, atol=1e-10)
     with pytest.raises(BadInput, match="order is 0, but must be 1 to 8"):
         fit_series(width, radius, EDGE, XI, 0)
     with pytest.raises(BadInput, match="at least as many as coefficients, 5"):
@@ -57,7 +73,7 @@ def compared():
 
 
 def test_pairs_begin_at_the_seated_state_and_lie_below_the_linear_closure(compared):
-    alpha, radius = opening_pairs(case())
+    alpha, radius = opening_pairs(case()).arrays
     assert radius[0] == pytest.approx(1.0, abs=1e-9)
     seated = sp.seat(case(method=sp.Method(seating="frictionless", accuracy="fast")))
     assert alpha[0] == pytest.approx(seated.contact_angle, abs=1e-4)
@@ -159,5 +175,79 @@ def test_under_a_load_the_comparison_carries_the_warnings_of_its_models():
     assert any("hoop compression" in text for text in found.warnings)
     assert not any("error is not estimated" in text for text in found.warnings)
     # Opened from the narrowed lumen, each pair gives its own pressure back.
-    assert found.pairs[1][0] < 0.95
+    assert found.pairs.radius[0] < 0.95
     assert abs(found.error("energy")) < 5e-3
+
+
+def test_a_series_as_the_closure_of_an_answer(compared, tmp_path):
+    """Fitted to direct states, from a file of them, of first order; and Eq. 15 as a series."""
+    series = sp.solve(case(method=sp.Method(closure="series", accuracy="fast")))
+    assert series.pressure == pytest.approx(compared.pressures["series"], rel=1e-6)
+    assert series.series == compared.series
+    assert series.error.critical_pressure < 0.01 * series.pressure
+    alpha, radius = compared.pairs.arrays
+    rows = [f"{r:.15g},{a:.15g}" for a, r in zip(np.degrees(alpha), radius, strict=True)]
+    (tmp_path / "pairs.csv").write_text("\n".join(["radius_ratio,alpha_deg", *rows]))
+    pairs = read_pairs(tmp_path / "pairs.csv")
+    np.testing.assert_allclose(pairs.arrays, (alpha, radius), rtol=1e-12)
+    method = sp.Method(closure="series", pairs=pairs, far_field_ground=True, accuracy="fast")
+    by_file = sp.solve(case(method=method))
+    # From a file the series begins where the pressed stone touches, not the direct one.
+    assert by_file.pressure == pytest.approx(series.pressure, rel=3e-3)
+    straight = np.linspace(alpha[0], np.pi / 2, 9)
+    sine = np.sin(straight)
+    line = 1.0 + 0.2 * (sine - sine[0]) / (1.0 - sine[0])
+    eq15 = Pairs(tuple(straight), tuple(line))
+    linear = sp.solve(case(method=sp.Method(accuracy="fast")))
+    method = sp.Method(closure="series", pairs=eq15, series_order=1, accuracy="fast")
+    assert sp.solve(case(method=method)).pressure == pytest.approx(linear.pressure, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("alpha_deg,radius_ratio\n70,1\n95,1.1\n", "alpha of pair 2 is 95°, but must be above 0°"),
+        ("alpha_deg,radius_ratio\n70,1\n80,0\n", "radius ratio of pair 2 is 0.0, but must be 0.1"),
+        ("alpha,radius_ratio\n70,1\n", "column is alpha, but must be one of alpha_deg"),
+        ("alpha_deg,radius_ratio\n70,one\n", "row 2, column 'radius_ratio' is one"),
+    ],
+)
+def test_pairs_that_are_none_are_refused_with_their_place(tmp_path, text, sentence):
+    (tmp_path / "pairs.csv").write_text(text)
+    with pytest.raises(BadInput) as refused:
+        read_pairs(tmp_path / "pairs.csv")
+    assert "pairs.csv" in str(refused.value)
+    assert sentence in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("method", "sentence"),
+    [
+        ({"closure": "cubic"}, "closure is cubic, but must be one of linear, series"),
+        ({"series_order": 9}, "series_order is 9, but must be a whole number from 1 to 8"),
+        ({"series_order": 2.0}, "series_order is 2.0, but must be a whole number"),
+        ({"pairs": Pairs((1.3,), (1.0,))}, "pairs is given, but must be left out"),
+        (
+            {"closure": "series", "pairs": Pairs((1.3,), (1.0,))},
+            "pairs is 1, but must be at least as many as coefficients, 3",
+        ),
+        ({"closure": "series", "pairs": "pairs.csv"}, "as read_pairs gives them"),
+    ],
+)
+def test_a_method_asks_for_a_series_that_can_be(method, sentence):
+    with pytest.raises(BadInput) as refused:
+        sp.Method(**method)
+    assert sentence in str(refused.value)
+
+
+def test_a_case_file_keeps_its_pairs(tmp_path):
+    table = "alpha_deg,radius_ratio\n75,1.02\n80,1.08\n85,1.13\n"
+    (tmp_path / "pairs.csv").write_text(table)
+    pairs = read_pairs(tmp_path / "pairs.csv")
+    question = case(method=sp.Method(closure="series", series_order=2, pairs=pairs))
+    write_case(question, tmp_path / "case.toml")
+    assert 'pairs = "pairs.csv"' in (tmp_path / "case.toml").read_text()
+    assert read_case(tmp_path / "case.toml") == question
+    made = case(method=sp.Method(closure="series", series_order=1, pairs=Pairs((1.4,), (1.1,))))
+    with pytest.raises(BadInput, match="from a file to be saved"):
+        write_case(made, tmp_path / "other.toml")

@@ -3,7 +3,7 @@
 import pytest
 
 import stonepass as sp
-from stonepass.model.critical import Answer
+from stonepass.model.answer import Answer
 from stonepass.model.size import _top, _Unanswered
 
 THIN = sp.Ureter(wall_ratio=1.3)

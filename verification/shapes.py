@@ -48,8 +48,7 @@ def section() -> Section:
             f"{LEAST_CURVATURE}, half with mirror images: "
             "seated without friction, pressed in with friction, and pushed through. Without "
             "friction the force on the held stone must be I(P) whatever the shape (tether, "
-            "`reference` mesh); turned round, the stone must be seated as the mirror image, which "
-            "is another mesh, another first guess, and another place of the grid lines; and a "
+            "`reference` mesh); turned round, the stone must be seated as the mirror image; and a "
             "shape put through points of its own meridian must be the shape."
         ),
         tables=[

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from stonepass.errors import BadInput, Outcome, StonepassError
     from stonepass.materials.protocol import Material
+    from stonepass.model.answer import Answer
     from stonepass.model.case import Case, Load, Method, Stone, Ureter
-    from stonepass.model.critical import Answer, critical_pressure, solve
+    from stonepass.model.critical import critical_pressure, solve
     from stonepass.model.meridian import read_shape, shape_through
     from stonepass.model.push_through import PushedState, push_through
     from stonepass.model.seated import SeatedState, seat
@@ -24,7 +25,7 @@ __version__ = "0.1.0"
 
 # Every public name and the module it lives in; nothing is imported before it is used.
 _HOME = {
-    "Answer": "model.critical",
+    "Answer": "model.answer",
     "BadInput": "errors",
     "Case": "model.case",
     "Load": "model.case",

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from stonepass.cli.curve import size_range
-from stonepass.cli.options import Json, Settings, takes_settings
+from stonepass.cli.options import BEAM_OPTIONS, CLOSURE_OPTIONS, Json, Settings, takes_settings
 from stonepass.errors import BadInput
 
 __all__ = ["command"]
@@ -17,7 +17,7 @@ __all__ = ["command"]
 MOST_CASES = 2_000
 
 
-@takes_settings("model", "as_printed", "closure_start")
+@takes_settings("model", *CLOSURE_OPTIONS, *BEAM_OPTIONS)
 def command(
     settings: Settings,
     json: Json = False,

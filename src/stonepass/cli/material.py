@@ -65,6 +65,32 @@ def show_material(name: Name) -> int:
     return 0
 
 
+@app.command("secant")
+def secant_of_material(
+    name: Name,
+    stretch: Annotated[
+        float, typer.Option("--stretch", help="Stretch up to which the secants go, e.g. 1.3.")
+    ],
+) -> int:
+    """Show the secant moduli of a law, as the beam model takes them (E1 round, E2 along)."""
+    from stonepass.cli.terminal import show
+    from stonepass.materials.secant import secant_moduli
+    from stonepass.materials.stability import check
+    from stonepass.model.case import find_material
+
+    entry = find_material(name)
+    check(entry)
+    rows = {"whole law": entry.law, "without the ground matrix": entry.law.without_ground_matrix()}
+    if rows["whole law"] == rows["without the ground matrix"]:
+        rows.pop("without the ground matrix")
+    lines = []
+    for what, law in rows.items():
+        hoop, axial = secant_moduli(law, stretch)
+        lines.append(f"  {what:<26}  E1 {hoop / 1e6:.4g} MPa, E2 {axial / 1e6:.4g} MPa")
+    show(f"{entry.name}: nominal plane-strain secants from rest to {stretch:g}", *lines)
+    return 0
+
+
 @app.command("check")
 def check_material(name: Name) -> int:
     """Check that a law describes a solid; exit code 2 and the reason where it does not."""

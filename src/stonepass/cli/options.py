@@ -19,21 +19,23 @@ if TYPE_CHECKING:
     from stonepass.model.shape import Shape
     from stonepass.units import Length
 
-__all__ = ["Json", "Settings", "takes_settings"]
+__all__ = ["BEAM_OPTIONS", "CLOSURE_OPTIONS", "Json", "Settings", "takes_settings"]
 
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout, and nothing else.")]
 
+CLOSURE_OPTIONS = ("as_printed", "closure_start", "closure", "series_order", "pairs")
+BEAM_OPTIONS = ("circumferential_modulus", "longitudinal_modulus", "secant_stretch")
 _LOAD_OPTIONS = ("confining_pressure", "confinement", "prestretch")
 _METHOD_OPTIONS = (
     "model",
     "seating",
     "seating_friction",
     "half_length",
-    "as_printed",
-    "closure_start",
+    *CLOSURE_OPTIONS,
     "far_field_ground",
     "wetted",
     "accuracy",
+    *BEAM_OPTIONS,
 )
 
 
@@ -116,7 +118,8 @@ class Settings:
         str | None,
         typer.Option(
             "--model",
-            help="paper, or direct: the loaded push-through itself.  [default: paper]",
+            help="paper; direct: the loaded push-through itself; or beam: a thin wall as a beam "
+            "on springs.  [default: paper]",
         ),
     ] = None
     wetted: Annotated[
@@ -137,6 +140,23 @@ class Settings:
             help="Where Eq. 15 starts: inner-radius or lumen.  [default: inner-radius]",
         ),
     ] = None
+    closure: Annotated[
+        str | None,
+        typer.Option(
+            "--closure", help="linear: Eq. 15; or series: Eqs 13-14, fitted.  [default: linear]"
+        ),
+    ] = None
+    series_order: Annotated[
+        int | None, typer.Option("--series-order", help="Of the series, 1 to 8.  [default: 3]")
+    ] = None
+    pairs: Annotated[
+        Path | None,
+        typer.Option(
+            "--pairs",
+            metavar="FILE.csv",
+            help="Fit the series to alpha_deg, radius_ratio.  [default: to direct states]",
+        ),
+    ] = None
     far_field_ground: Annotated[
         bool | None,
         typer.Option(
@@ -149,6 +169,21 @@ class Settings:
         typer.Option(
             "--accuracy",
             help="fast, standard or reference: how finely to solve.  [default: standard]",
+        ),
+    ] = None
+
+    circumferential_modulus: Annotated[
+        str | None,
+        typer.Option("--E1", metavar="MODULUS", help="Beam model: E1 round the tube, 0.465MPa."),
+    ] = None
+    longitudinal_modulus: Annotated[
+        str | None,
+        typer.Option("--E2", metavar="MODULUS", help="Beam model: E2 along the tube, 0.02MPa."),
+    ] = None
+    secant_stretch: Annotated[
+        float | None,
+        typer.Option(
+            "--secant-stretch", help="Beam model: E1 and E2 as secants of the law at this stretch."
         ),
     ] = None
 
@@ -226,8 +261,18 @@ class Settings:
         from stonepass.model.case import Method
 
         merged = self._merged(_METHOD_OPTIONS, "method")
+        if self.pairs is not None:
+            from stonepass.model.opening import read_pairs
+
+            merged["pairs"] = read_pairs(self.pairs)
+        elif self.closure == "linear":
+            merged.pop("pairs", None)  # the file's pairs go with its series
         if self.seating == "frictionless" and self.seating_friction is None:
             merged.pop("seating_friction", None)  # the file's friction goes with its seating
+        if self.model not in (None, "beam"):
+            for name in BEAM_OPTIONS:  # the file's moduli go with its model
+                if getattr(self, name) is None:
+                    merged.pop(name, None)
         return Method(**merged)
 
     @property

@@ -10,7 +10,9 @@ import typer
 from stonepass.cli.options import Json, Settings, takes_settings
 
 if TYPE_CHECKING:
-    from stonepass.model.critical import Answer
+    from matplotlib.figure import Figure
+
+    from stonepass.model.answer import Answer
 
 __all__ = ["command"]
 
@@ -66,16 +68,29 @@ def _write(answer: Answer, profile: Path | None, figure: Path | None) -> list[st
     """Write what was asked for; where no stone is seated there is nothing, and that is said."""
     if profile is None and figure is None:
         return []
-    if answer.state is None:
+    if answer.touch is None:
         return ["no stone is seated, so neither profile nor figure was written"]
     if profile is not None:
         from stonepass.report.record import write_profile
 
-        write_profile(answer.state, profile)
+        write_profile(answer.touch, profile)
     if figure is not None:
-        from stonepass.report.case_figure import case_figure
-        from stonepass.report.push_figure import push_figure
         from stonepass.report.style import save
 
-        save(case_figure(answer) if answer.pushed is None else push_figure(answer), figure)
+        save(_figure(answer), figure)
     return []
+
+
+def _figure(answer: Answer) -> Figure:
+    """The picture of the model that answered; each loads what it draws."""
+    if answer.beam is not None:
+        from stonepass.report.beam_figure import beam_figure
+
+        return beam_figure(answer)
+    if answer.pushed is not None:
+        from stonepass.report.push_figure import push_figure
+
+        return push_figure(answer)
+    from stonepass.report.case_figure import case_figure
+
+    return case_figure(answer)

@@ -7,12 +7,12 @@ from typing import Annotated
 
 import typer
 
-from stonepass.cli.options import Json, Settings, takes_settings
+from stonepass.cli.options import BEAM_OPTIONS, CLOSURE_OPTIONS, Json, Settings, takes_settings
 
 __all__ = ["command"]
 
 
-@takes_settings("model")
+@takes_settings("model", *CLOSURE_OPTIONS, *BEAM_OPTIONS)
 def command(
     settings: Settings,
     json: Json = False,
@@ -45,6 +45,7 @@ def command(
     from stonepass.report.rising_report import (
         rising_figure,
         rising_record,
+        rising_table,
         save_animation,
         write_rising,
     )
@@ -66,8 +67,6 @@ def command(
     if json:
         print_json(rising_record(rising))
     else:
-        from stonepass.report.table import rising_table
-
         show(rising_table(rising), f"{rising.critical.outcome.name}: {rising.critical.message}")
     unwritten = not rising.states and any((out, figure, animation))
     warn(

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
 from stonepass.fe.profile import Profile
-from stonepass.fe.wall import Energy
 
-__all__ = ["Failure", "Path", "Resolution", "Tube", "Wrap"]
+__all__ = ["Energy", "Failure", "Path", "Resolution", "Tube", "Wrap"]
+
+# energy(C_rr, C_tt, C_zz, C_rz, xp): any hyperelastic law, dimensionless.
+Energy = Callable[[Any, Any, Any, Any, Any], Any]
 
 
 @dataclass(frozen=True)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
 import ngsolve as ng
 
-__all__ = ["SYMBOLS", "Energy", "Strain", "cauchy_stress", "outside_work", "strain", "wall_energy"]
+from stonepass.fe.problem import Energy
 
-# energy(C_rr, C_tt, C_zz, C_rz, xp): any hyperelastic law, dimensionless.
-Energy = Callable[[Any, Any, Any, Any, Any], Any]
+__all__ = ["SYMBOLS", "Strain", "cauchy_stress", "outside_work", "strain", "wall_energy"]
 
 # The array namespace of a material law over the engine's symbols.
 SYMBOLS = SimpleNamespace(

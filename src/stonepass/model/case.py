@@ -11,6 +11,8 @@ from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.protocol import Material
 from stonepass.materials.user_law import load_material, looks_like_file
+from stonepass.model.closure import ORDER
+from stonepass.model.opening import Pairs
 from stonepass.model.shape import ASPECT, Shape
 from stonepass.units import Length, Pressure, length, pressure
 
@@ -23,6 +25,8 @@ DIAMETER = (1e-5, 1.0)
 CONFINING = (0.0, 1e5)
 PRESTRETCH = (0.8, 1.6)
 HALF_LENGTH = (3.0, 100.0)
+MODULUS = (1e2, 1e10)
+SECANT_STRETCH = (1.001, 2.0)
 _BY_RATIO = "give both diameters, or the ratio alone"
 
 
@@ -181,9 +185,9 @@ class Method:
 
     Parameters
     ----------
-    model : {"paper", "direct"}
-        Seated contact pressure cut off at the contact angle, with the closure of Eq. 15; or the
-        loaded push-through itself.
+    model : {"paper", "direct", "beam"}
+        Seated contact pressure cut off at the contact angle, with the closure of Eq. 15; the
+        loaded push-through itself; or a thin wall as a beam on an elastic foundation.
     seating : {"pressed", "frictionless", "growing"}
         How the stone came to its place: its arc pressed radially into the wall as in the paper,
         without friction, or a sphere growing in place.
@@ -195,6 +199,12 @@ class Method:
         Take Eq. 5 with the sign printed in the paper (the wall behind the stone assists).
     closure_start : {"inner-radius", "lumen"}
         Where Eq. 15 starts: at R_a as in the paper, or at the lumen that load leaves open.
+    closure : {"linear", "series"}
+        Eq. 15; or the series of Eqs 13–14, fitted to `pairs` or to direct states of the case.
+    series_order : int
+        Of the series, 1 to 8.
+    pairs : Pairs, optional
+        Opened angles and radii to fit the series to (`read_pairs`).
     far_field_ground : bool
         Whether the far field contains the ground matrix of the law (Eq. 22 does not).
     wetted : bool
@@ -202,6 +212,10 @@ class Method:
         edge to the seal.
     accuracy : {"standard", "fast", "reference"}
         How finely the finite elements are solved; every answer carries an estimate of its error.
+    circumferential_modulus, longitudinal_modulus : str or Pressure, optional
+        Beam model: E₁ and E₂, Young's moduli of the fibres round and along the tube.
+    secant_stretch : float, optional
+        Beam model: take both as nominal plane-strain secants of the wall's law at this stretch.
     """
 
     model: str = "paper"
@@ -210,12 +224,19 @@ class Method:
     half_length: float = 10.0
     as_printed: bool = False
     closure_start: str = "inner-radius"
+    closure: str = "linear"
+    series_order: int = 3
+    pairs: Pairs | None = None
     far_field_ground: bool = False
     wetted: bool = False
     accuracy: str = "standard"
+    circumferential_modulus: str | Pressure | None = None
+    longitudinal_modulus: str | Pressure | None = None
+    secant_stretch: float | None = None
 
     def __post_init__(self) -> None:
-        _choice("model", self.model, ("paper", "direct"))
+        _choice("model", self.model, ("paper", "direct", "beam"))
+        self._check_beam()
         _choice("seating", self.seating, ("pressed", "frictionless", "growing"))
         if self.seating_friction is not None:
             _number(self.seating_friction, "seating_friction", *FRICTION)
@@ -227,10 +248,43 @@ class Method:
             )
         _choice("accuracy", self.accuracy, ("fast", "standard", "reference"))
         _choice("closure_start", self.closure_start, ("inner-radius", "lumen"))
+        _choice("closure", self.closure, ("linear", "series"))
+        low, high = ORDER
+        whole = isinstance(self.series_order, int) and not isinstance(self.series_order, bool)
+        allowed = f"a whole number from {low} to {high}"
+        require(whole and low <= self.series_order <= high, "series_order", self.series_order,
+                allowed)  # fmt: skip
+        if self.pairs is not None:
+            require(isinstance(self.pairs, Pairs), "pairs", self.pairs, "as read_pairs gives them")
+            if self.closure != "series":
+                raise BadInput("pairs", "given", "left out", "they are of the closure 'series'")
+            least = f"at least as many as coefficients, {self.series_order}"
+            count = len(self.pairs.alpha)
+            require(count >= self.series_order, "pairs", count, least)
         _number(self.half_length, "half_length", *HALF_LENGTH)
         for name in ("as_printed", "far_field_ground", "wetted"):
             value = getattr(self, name)
             require(isinstance(value, bool), name, value, "true or false")
+
+    def _check_beam(self) -> None:
+        moduli = ("circumferential_modulus", "longitudinal_modulus")
+        given = [name for name in moduli if getattr(self, name) is not None]
+        for name in given:
+            value = getattr(self, name)
+            read = pressure(value, name)
+            low, high = MODULUS
+            require(low <= read <= high, name, value, "0.1 kPa to 10 GPa")
+            _set(self, name, read)
+        if self.secant_stretch is not None:
+            _number(self.secant_stretch, "secant_stretch", *SECANT_STRETCH)
+        if self.model != "beam":
+            for name in (*given, *(["secant_stretch"] if self.secant_stretch is not None else [])):
+                raise BadInput(name, getattr(self, name), "left out", "it is of the model 'beam'")
+        elif self.secant_stretch is None and len(given) < 2:
+            missing = next(name for name in moduli if name not in given)
+            raise BadInput(missing, "missing", "given", "or give a secant_stretch")
+        elif self.secant_stretch is not None and given:
+            raise BadInput("secant_stretch", self.secant_stretch, f"left out beside a {given[0]}")
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,9 @@ from stonepass.errors import BadInput
 from stonepass.materials.user_law import looks_like_file
 from stonepass.model.case import Case, Load, Method, Stone, Ureter, find_material
 from stonepass.model.meridian import read_shape
+from stonepass.model.opening import read_pairs
 from stonepass.toml_file import read_toml
-from stonepass.units import format_length, format_pressure
+from stonepass.units import Pressure, format_length, format_pressure
 
 __all__ = ["read_case", "write_case"]
 
@@ -51,9 +52,15 @@ class _Method(_Section):
     half_length: float = 10.0
     as_printed: bool = False
     closure_start: str = "inner-radius"
+    closure: str = "linear"
+    series_order: int = 3
+    pairs: str | None = None
     far_field_ground: bool = False
     wetted: bool = False
     accuracy: str = "standard"
+    circumferential_modulus: str | None = None
+    longitudinal_modulus: str | None = None
+    secant_stretch: float | None = None
 
 
 class _CaseFile(_Section):
@@ -64,7 +71,7 @@ class _CaseFile(_Section):
 
 
 def read_case(path: Path) -> Case:
-    """Read a case file; files of materials and shapes are looked for beside it.
+    """Read a case file; files of materials, shapes and pairs are looked for beside it.
 
     Raises
     ------
@@ -74,15 +81,18 @@ def read_case(path: Path) -> Case:
     """
     parsed = read_toml(path, _CaseFile)
     stone, ureter = parsed.stone.model_dump(), parsed.ureter.model_dump()
+    method = parsed.method.model_dump()
     try:
         if parsed.stone.shape is not None:
             stone["shape"] = read_shape(path.parent / parsed.stone.shape)
+        if parsed.method.pairs is not None:
+            method["pairs"] = read_pairs(path.parent / parsed.method.pairs)
         ureter["material"] = find_material(parsed.ureter.material, path.parent)
         return Case(
             Stone(**stone),
             Ureter(**ureter),
             Load(**parsed.load.model_dump()),
-            Method(**parsed.method.model_dump()),
+            Method(**method),
         )
     except BadInput as problem:
         raise BadInput(
@@ -101,6 +111,9 @@ def write_case(case: Case, path: Path) -> None:
     shape = stone.shape
     if not shape.spheroidal and not shape.reference:
         raise BadInput("shape of the stone", "made in Python", "from a file to be saved")
+    pairs = method.pairs
+    if pairs is not None and not pairs.reference:
+        raise BadInput("pairs", "made in Python", "from a file to be saved")
     document: dict[str, dict[str, Any]] = {
         "stone": {
             "diameter": None if stone.diameter is None else format_length(stone.diameter),
@@ -120,7 +133,8 @@ def write_case(case: Case, path: Path) -> None:
             "confinement": load.confinement,
             "prestretch": load.prestretch,
         },
-        "method": {name: getattr(method, name) for name in _Method.model_fields},
+        "method": {name: _plain(getattr(method, name)) for name in _Method.model_fields}
+        | {"pairs": None if pairs is None else _beside(path, pairs.reference)},
     }
     written = {
         section: {key: value for key, value in keys.items() if value is not None}
@@ -130,6 +144,10 @@ def write_case(case: Case, path: Path) -> None:
         path.write_text(tomli_w.dumps(written), encoding="utf-8")
     except OSError as problem:
         raise BadInput("case file", str(path), f"writable ({problem.strerror})") from problem
+
+
+def _plain(value: Any) -> Any:
+    return format_pressure(value) if isinstance(value, Pressure) else value
 
 
 def _beside(path: Path, reference: str) -> str:

@@ -5,13 +5,18 @@ An angle α is given by the half-width of the stone there, ρ_α/R_s: sin α of 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Float
+from numpy.polynomial import Polynomial
 
 from stonepass.errors import require
 from stonepass.units import Values
 
-__all__ = ["fit_series", "linear_closure", "series_closure"]
+__all__ = ["ORDER", "Series", "fit_series", "linear_closure"]
+
+ORDER = (1, 8)
 
 
 def linear_closure(
@@ -26,22 +31,29 @@ def linear_closure(
     return start + (size_ratio - start) * _opening(width, first_width)
 
 
-def series_closure(
-    width: Values,
-    first_width: float,
-    size_ratio: float,
-    coefficients: Float[np.ndarray, " order"],
-    start: float = 1.0,
-) -> Values:
+@dataclass(frozen=True)
+class Series:
     """r_a/R_a = s + (ξ − s) (c₁ t + c₂ t² + …), t = (ρ_α − ρ₀)/(R_s − ρ₀) (Eqs 13–14).
 
     The paper's series in sin α, here ρ_α, written in t: at α₀ it is `start` s (the lumen) whatever
-    the coefficients, and powers of t tell each other apart, which those of ρ_α do not. With c₁ = 1
-    alone it is Eq. 15.
+    the `coefficients` c, and powers of t tell each other apart, which those of ρ_α do not. With
+    c₁ = 1 alone it is Eq. 15.
     """
-    t = _opening(width, first_width)
-    powers = np.stack([t**k for k in range(1, len(coefficients) + 1)], axis=-1)
-    return start + (size_ratio - start) * (powers @ coefficients)
+
+    coefficients: tuple[float, ...]
+    start: float = 1.0
+
+    def __call__(self, width: Values, first_width: float, size_ratio: float) -> Values:
+        """r_a/R_a where the stone is `width` R_s wide, `first_width` R_s at α₀."""
+        t = _opening(width, first_width)
+        powers = np.stack([t**k for k in range(1, len(self.coefficients) + 1)], axis=-1)
+        return self.start + (size_ratio - self.start) * (powers @ np.array(self.coefficients))
+
+    def printed(self, first_width: float, size_ratio: float) -> tuple[float, ...]:
+        """a₀, a₁, … of Eq. 14 in inner radii: R_s ρ_α − r_a = Σ aᵢ ρ_αⁱ, ρ_α over R_s."""
+        t = Polynomial([-first_width, 1.0]) / (1.0 - first_width)
+        opened = Polynomial([0.0, *self.coefficients])(t) * (size_ratio - self.start)
+        return tuple((Polynomial([-self.start, size_ratio]) - opened).coef.tolist())
 
 
 def fit_series(
@@ -51,16 +63,15 @@ def fit_series(
     size_ratio: float,
     order: int,
     start: float = 1.0,
-) -> Float[np.ndarray, " order"]:
-    """Coefficients of `series_closure` by least squares on pairs (ρ_α/R_s, r_a/R_a), α ≤ π/2."""
-    require(1 <= order <= 8, "order", order, "1 to 8")
+) -> Series:
+    """The series nearest to pairs (ρ_α/R_s, r_a/R_a), α ≤ π/2, by least squares."""
+    low, high = ORDER
+    require(low <= order <= high, "order", order, f"{low} to {high}")
     require(len(width) >= order, "pairs", len(width), f"at least as many as coefficients, {order}")
     t = _opening(width, first_width)
     powers = np.stack([t**k for k in range(1, order + 1)], axis=-1)
-    found: Float[np.ndarray, " order"] = np.linalg.lstsq(
-        powers, (radius - start) / (size_ratio - start), rcond=None
-    )[0]
-    return found
+    found = np.linalg.lstsq(powers, (radius - start) / (size_ratio - start), rcond=None)[0]
+    return Series(tuple(found.tolist()), start)
 
 
 def _opening(width: Values, first_width: float) -> Values:

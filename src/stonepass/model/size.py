@@ -9,10 +9,13 @@ from scipy.optimize import brentq
 
 from stonepass.errors import Outcome, require
 from stonepass.model.accuracy import LEVELS
+from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
-from stonepass.model.critical import Answer, solve
+from stonepass.model.critical import solve
+from stonepass.model.elements import Elements
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.shape import Shape
+from stonepass.model.thin_wall import largest_beam_size
 from stonepass.units import Length, Pressure, pressure
 
 __all__ = ["SizeAnswer", "critical_size"]
@@ -65,11 +68,13 @@ def critical_size(
     method: Method | None = None,
     progress: Callable[[float], None] | None = None,
     shape: Shape | None = None,
+    elements: Elements | None = None,
 ) -> SizeAnswer:
     """How large may a stone be that moves at `limit`?
 
     P_ucr rises with ξ from 0 at the lumen, so ξ_cr is bracketed by the lumen and the end of the
-    material's strain range and found to 1e-6. `progress` is told every ξ that is tried.
+    material's strain range (of the beam model, of what it holds for) and found to 1e-6. `progress`
+    is told every ξ that is tried.
 
     Parameters
     ----------
@@ -77,6 +82,8 @@ def critical_size(
         Bearable urine pressure, e.g. ``"12 kPa"``; 0.001 to 1000 kPa.
     shape : Shape, optional
         Of the stone; a sphere by default, ``Shape(1.4)`` a spheroid 1.4 times as long as wide.
+    elements : Elements, optional
+        Where finite-element results come from (`studies.store`); by default they are solved.
     """
     bound = pressure(limit, "limit")
     require(LIMIT[0] <= bound <= LIMIT[1], "limit", limit, "0.001 kPa to 1000 kPa")
@@ -87,10 +94,17 @@ def critical_size(
         load or Load(),
         method or Method(),
     )
-    return _search(case, bound, progress or (lambda size_ratio: None))
+    if case.method.model == "beam":
+        case = case.with_size_ratio(largest_beam_size(case))
+    return _search(case, bound, progress or (lambda size_ratio: None), elements)
 
 
-def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> SizeAnswer:
+def _search(
+    case: Case,
+    limit: Pressure,
+    progress: Callable[[float], None],
+    elements: Elements | None,
+) -> SizeAnswer:
     tried: dict[float, Answer] = {}
     # The search needs no estimate of the error; the answer at the size that it finds has one.
     resolution = LEVELS[case.method.accuracy].resolution
@@ -99,7 +113,7 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
         """P_ucr less the limit in Pa; without a balance the end of the closure stands in."""
         progress(size_ratio)
         if size_ratio not in tried:
-            tried[size_ratio] = solve(case.with_size_ratio(size_ratio), resolution)
+            tried[size_ratio] = solve(case.with_size_ratio(size_ratio), resolution, elements)
         answer = tried[size_ratio]
         if answer.pressure is not None:
             return answer.pressure - limit
@@ -136,7 +150,7 @@ def _search(case: Case, limit: Pressure, progress: Callable[[float], None]) -> S
         return SizeAnswer(
             case, answer.outcome, answer.message[:-1] + where + ".", limit, at_size=answer
         )
-    return _found(case, limit, root, lumen, tried)
+    return _found(case, limit, root, lumen, tried, elements)
 
 
 def _top(largest: float, lumen: float, excess: Callable[[float], float]) -> tuple[float, float]:
@@ -162,11 +176,16 @@ def _top(largest: float, lumen: float, excess: Callable[[float], float]) -> tupl
 
 
 def _found(
-    case: Case, limit: Pressure, root: float, lumen: float, tried: dict[float, Answer]
+    case: Case,
+    limit: Pressure,
+    root: float,
+    lumen: float,
+    tried: dict[float, Answer],
+    elements: Elements | None,
 ) -> SizeAnswer:
     if root <= lumen * (1.0 + SMALLEST_OVERSIZE):
         return _below_range(case, limit)
-    at_size = solve(case.with_size_ratio(root))
+    at_size = solve(case.with_size_ratio(root), elements=elements)
     if at_size.outcome is not Outcome.MOVES:
         message = f"{at_size.message[:-1]} (at size ratio {root:.4g}, where the limit is reached)."
         return SizeAnswer(case, at_size.outcome, message, limit, at_size=at_size)
@@ -214,8 +233,11 @@ def _beyond_range(case: Case, limit: Pressure, top: Answer) -> SizeAnswer:
             "Without friction nothing holds the stone: every size moves, and none is critical."
         )
         return SizeAnswer(case, Outcome.BEYOND_RANGE, message, limit, at_size=top)
+    within = Outcome.BEYOND_RANGE.value
+    if case.method.model == "beam":
+        within = "The pressure limit is not reached within the sizes that the beam model holds for."
     message = (
-        f"{Outcome.BEYOND_RANGE.value[:-1]}: at its end, size ratio {case.size_ratio:.4g}, the "
+        f"{within[:-1]}: at its end, size ratio {case.size_ratio:.4g}, the "
         f"critical pressure is {top.pressure / 1e3:.4g} kPa, so the critical size lies above it."
     )
     return SizeAnswer(case, Outcome.BEYOND_RANGE, message, limit, at_size=top)

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load, Stone, Ureter
-from stonepass.model.critical import Answer
 from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.studies.curve import solve_slim
 from stonepass.studies.executor import executor

@@ -8,10 +8,12 @@ from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput
 from stonepass.fe.readout import Field
+from stonepass.model.answer import Answer
 from stonepass.model.balance import drive, resistance
-from stonepass.model.critical import Answer, pressure_of_angle
+from stonepass.model.by_balance import pressure_of_angle
 from stonepass.model.seated import SeatedState
-from stonepass.report.section import draw_radii, draw_section
+from stonepass.report.section import draw_section
+from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy
 
 __all__ = ["case_figure"]
@@ -80,7 +82,8 @@ def _balance(axes: Axes, answer: Answer, seated: SeatedState) -> None:
     """F_re and F_dr over α, as pressures on the stone's cross-section."""
     forces = resistance(seated)
     alpha = np.linspace(seated.contact_angle, np.pi / 2, 300)
-    push = drive(pressure_of_angle(seated, alpha), seated.case.stone.shape.width(alpha))
+    pressure = pressure_of_angle(seated, alpha, answer.series)
+    push = drive(pressure, seated.case.stone.shape.width(alpha))
     degrees = np.degrees(alpha)
     axes.plot(degrees, forces.total(alpha) / 1e3, color=COLOURS["blue"], label="resistance")
     axes.plot(

@@ -44,12 +44,12 @@ def closures_table(found: ClosureComparison) -> Table:
 
 def closures_record(found: ClosureComparison) -> dict[str, Any]:
     """One comparison as a JSON-ready record."""
-    coefficients = found.coefficients
+    series = found.series
     return {
         **_row(found),
         "message": found.message,
         "warnings": list(found.warnings),
-        "series_coefficients": None if coefficients is None else [float(c) for c in coefficients],
+        "series_coefficients": None if series is None else list(series.coefficients),
         "version": VERSION,
         "disclaimer": DISCLAIMER,
     }
@@ -63,26 +63,26 @@ def write_map(found: Sequence[ClosureComparison], path: Path) -> None:
 
 def closures_figure(found: ClosureComparison) -> Figure:
     """How wide the tube is when the wall has opened to α: direct states, series, Eq. 15."""
-    from stonepass.model.closure import linear_closure, series_closure
+    from stonepass.model.closure import linear_closure
 
     figure = new_figure(6.0, 4.2)
     axes = figure.add_subplot()
-    if found.pairs is not None and found.coefficients is not None:
-        alpha, radius = found.pairs
+    if found.pairs is not None and found.series is not None:
+        alpha, radius = found.pairs.arrays
         xi, first = found.case.size_ratio, float(alpha[0])
         fine = np.linspace(first, np.pi / 2, 200)
         width = found.case.stone.shape.width(fine)
         axes.plot(
             np.degrees(fine),
-            linear_closure(width, width[0], xi),
+            linear_closure(width, float(width[0]), xi),
             color=COLOURS["orange"],
             label="Eq. 15, linear in the stone's width",
         )
         axes.plot(
             np.degrees(fine),
-            series_closure(width, width[0], xi, found.coefficients, float(radius[0])),
+            found.series(width, float(width[0]), xi),
             color=COLOURS["blue"],
-            label=f"series, order {len(found.coefficients)}",
+            label=f"series, order {len(found.series.coefficients)}",
         )
         axes.plot(np.degrees(alpha), radius, "o", color=COLOURS["ink"], ms=4, label="direct states")
         axes.legend()

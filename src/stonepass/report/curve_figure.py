@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stonepass.errors import Outcome
-from stonepass.model.critical import Answer
+from stonepass.model.answer import Answer
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 
 __all__ = ["curve_figure", "draw_curve", "frame_curve"]

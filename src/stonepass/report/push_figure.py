@@ -8,9 +8,10 @@ from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput, Outcome
 from stonepass.fe.readout import Field
-from stonepass.model.critical import Answer
+from stonepass.model.answer import Answer
 from stonepass.model.push_through import PushedState
-from stonepass.report.section import draw_radii, draw_section
+from stonepass.report.section import draw_section
+from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy
 
 __all__ = ["draw_pressure", "draw_wall", "push_figure"]

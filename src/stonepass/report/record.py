@@ -13,10 +13,8 @@ import numpy as np
 
 import stonepass
 from stonepass.errors import BadInput
+from stonepass.model.answer import Answer, Touch
 from stonepass.model.case import Case
-from stonepass.model.critical import Answer
-from stonepass.model.push_through import PushedState
-from stonepass.model.seated import SeatedState
 from stonepass.model.size import SizeAnswer
 
 __all__ = [
@@ -33,6 +31,7 @@ __all__ = [
 VERSION = stonepass.__version__
 DISCLAIMER = "Research use only. Not a medical device."
 PROFILE_STEP = 0.1  # degrees
+LEFT_OUT = ("model", "pairs")  # of the method: one stands elsewhere, the other as a file
 _CURVE_COLUMNS = (
     "size_ratio",
     "outcome",
@@ -57,30 +56,40 @@ _CURVE_COLUMNS = (
 def record(answer: Answer) -> dict[str, Any]:
     """One answer as a JSON-ready record; a number that does not exist is None."""
     state, case, error = answer.state, answer.case, answer.error
-    pushed = answer.pushed
+    pushed, touch, beam = answer.pushed, answer.touch, answer.beam
     return {
         "outcome": answer.outcome.name,
         "message": answer.message,
         "critical_pressure_kPa": _kilo(answer.pressure),
         "critical_pressure_error_kPa": _kilo(error.critical_pressure if error else None),
         "critical_angle_deg": _degrees(answer.critical_angle),
-        "contact_angle_deg": _degrees(state.contact_angle if state else None),
+        "contact_angle_deg": _degrees(touch.contact_angle if touch else None),
         "contact_angle_error_deg": _degrees(error.contact_angle if error else None),
-        "equator_contact_pressure_kPa": _kilo(state.equator_contact_pressure if state else None),
+        "equator_contact_pressure_kPa": _kilo(touch.equator_contact_pressure if touch else None),
         "equator_contact_pressure_error_kPa": _kilo(
             error.equator_contact_pressure if error else None
         ),
-        "peak_contact_pressure_kPa": _kilo(state.peak_contact_pressure if state else None),
+        "peak_contact_pressure_kPa": _kilo(touch.peak_contact_pressure if touch else None),
         "closure_end_pressure_kPa": _kilo(answer.closure_end_pressure),
+        **_series(answer),
         "leak_pressure_kPa": _kilo(answer.leak_pressure),
         "seal_angle_deg": _degrees(pushed.seal_angle if pushed else None),
-        "downstream_angle_deg": _degrees(state.downstream_angle if state else None),
+        "downstream_angle_deg": _degrees(touch.downstream_angle if touch else None),
         "stability_margin": state.soundness.margin if state else None,
         "size_ratio": case.size_ratio,
         "wall_ratio": case.wall_ratio,
         "model": case.method.model,
         "material": case.ureter.material.name,
         "inputs": _inputs(case),
+        "beam": None
+        if beam is None
+        else {
+            "circumferential_modulus_Pa": beam.circumferential_modulus,
+            "longitudinal_modulus_Pa": beam.longitudinal_modulus,
+            "foundation_Pa": beam.foundation,
+            "decay": beam.decay,
+            "half_contact_length": beam.half_length,
+        },
         "solver": {
             "dofs": state.solver.dofs if state else None,
             "newton_steps": answer.newton_steps or None,
@@ -90,6 +99,19 @@ def record(answer: Answer) -> dict[str, Any]:
         "warnings": list(answer.warnings),
         "version": stonepass.__version__,
         "disclaimer": DISCLAIMER,
+    }
+
+
+def _series(answer: Answer) -> dict[str, Any]:
+    """Coefficients of the fitted closure: in t, and those of Eq. 14 in sin α, in inner radii."""
+    series, touch = answer.series, answer.touch
+    if series is None or touch is None:
+        return {"series_coefficients": None, "printed_series_coefficients": None}
+    case = answer.case
+    first = float(case.stone.shape.width(np.array(touch.contact_angle)))
+    return {
+        "series_coefficients": list(series.coefficients),
+        "printed_series_coefficients": list(series.printed(first, case.size_ratio)),
     }
 
 
@@ -132,7 +154,7 @@ def write_curve(answers: Iterable[Answer], path: Path) -> None:
     write_csv(path, _CURVE_COLUMNS, rows)
 
 
-def write_profile(state: SeatedState | PushedState, path: Path) -> None:
+def write_profile(state: Touch, path: Path) -> None:
     """Write the pressure on the stone as CSV, θ from 0 to 180° in steps of 0.1°.
 
     The edges of the contact are rows too. Seated, it is the contact pressure; loaded, the urine
@@ -167,7 +189,8 @@ def _inputs(case: Case) -> dict[str, Any]:
         "confining_pressure_Pa": float(case.load.confining_pressure),
         "confinement": case.load.confinement,
         "prestretch": case.load.prestretch,
-        **{name: value for name, value in asdict(case.method).items() if name != "model"},
+        **{name: value for name, value in asdict(case.method).items() if name not in LEFT_OUT},
+        "pairs": None if case.method.pairs is None else case.method.pairs.reference,
         "seating_friction": case.seating_friction,
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
+from rich import box
+from rich.table import Table
 
 from stonepass.errors import BadInput
 from stonepass.model.advance import advance_force
@@ -17,18 +20,45 @@ from stonepass.model.push_through import PushedState
 from stonepass.report.push_figure import draw_pressure, draw_wall
 from stonepass.report.record import DISCLAIMER, VERSION, write_csv
 from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.table import case_title, significant
 from stonepass.studies.rising import Rising
 
-__all__ = ["rising_figure", "rising_record", "rising_rows", "save_animation", "write_rising"]
+__all__ = [
+    "rising_figure",
+    "rising_record",
+    "rising_rows",
+    "rising_table",
+    "save_animation",
+    "write_rising",
+]
 
 COLUMNS = (
     "urine_pressure_kPa", "net_force_kPa", "friction_work_kPa", "contact_angle_deg",
     "downstream_angle_deg", "seal_angle_deg", "peak_contact_pressure_kPa",
     "equator_contact_pressure_kPa", "upstream_radius_ratio", "contact_deviation",
 )  # fmt: skip
+NO_FORCE = 1e-2  # Pa; less than the solver tells from none
 CURVES = 5  # contact pressures drawn
 FRAME, LAST_FRAME = 170, 1500  # milliseconds
 RESOLUTION = 90  # dots per inch
+
+
+def rising_table(rising: Rising) -> Table:
+    """A held stone under rising pressure: one row per pressure."""
+    table = Table(box=box.SIMPLE_HEAD, title=case_title(rising.critical.case), title_justify="left")
+    for name in ("urine kPa", "net force kPa", "contact", "seal", "peak kPa", "r_a/R_a", "σ − σ⁰"):
+        table.add_column(name, justify="right")
+    for state, deviation in zip(rising.states, rising.deviation, strict=True):
+        table.add_row(
+            significant(state.urine_pressure / 1e3),
+            significant(0.0 if abs(state.net_force) < NO_FORCE else state.net_force / 1e3),
+            f"{math.degrees(state.contact_angle):.1f}–{math.degrees(state.downstream_angle):.1f}°",
+            f"{math.degrees(state.seal_angle):.1f}°",
+            significant(state.peak_contact_pressure / 1e3),
+            f"{state.upstream_radius:.4f}",
+            "–" if math.isnan(deviation) else f"{deviation:.0%}",
+        )
+    return table
 
 
 def rising_rows(rising: Rising) -> list[dict[str, Any]]:

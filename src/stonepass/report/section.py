@@ -6,13 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Polygon
 
 from stonepass.fe.readout import Field
 from stonepass.model.case import Case
-from stonepass.report.style import COLOURS
+from stonepass.report.stone import draw_stone
 
-__all__ = ["draw_radii", "draw_section"]
+__all__ = ["draw_section"]
 
 
 def draw_section(
@@ -42,16 +41,7 @@ def draw_section(
                 outline = np.r_[x[0], x[:, -1], x[-1, ::-1], x[::-1, 0]]
                 outline_y = np.r_[y[0], y[:, -1], y[-1, ::-1], y[::-1, 0]]
                 axes.plot(outline, outline_y, color="white", linewidth=0.25, alpha=0.6)
-    rho, along = case.stone.shape.meridian(np.linspace(0.0, np.pi, 361))
-    axes.add_patch(
-        Polygon(
-            case.size_ratio * np.r_[np.c_[along, rho], np.c_[along, -rho][::-1]],
-            facecolor=COLOURS["stone"],
-            edgecolor=COLOURS["ink"],
-            lw=0.8,
-            zorder=1.5,  # above what fills the lumen, below lines
-        )
-    )
+    draw_stone(axes, case)
     extent = 2.2 * case.size_ratio * case.stone.shape.reach + 0.6
     height = float(wall.r.max()) * 1.06
     axes.set(xlim=(-extent, extent), ylim=(-height, height), aspect="equal")
@@ -61,13 +51,3 @@ def draw_section(
     bar = axes.figure.colorbar(image, ax=axes, shrink=0.85, pad=0.01)
     bar.set_label(r"$-\sigma_{rr}$  (kPa)")
     bar.outline.set_visible(False)
-
-
-def draw_radii(axes: Axes, case: Case, angles: Sequence[float]) -> None:
-    """Dashed lines from the stone's centre to where the contact begins and ends, θ in rad."""
-    rho, along = case.stone.shape.meridian(np.array(angles))
-    for r, z in zip(case.size_ratio * rho, case.size_ratio * along, strict=True):
-        for half in (1.0, -1.0):
-            axes.plot(
-                [0.0, z], [0.0, half * r], color=COLOURS["grey"], linewidth=0.8, linestyle="--"
-            )

@@ -10,20 +10,24 @@ from pathlib import Path
 from rich import box
 from rich.table import Table
 
+from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.critical import Answer
 from stonepass.model.size import SizeAnswer
-from stonepass.studies.rising import Rising
 from stonepass.units import PASCAL_PER
 
-NO_FORCE = 1e-2  # Pa; less than the solver tells from none
-
-__all__ = ["curve_table", "grouped_warnings", "pressure_table", "rising_table", "size_table"]
+__all__ = [
+    "case_title",
+    "curve_table",
+    "grouped_warnings",
+    "pressure_table",
+    "significant",
+    "size_table",
+]
 
 
 def pressure_table(answer: Answer) -> Table:
     """One answer: what was asked, then the pressures."""
-    table = _pressures(_title(answer.case))
+    table = _pressures(case_title(answer.case))
     if answer.pressure is not None:
         error = None if answer.error is None else answer.error.critical_pressure
         _pressure_row(table, "[bold]critical pressure[/bold]", answer.pressure, error)
@@ -36,7 +40,7 @@ def pressure_table(answer: Answer) -> Table:
 def size_table(answer: SizeAnswer) -> Table:
     """One critical size: the size, then the state at it."""
     case = answer.case
-    table = _pressures(_title(case, with_stone=False))
+    table = _pressures(case_title(case, with_stone=False))
     _pressure_row(table, "pressure limit", answer.limit)
     if answer.size_ratio is None or answer.at_size is None:
         return table
@@ -51,39 +55,21 @@ def size_table(answer: SizeAnswer) -> Table:
 
 def curve_table(answers: Sequence[Answer]) -> Table:
     """A curve: one row per size ratio."""
-    table = Table(box=box.SIMPLE_HEAD, title=_title(answers[0].case, with_stone=False))
+    table = Table(box=box.SIMPLE_HEAD, title=case_title(answers[0].case, with_stone=False))
     for name in ("size ratio", "outcome", "kPa", "mmHg", "cmH₂O", "solver error", "contact angle"):
         table.add_column(name, justify="left" if name == "outcome" else "right")
     for answer in answers:
         pressures = (
             ["–"] * 3
             if answer.pressure is None
-            else [_significant(answer.pressure / scale) for scale in PASCAL_PER.values()]
+            else [significant(answer.pressure / scale) for scale in PASCAL_PER.values()]
         )
-        angle = "–" if answer.state is None else f"{_deg(answer.state.contact_angle):.2f}°"
+        angle = "–" if answer.touch is None else f"{_deg(answer.touch.contact_angle):.2f}°"
         error = (
             "" if answer.error is None else _share(answer.error.critical_pressure, answer.pressure)
         )
         size = f"{answer.case.size_ratio:.4g}"
         table.add_row(size, answer.outcome.name, *pressures, error, angle)
-    return table
-
-
-def rising_table(rising: Rising) -> Table:
-    """A held stone under rising pressure: one row per pressure."""
-    table = Table(box=box.SIMPLE_HEAD, title=_title(rising.critical.case), title_justify="left")
-    for name in ("urine kPa", "net force kPa", "contact", "seal", "peak kPa", "r_a/R_a", "σ − σ⁰"):
-        table.add_column(name, justify="right")
-    for state, deviation in zip(rising.states, rising.deviation, strict=True):
-        table.add_row(
-            _significant(state.urine_pressure / 1e3),
-            _significant(0.0 if abs(state.net_force) < NO_FORCE else state.net_force / 1e3),
-            f"{_deg(state.contact_angle):.1f}–{_deg(state.downstream_angle):.1f}°",
-            f"{_deg(state.seal_angle):.1f}°",
-            _significant(state.peak_contact_pressure / 1e3),
-            f"{state.upstream_radius:.4f}",
-            "–" if math.isnan(deviation) else f"{deviation:.0%}",
-        )
     return table
 
 
@@ -110,7 +96,7 @@ def _pressures(title: str) -> Table:
 
 
 def _pressure_row(table: Table, name: str, pascals: float, error: float | None = None) -> None:
-    values = (_significant(pascals / scale) for scale in PASCAL_PER.values())
+    values = (significant(pascals / scale) for scale in PASCAL_PER.values())
     table.add_row(name, *values, _share(error, pascals))
 
 
@@ -135,27 +121,34 @@ def _up(error: float, least: float) -> str:
 
 
 def _state_rows(table: Table, answer: Answer) -> None:
-    state = answer.state
+    state, touch, beam = answer.state, answer.touch, answer.beam
     if answer.closure_end_pressure is not None:
         _pressure_row(table, "closure end", answer.closure_end_pressure)
     if answer.leak_pressure is not None:
         _pressure_row(table, "leak pressure", answer.leak_pressure)
-    if state is None:
+    if touch is None:
         return
     error = answer.error
     equator = None if error is None else error.equator_contact_pressure
-    _pressure_row(table, "contact pressure, equator", state.equator_contact_pressure, equator)
-    _pressure_row(table, "contact pressure, peak", state.peak_contact_pressure)
+    _pressure_row(table, "contact pressure, equator", touch.equator_contact_pressure, equator)
+    _pressure_row(table, "contact pressure, peak", touch.peak_contact_pressure)
     angle = None if error is None else error.contact_angle
-    _angle_row(table, "contact angle", state.contact_angle, angle)
+    _angle_row(table, "contact angle", touch.contact_angle, angle)
     if answer.pushed is not None:
         _angle_row(table, "seal", answer.pushed.seal_angle)
     if answer.pushed is not None or not answer.case.stone.shape.symmetric:
-        _angle_row(table, "contact ends", state.downstream_angle)
-    table.add_row("stability margin", f"{state.soundness.margin:.2f}")
+        _angle_row(table, "contact ends", touch.downstream_angle)
+    if state is not None:
+        table.add_row("stability margin", f"{state.soundness.margin:.2f}")
+    if beam is not None:
+        moduli = (beam.circumferential_modulus, beam.longitudinal_modulus)
+        for name, modulus in zip(("E1", "E2"), moduli, strict=True):
+            table.add_row(name, significant(modulus / 1e3))
+        table.add_row("half contact length", f"{beam.half_length:.3f} R_a")
 
 
-def _title(case: Case, *, with_stone: bool = True) -> str:
+def case_title(case: Case, *, with_stone: bool = True) -> str:
+    """What was asked, in one line."""
     stone, ureter = case.stone, case.ureter
     sizes = [f"η = {case.wall_ratio:.4g}"]
     if with_stone:
@@ -179,7 +172,7 @@ def _deg(radians: float) -> float:
     return math.degrees(radians)
 
 
-def _significant(value: float) -> str:
+def significant(value: float) -> str:
     """Four significant digits without an exponent: 0.04151, 12, 91.62, 1234."""
     if value == 0.0 or not math.isfinite(value):
         return f"{value:g}"

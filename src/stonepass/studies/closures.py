@@ -7,20 +7,21 @@ from concurrent.futures import as_completed
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-from jaxtyping import Float
-
 from stonepass.errors import Outcome, require
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.advance import advance_force, opened_radius, opening_pressure
+from stonepass.model.advance import advance_force
+from stonepass.model.answer import Answer
+from stonepass.model.by_balance import balance_pressure
 from stonepass.model.case import Case
-from stonepass.model.closure import fit_series, series_closure
-from stonepass.model.critical import Answer, balance_pressure, solve
+from stonepass.model.closure import ORDER, Series
+from stonepass.model.critical import solve
+from stonepass.model.direct_pairs import opening_pairs, series_through
+from stonepass.model.opening import Pairs
 from stonepass.model.push_through import PushedState, push_along
 from stonepass.studies.executor import can_travel, executor
 from stonepass.units import Pressure
 
-__all__ = ["CLOSURES", "ClosureComparison", "closure_map", "compare_closures", "opening_pairs"]
+__all__ = ["CLOSURES", "ClosureComparison", "closure_map", "compare_closures"]
 
 # Names at the door, and what they say.
 CLOSURES = {
@@ -30,9 +31,7 @@ CLOSURES = {
     "energy": "energy: I(P) = D",
     "direct": "direct push-through",
 }
-SERIES_ORDER, PAIRS = 3, 13
-ORDERS = (1, 8)
-LAST_PAIR = 0.95  # of the pressure that opens the tube to R_s
+SERIES_ORDER = 3
 NEAR = 0.03  # how far around the direct answer D is taken
 
 
@@ -51,10 +50,10 @@ class ClosureComparison:
     message : str
     warnings : tuple of str
         Of the paper's model and of the direct one, and why a closure has no pressure.
-    coefficients : array or None
-        Of the series (`model.closure.series_closure`).
-    pairs : (array, array) or None
-        α in rad and r_a/R_a of the direct states the series was fitted to.
+    series : Series or None
+        The fitted one.
+    pairs : Pairs or None
+        α and r_a/R_a of the direct states it was fitted to.
     """
 
     case: Case
@@ -62,8 +61,8 @@ class ClosureComparison:
     outcome: Outcome
     message: str
     warnings: tuple[str, ...] = ()
-    coefficients: Float[np.ndarray, " order"] | None = None
-    pairs: tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]] | None = None
+    series: Series | None = None
+    pairs: Pairs | None = None
 
     def error(self, name: str) -> float | None:
         """P_ucr by the closure `name` over that of the direct model, less 1; None without one."""
@@ -77,10 +76,15 @@ def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison
     The seated contact pressure is that of the case's seating for the paper's closures and the
     series; the loaded one for energy and direct.
     """
-    require(ORDERS[0] <= order <= ORDERS[1], "order", order, f"{ORDERS[0]} to {ORDERS[1]}")
+    require(ORDER[0] <= order <= ORDER[1], "order", order, f"{ORDER[0]} to {ORDER[1]}")
     # No errors are estimated: closures differ by more.
     resolution = LEVELS[case.method.accuracy].resolution
-    chosen = {"as_printed": False, "closure_start": "inner-radius"}
+    chosen = {
+        "as_printed": False,
+        "closure_start": "inner-radius",
+        "closure": "linear",
+        "pairs": None,
+    }
     paper = solve(_by(case, model="paper", **chosen), resolution)
     direct = solve(_by(case, model="direct"), resolution)
     pressures: dict[str, float | None] = dict.fromkeys(CLOSURES)
@@ -94,37 +98,13 @@ def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison
     printed = replace(paper.seated, case=_by(paper.case, as_printed=True))
     pressures["printed"] = balance_pressure(printed)
     pairs = opening_pairs(case)
-    if pairs is None or len(pairs[0]) <= order:
+    series = None if pairs is None else series_through(case, pairs, order)
+    if pairs is None or series is None:
         return found
-    alpha, radius = pairs
-    start = float(radius[0])
-    first, *width = case.stone.shape.width(alpha)
-    coefficients = fit_series(np.array(width), radius[1:], first, case.size_ratio, order, start)
     # Back to a pressure by the law that the pairs are of, so that each pair gives its own.
     whole = replace(paper.seated, case=_by(paper.case, far_field_ground=True))
-    pressures["series"] = balance_pressure(
-        whole, lambda rho, rho0, xi: series_closure(rho, rho0, xi, coefficients, start)
-    )
-    return replace(found, coefficients=coefficients, pairs=pairs)
-
-
-def opening_pairs(
-    case: Case,
-) -> tuple[Float[np.ndarray, " pairs"], Float[np.ndarray, " pairs"]] | None:
-    """α and r_a/R_a of frictionless direct states with rising P_u, from P_u = 0 on, α up to 90°.
-
-    Without friction, because the series begins at the seated stone, as the wall opens then. None
-    where no such states are found.
-    """
-    bare = _by(case.with_friction(0.0), model="direct")
-    rising = LAST_PAIR * opening_pressure(case) * np.linspace(0.0, 1.0, PAIRS)
-    states = push_along(bare, [Pressure(float(p)) for p in rising], LEVELS["fast"].resolution)
-    kept = [s for s in states if isinstance(s, PushedState) and s.contact_angle <= np.pi / 2]
-    if not kept:
-        return None
-    radii = [opened_radius(case, s.urine_pressure) for s in kept]
-    pairs = [(s.contact_angle, r) for s, r in zip(kept, radii, strict=True) if r is not None]
-    return np.array([alpha for alpha, _ in pairs]), np.array([r for _, r in pairs])
+    pressures["series"] = balance_pressure(whole, series)
+    return replace(found, series=series, pairs=pairs)
 
 
 def closure_map(

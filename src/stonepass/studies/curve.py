@@ -6,8 +6,10 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
 from dataclasses import replace
 
+from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.critical import Answer, solve
+from stonepass.model.critical import solve
+from stonepass.model.elements import Elements
 from stonepass.studies.executor import can_travel, executor
 
 __all__ = ["curve", "solve_slim"]
@@ -33,9 +35,9 @@ def curve(
         return [future.result() for future in futures]
 
 
-def solve_slim(case: Case) -> Answer:
+def solve_slim(case: Case, elements: Elements | None = None) -> Answer:
     """Solve, and leave the stress field behind."""
-    answer = solve(case)
+    answer = solve(case, elements=elements)
     seated, pushed = answer.seated, answer.pushed
     return replace(
         answer,

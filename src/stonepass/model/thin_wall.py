@@ -1,0 +1,184 @@
+"""A thin wall as a beam on an elastic foundation (`model: beam`; paper, section 3.3, Eqs 23–28).
+
+Fibres along the tube bend like a beam of unit width, fibres round it are the springs under it, and
+the stone presses on it as a disc does on a half-plane (Hertz). Lengths here are in inner radii.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.errors import BadInput, Outcome, require
+from stonepass.materials.secant import secant_moduli
+from stonepass.model.answer import Answer, unanswered
+from stonepass.model.case import Case
+from stonepass.model.closure import linear_closure
+from stonepass.model.far_field import far_field_law
+from stonepass.model.roots import first_root
+from stonepass.units import Values
+
+__all__ = ["BeamState", "beam_state", "largest_beam_size", "solve_by_beam"]
+
+THICKEST = 1.5  # η
+WIDEST = 2.0  # ξ
+THIN, SMALL = 0.1, 0.1  # of the inner radius: what is called so without a warning
+WHY = "the beam model is of a thin free tube round a sphere: take the paper's or the direct model"
+
+
+@dataclass(frozen=True)
+class BeamState:
+    """Disc and beam in contact, without urine.
+
+    Attributes
+    ----------
+    circumferential_modulus, longitudinal_modulus : float
+        E₁ and E₂ in Pa.
+    foundation : float
+        k = h E₁/R_a² (Eq. 23) in Pa per inner radius of deflection.
+    decay : float
+        β = (3k/(E₂ h³))^¼ per inner radius. Printed (Eq. 24) with a square root, which has the
+        wrong units and is not that of a point load on a Winkler beam.
+    line_load : float
+        F_n = 2 k δ/β (Eq. 24), in Pa × inner radius, δ = R_s − R_a.
+    half_length : float
+        a = √(4 R_s F_n/(π E₂)) (Eq. 25), half the contact's length in inner radii.
+    """
+
+    case: Case
+    circumferential_modulus: float
+    longitudinal_modulus: float
+    foundation: float
+    decay: float
+    line_load: float
+    half_length: float
+
+    @property
+    def contact_angle(self) -> float:
+        """α₀ in rad, cos α₀ = a/R_s."""
+        return float(np.arccos(self.half_length / self.case.size_ratio))
+
+    @property
+    def downstream_angle(self) -> float:
+        """π − α₀ in rad."""
+        return float(np.pi - self.contact_angle)
+
+    @property
+    def peak_contact_pressure(self) -> float:
+        """2 F_n/(π a) in Pa, at the equator."""
+        return 2.0 * self.line_load / (np.pi * self.half_length)
+
+    @property
+    def equator_contact_pressure(self) -> float:
+        """σ(π/2) in Pa."""
+        return self.peak_contact_pressure
+
+    def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
+        """σ(θ) in Pa, half an ellipse over R_s cos θ."""
+        share = self.case.size_ratio * np.cos(theta) / self.half_length
+        return np.asarray(self.peak_contact_pressure * np.sqrt(np.maximum(1.0 - share**2, 0.0)))
+
+    def friction(self, y: Values) -> Values:
+        """F_re in Pa × inner radius² of what is closed up to y = a − x upstream (Eq. 26)."""
+        t = y / self.half_length
+        arc = t / 2.0 * np.sqrt(np.maximum(1.0 - t**2, 0.0)) + np.arcsin(t) / 2.0 + np.pi / 4.0
+        case = self.case
+        return 4.0 * self.line_load * case.stone.friction * case.size_ratio * arc
+
+    def urine_pressure(self, y: Values) -> Values:
+        """P_u in Pa where the wall has opened to y = a − x: k (r_a − R_a), Eqs 27, 28.
+
+        Eq. 28 is Eq. 15 with sin α = √(1 − (y/R_s)²).
+        """
+        xi = self.case.size_ratio
+        width, first = (np.sqrt(1.0 - (each / xi) ** 2) for each in (y, self.half_length))
+        return self.foundation * (linear_closure(width, float(first), xi) - 1.0)
+
+    def warnings(self) -> list[str]:
+        """Where the beam's assumptions are strained."""
+        found, reach = [], self.half_length * self.decay
+        if reach > 1.0:
+            found.append(
+                f"half the contact is {reach:.2g} decay lengths of the beam long, which takes the "
+                "stone's push as a point load"
+            )
+        thick, wide = self.case.wall_ratio - 1.0, self.case.size_ratio - 1.0
+        if thick > THIN or wide > SMALL:
+            found.append(
+                f"the wall is {thick:.2g} inner radii thick and widened by {wide:.2g} of them, "
+                "which the beam takes as small"
+            )
+        return found
+
+
+def beam_state(case: Case) -> BeamState:
+    """Press the beam on the stone.
+
+    Raises
+    ------
+    BadInput
+        A stone that is no sphere, a tube under load or pre-stretch, a wall that is not thin.
+    """
+    load, eta = case.load, case.wall_ratio
+    stone = case.stone.shape
+    require(stone.spheroidal and stone.aspect == 1.0, "shape of the stone", "no sphere", "a sphere",
+            WHY)  # fmt: skip
+    require(eta <= THICKEST, "wall ratio", round(eta, 6), f"at most {THICKEST:g}", WHY)
+    if load.confining_pressure > 0.0:
+        shown = f"{load.confining_pressure / 1e3:g} kPa"
+        raise BadInput("confining pressure", shown, "none", WHY)
+    require(load.prestretch == 1.0, "prestretch", load.prestretch, "1", WHY)
+    hoop, axial = _moduli(case)
+    h = eta - 1.0
+    foundation = h * hoop
+    decay = (3.0 * foundation / (axial * h**3)) ** 0.25
+    line_load = 2.0 * foundation * (case.size_ratio - 1.0) / decay
+    half_length = float(np.sqrt(4.0 * case.size_ratio * line_load / (np.pi * axial)))
+    return BeamState(case, hoop, axial, foundation, decay, line_load, half_length)
+
+
+def largest_beam_size(case: Case) -> float:
+    """ξ below which the contact is shorter than the stone: a < R_s where c (ξ − 1) < ξ."""
+    at_one = beam_state(case.with_size_ratio(2.0))
+    c = at_one.half_length**2 / 2.0
+    return WIDEST if c <= 2.0 else c / (c - 1.0) * (1.0 - 1e-9)
+
+
+def solve_by_beam(case: Case) -> Answer:
+    """Answer a stuck stone by the beam."""
+    state = beam_state(case)
+    a, xi = state.half_length, case.size_ratio
+    if not a < xi:
+        reason = (
+            f"the beam model does not hold: half the contact would be {a:.3g} inner radii long, as "
+            f"long as the stone's radius or longer, {xi:.3g}"
+        )
+        return unanswered(case, Outcome.NO_SOLUTION, reason)
+
+    def excess(y: Values) -> Values:
+        return state.friction(y) - state.urine_pressure(y) * np.pi * (xi**2 - y**2)
+
+    root = a if case.stone.friction == 0.0 else first_root(excess, a, 0.0)
+    found = Outcome.BEYOND_CLOSURE if root is None else Outcome.MOVES
+    return Answer(
+        case=case,
+        outcome=found,
+        message=found.value,
+        pressure=None if root is None else float(state.urine_pressure(root)),
+        critical_angle=None if root is None else float(np.arccos(root / xi)),
+        closure_end_pressure=float(state.urine_pressure(0.0)),
+        beam=state,
+        warnings=tuple(state.warnings()),
+    )
+
+
+def _moduli(case: Case) -> tuple[float, float]:
+    """E₁ and E₂ in Pa: given, or secants of the wall's law."""
+    method = case.method
+    if method.secant_stretch is not None:
+        return secant_moduli(far_field_law(case), method.secant_stretch)
+    given = method.circumferential_modulus, method.longitudinal_modulus
+    hoop, axial = (float(each) for each in given if each is not None)  # Method has asked for both
+    return hoop, axial

@@ -1,0 +1,217 @@
+"""Remembered finite-element results: the same to the bit, of the right case, and never trusted."""
+
+import dataclasses
+import json
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.errors import BadInput
+from stonepass.model.accuracy import LEVELS
+from stonepass.model.afresh import AFRESH
+from stonepass.model.elements import Elements
+from stonepass.studies.plain import from_plain, to_plain
+from stonepass.studies.store import Store, default_folder
+
+FAST = sp.Method(accuracy="fast")
+
+
+def case(xi=1.2, mu=0.4, method=FAST, **stone):
+    stone = sp.Stone(size_ratio=xi, friction=mu, **stone)
+    return sp.Case(stone, sp.Ureter(wall_ratio=1.5, material="latex"), method=method)
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """Names of what was solved afresh."""
+    found = []
+    for name in ("seat", "push", "pairs"):
+        original = getattr(AFRESH, name)
+
+        def called(*arguments, _name=name, _original=original, **keywords):
+            found.append(_name)
+            return _original(*arguments, **keywords)
+
+        monkeypatch.setattr(type(AFRESH), name, staticmethod(called))
+    return found
+
+
+def files(store):
+    return [path for path in store.folder.rglob("*") if path.is_file()]
+
+
+def assert_same(one, other):
+    """Equal to the bit, arrays and all."""
+    assert type(one) is type(other)
+    if isinstance(one, np.ndarray):
+        np.testing.assert_array_equal(one, other)
+    elif dataclasses.is_dataclass(one):
+        for each in dataclasses.fields(one):
+            assert_same(getattr(one, each.name), getattr(other, each.name))
+    elif isinstance(one, tuple):
+        for a, b in zip(one, other, strict=True):
+            assert_same(a, b)
+    else:
+        assert one == other
+
+
+@pytest.mark.parametrize(
+    "method",
+    [
+        FAST,
+        sp.Method(accuracy="fast", model="direct"),
+        sp.Method(accuracy="fast", closure="series"),
+    ],
+    ids=["paper", "direct", "series"],
+)
+def test_an_answer_remembered_is_the_answer(tmp_path, solved, method):
+    store = Store(tmp_path, walls=True)
+    assert isinstance(store, Elements)
+    first = sp.solve(case(method=method), elements=store)
+    count = len(solved)
+    assert count >= 1
+    second = sp.solve(case(method=method), elements=store)
+    assert len(solved) == count
+    assert_same(first, second)
+    assert first.pressure == sp.solve(case(method=method)).pressure
+    assert len(files(store)) == count
+
+
+def test_a_failure_is_remembered_too(tmp_path, solved):
+    store = Store(tmp_path)
+    question = case(1.3, 1.9, sp.Method(accuracy="fast", model="direct"))
+    first = sp.solve(question, elements=store)
+    second = sp.solve(question, elements=store)
+    assert first.outcome is second.outcome is sp.Outcome.NO_SOLUTION
+    assert first.message == second.message
+    assert solved == ["push"]
+
+
+def test_what_a_result_depends_on_and_what_not(tmp_path, solved):
+    store = Store(tmp_path)
+    sp.solve(case(), elements=store)
+    same = [
+        case(method=dataclasses.replace(FAST, as_printed=True)),
+        case(method=dataclasses.replace(FAST, closure_start="lumen")),
+        case(mu=0.7, method=dataclasses.replace(FAST, seating_friction=0.4)),
+        sp.Case(sp.Stone("3 mm", 0.4), sp.Ureter("2.5 mm", "3.75 mm", "latex"), method=FAST),
+    ]
+    pressures = {sp.solve(each, elements=store).pressure for each in same}
+    assert solved == ["seat"]
+    assert len(pressures) > 1  # of other balances, not of the first one again
+    other = [
+        case(1.21),
+        case(mu=0.41),
+        case(method=sp.Method()),
+        case(method=dataclasses.replace(FAST, seating="growing")),
+        case(method=dataclasses.replace(FAST, half_length=11.0)),
+        case(shape=sp.Shape(1.1)),
+        dataclasses.replace(case(), load=sp.Load("1 kPa")),
+        dataclasses.replace(case(), ureter=sp.Ureter(wall_ratio=1.51, material="latex")),
+        dataclasses.replace(case(), ureter=sp.Ureter(wall_ratio=1.5)),
+    ]
+    for count, each in enumerate(other, start=2):
+        assert sp.solve(each, elements=store).case == each
+        assert len(solved) == count
+
+
+def test_a_case_of_another_size_gets_its_own_lengths(tmp_path):
+    store = Store(tmp_path)
+    sp.solve(case(), elements=store)
+    sized = sp.Case(sp.Stone("3 mm", 0.4), sp.Ureter("2.5 mm", "3.75 mm", "latex"), method=FAST)
+    found = sp.solve(sized, elements=store)
+    assert found.case is sized
+    assert found.seated.case is sized
+    assert found.seated.coarse.case is sized
+
+
+def test_walls_are_kept_where_they_are_wanted(tmp_path, solved):
+    slim, full = Store(tmp_path), Store(tmp_path, walls=True)
+    assert slim.seat(case(), None).wall is None
+    assert full.seat(case(), None).wall is not None
+    assert solved == ["seat", "seat"]
+    assert slim.seat(case(), None).wall is not None  # the fuller one serves both
+    assert len(solved) == 2
+    assert len(files(full)) == 1
+
+
+@pytest.mark.parametrize("where", [0, 40, 200, -1])
+def test_a_corrupt_file_is_set_aside_and_solved_again(tmp_path, solved, where):
+    store = Store(tmp_path)
+    first = sp.solve(case(), elements=store)
+    (path,) = files(store)
+    raw = bytearray(path.read_bytes())
+    raw[where] ^= 1
+    path.write_bytes(raw)
+    assert store.set_aside() == 0
+    assert_same(first.pressure, sp.solve(case(), elements=store).pressure)
+    assert store.set_aside() == 1
+    assert len(solved) == 2
+    sp.solve(case(), elements=store)
+    assert len(solved) == 2
+
+
+@pytest.mark.parametrize("content", [b"", b"short", b"\0" * 5000])
+def test_a_file_of_another_kind_is_corrupt(tmp_path, content):
+    store = Store(tmp_path)
+    sp.solve(case(), elements=store)
+    (path,) = files(store)
+    path.write_bytes(content)
+    assert sp.solve(case(), elements=store).pressure > 0.0
+    assert store.set_aside() == 1
+
+
+def test_another_solver_solves_again(tmp_path, solved, monkeypatch):
+    store = Store(tmp_path)
+    sp.solve(case(), elements=store)
+    monkeypatch.setattr("stonepass.studies.store._solver", lambda: "another")
+    sp.solve(case(), elements=store)
+    assert len(solved) == 2
+
+
+def test_a_law_that_cannot_be_written_down_is_not_remembered(tmp_path, solved):
+    law = Path(__file__).parents[1] / "examples" / "own_law.py"
+    question = sp.Case(
+        sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=f"{law}:energy"),
+        method=sp.Method(accuracy="fast", seating="frictionless"),
+    )  # fmt: skip
+    for _ in range(2):
+        sp.solve(question, elements=Store(tmp_path))
+    assert len(solved) == 2
+    assert files(Store(tmp_path)) == []
+
+
+def _solve_in(folder):
+    return sp.solve(case(), elements=Store(folder)).pressure
+
+
+def test_processes_share_a_folder(tmp_path):
+    with get_context("spawn").Pool(2) as pool:
+        pressures = pool.map(_solve_in, [tmp_path] * 4)
+    assert len(set(pressures)) == 1
+    assert len(files(Store(tmp_path))) == 1
+    assert Store(tmp_path).set_aside() == 0
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(BadInput, match="cache folder"):
+        sp.solve(case(), elements=Store(tmp_path / "file"))
+
+
+def test_the_folder_by_its_name(monkeypatch, tmp_path):
+    monkeypatch.setenv("STONEPASS_CACHE", str(tmp_path))
+    assert default_folder() == tmp_path
+    monkeypatch.delenv("STONEPASS_CACHE")
+    assert default_folder().name == "stonepass"
+
+
+def test_nothing_that_is_not_finite_is_written():
+    state = sp.seat(case(), LEVELS["fast"].companion)
+    document, arrays = to_plain(state)
+    assert_same(state, from_plain(json.loads(json.dumps(document)), arrays, state.case))
+    with pytest.raises(FloatingPointError):
+        to_plain(dataclasses.replace(state, contact_angle=float("nan")))

@@ -206,8 +206,14 @@ def test_a_series_as_the_closure_of_an_answer(compared, tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("alpha_deg,radius_ratio\n70,1\n95,1.1\n", "alpha of pair 2 is 95°, but must be above 0°"),
-        ("alpha_deg,radius_ratio\n70,1\n80,0\n", "radius ratio of pair 2 is 0.0, but must be 0.1"),
+        (
+            "alpha_deg,radius_ratio\n70,1\n95,1.1\n",
+            "row 3, column 'alpha_deg' is 95, but must be a number from",
+        ),
+        (
+            "alpha_deg,radius_ratio\n70,1\n80,0\n",
+            "row 3, column 'radius_ratio' is 0, but must be a number",
+        ),
         ("alpha,radius_ratio\n70,1\n", "column is alpha, but must be one of alpha_deg"),
         ("alpha_deg,radius_ratio\n70,one\n", "row 2, column 'radius_ratio' is one"),
     ],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +18,14 @@ LARGEST_FILE = 10_000_000  # bytes
 
 
 def read_columns(
-    path: Path, required: Sequence[str], optional: Sequence[str] = ()
+    path: Path,
+    required: Sequence[str],
+    optional: Sequence[str] = (),
+    bounds: Mapping[str, tuple[float, float]] | None = None,
 ) -> dict[str, Float[np.ndarray, " rows"]]:
     """Read columns of numbers by the names in the first row, in any order.
+
+    `bounds` has the least and the largest number allowed in a column.
 
     Empty lines and those that begin with ``#`` are left out; rows count as an editor's lines do.
 
@@ -29,7 +34,8 @@ def read_columns(
     BadInput
         Naming the file, and row and column where one is at fault: a missing file, one larger than
         10 MB or not of text, a column that is missing, unknown (with the nearest known one) or
-        there twice, a row of another length, a cell that is no finite number, no rows at all.
+        there twice, a row of another length, a cell that is no finite number or out of bounds, no
+        rows at all.
     """
     rows = _rows(path)
     if not rows:
@@ -38,7 +44,9 @@ def read_columns(
     _check_header(path, header, required, optional)
     if len(rows) == 1:
         raise BadInput("file", str(path), "a table with at least one row under its header")
-    values = np.array([_numbers(path, line, header, cells) for line, cells in rows[1:]])
+    values = np.array(
+        [_numbers(path, line, header, cells, bounds or {}) for line, cells in rows[1:]]
+    )
     return {name: values[:, k] for k, name in enumerate(header)}
 
 
@@ -76,7 +84,13 @@ def _check_header(
             raise BadInput(f"in {path.name}, column '{name}'", "missing", "given")
 
 
-def _numbers(path: Path, line: int, header: list[str], cells: list[str]) -> list[float]:
+def _numbers(
+    path: Path,
+    line: int,
+    header: list[str],
+    cells: list[str],
+    bounds: Mapping[str, tuple[float, float]],
+) -> list[float]:
     if len(cells) != len(header):
         raise BadInput(
             f"in {path.name}, row {line}", f"{len(cells)} cells", f"{len(header)}, as in the header"
@@ -87,7 +101,10 @@ def _numbers(path: Path, line: int, header: list[str], cells: list[str]) -> list
             value = float(cell)
         except ValueError:
             value = math.nan
-        if not math.isfinite(value):
-            raise BadInput(f"in {path.name}, row {line}, column '{name}'", cell, "a number")
+        low, high = bounds.get(name, (-math.inf, math.inf))
+        if not (math.isfinite(value) and low <= value <= high):
+            within = f" from {low:g} to {high:g}" if name in bounds else ""
+            where = f"in {path.name}, row {line}, column '{name}'"
+            raise BadInput(where, cell, f"a number{within}")
         found.append(value)
     return found

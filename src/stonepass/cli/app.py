@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import stonepass
-from stonepass.cli import closures, curve, headline, material, pressure, push, size
+from stonepass.cli import closures, curve, headline, material, paper, pressure, push, size
 
 __all__ = ["app"]
 
@@ -43,4 +43,5 @@ app.command("curve")(curve.command)
 app.command("push")(push.command)
 app.command("closures")(closures.command)
 app.command("headline")(headline.command)
+app.command("paper")(paper.command)
 app.add_typer(material.app, name="material")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
@@ -96,6 +96,15 @@ class Answer:
     newton_steps: int = 0
     seconds: float = 0.0
     warnings: tuple[str, ...] = ()
+
+    def without_wall(self) -> Answer:
+        """Return the same answer without the stress field, which is most of its size."""
+        seated, pushed = self.seated, self.pushed
+        return replace(
+            self,
+            seated=None if seated is None else replace(seated, wall=None),
+            pushed=None if pushed is None else replace(pushed, wall=None),
+        )
 
     @property
     def state(self) -> SeatedState | PushedState | None:

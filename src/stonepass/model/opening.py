@@ -50,11 +50,7 @@ def read_pairs(path: Path) -> Pairs:
     BadInput
         Naming the file, and row and column where one is at fault.
     """
-    columns = read_columns(path, ("alpha_deg", "radius_ratio"))
+    bounds = {"alpha_deg": (1e-3, 90.0), "radius_ratio": RADIUS}
+    columns = read_columns(path, tuple(bounds), bounds=bounds)
     alpha, radius = np.radians(columns["alpha_deg"]), columns["radius_ratio"]
-    try:
-        return Pairs(tuple(alpha.tolist()), tuple(radius.tolist()), str(path))
-    except BadInput as problem:
-        raise BadInput(
-            f"in {path.name}, {problem.argument}", problem.value, problem.allowed, problem.remedy
-        ) from problem
+    return Pairs(tuple(alpha.tolist()), tuple(radius.tolist()), str(path))

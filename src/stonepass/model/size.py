@@ -21,6 +21,7 @@ from stonepass.units import Length, Pressure, pressure
 __all__ = ["SizeAnswer", "critical_size"]
 
 SIZE_TOLERANCE = 1e-6
+LIMIT_TOLERANCE = 1e-6  # of the limit: P_ucr grows at several limits per unit of ξ
 SLOPE_BASE = 1e-4  # sizes nearer than this say too little of the slope
 # Stones less than this fraction above the lumen are not told from the lumen itself.
 SMALLEST_OVERSIZE = 2e-4
@@ -141,7 +142,8 @@ def _search(
             if size_ratio < smallest:  # P_ucr vanishes at the lumen: a straight line from there
                 share = (size_ratio - lumen) / (smallest - lumen)
                 return share * (excess(smallest) + limit) - limit
-            return excess(size_ratio)
+            missed = excess(size_ratio)
+            return 0.0 if abs(missed) < LIMIT_TOLERANCE * limit else missed
 
         root = float(brentq(bracketed, lumen, high, xtol=SIZE_TOLERANCE))
     except _Unanswered as stop:

@@ -11,20 +11,15 @@ from typing import Any
 import numpy as np
 
 from stonepass.model.answer import Answer
-from stonepass.model.case import Case, Load, Stone, Ureter
+from stonepass.model.case import Load, Ureter
 from stonepass.model.size import SizeAnswer, critical_size
+from stonepass.paper.inputs import CONFINING, FRICTION, LIMIT, PUBLISHED, ureter_case
 from stonepass.studies.curve import solve_slim
 from stonepass.studies.executor import executor
-from stonepass.units import Pressure
 
-__all__ = ["CONFINING", "FRICTION", "LIMIT", "PUBLISHED", "Wall", "headline"]
+__all__ = ["Wall", "headline"]
 
-LIMIT = Pressure(12e3)  # the paper's bearable pressure, a pig study; see the theory page
-FRICTION = 0.5
-# wall ratio η: published ξ_cr, Fung wall, friction 0.5, no confining pressure (paper, Fig. 8a)
-PUBLISHED = {1.30: 1.22, 3.40: 1.11}
 SIZE_RATIOS = tuple(float(x) for x in np.round(np.linspace(1.0, 1.3, 11), 10))
-CONFINING = (Pressure(4e3), Pressure(8e3))  # beside none (paper, Fig. 8c)
 
 
 @dataclass(frozen=True)
@@ -67,11 +62,11 @@ def headline(progress: Callable[[int, int], None] | None = None, workers: int = 
             for eta in PUBLISHED
         }
         curves = {
-            eta: [pool.submit(solve_slim, _case(eta, xi, Load())) for xi in SIZE_RATIOS]
+            eta: [pool.submit(solve_slim, ureter_case(eta, xi, Load())) for xi in SIZE_RATIOS]
             for eta in PUBLISHED
         }
         confined = {
-            eta: [pool.submit(solve_slim, _case(eta, xi, load)) for load in loads]
+            eta: [pool.submit(solve_slim, ureter_case(eta, xi, load)) for load in loads]
             for eta, xi in PUBLISHED.items()
         }
         everything: list[Future[Any]] = [
@@ -91,9 +86,3 @@ def headline(progress: Callable[[int, int], None] | None = None, workers: int = 
             )
             for eta, published in PUBLISHED.items()
         ]
-
-
-def _case(wall_ratio: float, size_ratio: float, load: Load) -> Case:
-    return Case(
-        Stone(size_ratio=size_ratio, friction=FRICTION), Ureter(wall_ratio=wall_ratio), load
-    )

@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from rich import box
 from rich.table import Table
 
-from stonepass.paper.headline import FRICTION, LIMIT, Wall
+from stonepass.paper.headline import Wall
+from stonepass.paper.inputs import FRICTION, LIMIT
 from stonepass.report.curve_figure import draw_curve, frame_curve
 from stonepass.report.style import COLOURS, new_figure
 

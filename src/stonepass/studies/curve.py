@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
-from dataclasses import replace
 
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -37,10 +36,4 @@ def curve(
 
 def solve_slim(case: Case, elements: Elements | None = None) -> Answer:
     """Solve, and leave the stress field behind."""
-    answer = solve(case, elements=elements)
-    seated, pushed = answer.seated, answer.pushed
-    return replace(
-        answer,
-        seated=None if seated is None else replace(seated, wall=None),
-        pushed=None if pushed is None else replace(pushed, wall=None),
-    )
+    return solve(case, elements=elements).without_wall()

@@ -1,0 +1,80 @@
+"""``stonepass paper``: every computed result of the paper, by one command."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+__all__ = ["command"]
+
+
+def command(
+    parts: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[PART]...",
+            help="fig4 to fig9, friction, sensitivity, claims or all.  [default: all]",
+        ),
+    ] = None,
+    out: Annotated[
+        Path, typer.Option("--out", metavar="DIR", help="Folder for pictures, data, index.html.")
+    ] = Path("paper"),
+    limit: Annotated[
+        str, typer.Option("--limit", metavar="PRESSURE", help="Bearable urine pressure.")
+    ] = "12kPa",
+    points: Annotated[
+        Path | None,
+        typer.Option(
+            "--points",
+            metavar="FILE.csv",
+            help="Measured pressures for Fig. 6: xi, eta, confining_kPa, pressure_kPa[, sd_kPa].",
+        ),
+    ] = None,
+    cache: Annotated[
+        Path | None,
+        typer.Option(
+            "--cache", metavar="DIR", help="Remembered results.  [default: the user's cache folder]"
+        ),
+    ] = None,
+    no_cache: Annotated[
+        bool, typer.Option("--no-cache", help="Solve everything, and remember nothing.")
+    ] = False,
+    workers: Annotated[
+        int | None, typer.Option("--workers", min=1, help="Processes.  [default: all cores]")
+    ] = None,
+) -> int:
+    """Reproduce the paper: figures (SVG, PNG), data (CSV), and a page of claims beside ours.
+
+    What was solved is remembered, so that a second time takes seconds. Exit code 0 where every
+    claim that can be judged is reproduced, else 1.
+    """
+    from stonepass.cli.terminal import counting, show, warn
+    from stonepass.errors import BadInput
+    from stonepass.model.points import read_points
+    from stonepass.paper.claims_table import claims_table
+    from stonepass.paper.run import chosen, reproduce
+    from stonepass.paper.section import Asked
+    from stonepass.report.record import DISCLAIMER
+    from stonepass.studies.store import Store, default_folder
+    from stonepass.units import pressure
+
+    if no_cache and cache is not None:
+        raise BadInput("combination of --cache and --no-cache", "ambiguous", "one of the two")
+    names = chosen(parts or [])
+    asked = Asked(pressure(limit, "--limit"), () if points is None else read_points(points))
+    folder = None if no_cache else (cache or default_folder())
+    before = 0 if folder is None else Store(folder).set_aside()
+    count = workers or os.cpu_count() or 1
+    with counting("solving") as progress:
+        sections = reproduce(names, out, asked, folder, count, progress)
+    claims = [claim for section in sections for claim in section.claims]
+    if claims:
+        show(claims_table(claims))
+    show(f"Page: {out / 'index.html'}", DISCLAIMER)
+    spoilt = 0 if folder is None else Store(folder).set_aside() - before
+    if spoilt:
+        warn([f"{spoilt} remembered results were corrupt: set aside in {folder}, solved again"])
+    return 1 if any(claim.holds is False for claim in claims) else 0

@@ -1,0 +1,26 @@
+"""Published claims beside ours, for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rich import box
+from rich.table import Table
+
+from stonepass.paper.section import Claim
+
+__all__ = ["claims_table"]
+
+_MARKS = {True: "yes", False: "NO", None: "–"}
+
+
+def claims_table(claims: Sequence[Claim]) -> Table:
+    """One row for each claim, with the reason where it is not reproduced or not judged."""
+    table = Table(box=box.SIMPLE_HEAD, title="Published claims", title_justify="left")
+    for column in ("claim", "published", "ours", "reproduced"):
+        table.add_column(column)
+    for claim in claims:
+        table.add_row(claim.what, claim.published, claim.ours, _MARKS[claim.holds])
+        if claim.holds is not True:
+            table.add_row(f"  [dim]{claim.reason}[/dim]", "", "", "")
+    return table

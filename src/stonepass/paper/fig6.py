@@ -1,0 +1,165 @@
+"""Fig. 6: critical pressure of spheres in latex tubes, in air and under water."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from stonepass.model.answer import Answer
+from stonepass.model.case import Case, Load
+from stonepass.model.points import Point
+from stonepass.paper.inputs import LATEX_WALLS, WATER, latex_case
+from stonepass.paper.jobs import Job, PressureJob, Results
+from stonepass.paper.section import Asked, Claim, Picture, Section, Table
+from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+
+__all__ = ["Fig6"]
+
+SIZES = tuple(float(x) for x in np.round(np.linspace(1.0, 1.5, 11), 10))
+LOADS = (Load(), Load(WATER, "hydrostatic"), Load(WATER, "dead"))
+SHADES = dict(zip(LATEX_WALLS, ("blue", "orange", "green"), strict=True))
+LINES = ("-", "-", "--")
+
+
+class Fig6:
+    """Three tubes, in air and under 540 mm of water, with measured points where they are given."""
+
+    def jobs(self, asked: Asked) -> list[Job]:
+        """Curves, and the cases of the points."""
+        curves = [
+            PressureJob(latex_case(eta, xi, load))
+            for load in LOADS
+            for eta in LATEX_WALLS
+            for xi in SIZES
+        ]
+        return [*curves, *(PressureJob(_case(point)) for point in asked.points)]
+
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
+        """Draw both panels, write the curves, compare with points."""
+        figure = new_figure(9.2, 4.0)
+        air, water = (figure.add_subplot(1, 2, k) for k in (1, 2))
+        rows = []
+        for load, line in zip(LOADS, LINES, strict=True):
+            axes = water if load.confining_pressure > 0.0 else air
+            for eta in LATEX_WALLS:
+                curve = [found.answer(latex_case(eta, xi, load)) for xi in SIZES]
+                label = f"η = {eta:g}" if line == "-" else None
+                _draw(axes, curve, COLOURS[SHADES[eta]], line, label)
+                rows += [_row(answer) for answer in curve]
+        if asked.points:
+            _draw_points(air, water, asked.points)
+        water.plot([], [], color=COLOURS["ink"], linestyle="--", label="dead load (Eq. 10)")
+        for axes, title in ((air, "In air"), (water, f"Under {WATER / 1e3:g} kPa of water")):
+            axes.set(xlabel="size ratio ξ", ylabel="critical pressure (kPa)", ylim=(0, None))
+            axes.set_title(title)
+            axes.legend(loc="upper left", fontsize=8)
+            tidy(axes)
+            add_mmhg_axis(axes)
+        caption = (
+            "Critical pressure of steel spheres in latex tubes, friction 0.475. Under water the "
+            "pressure on the outer wall is hydrostatic (solid); Eq. 10 keeps its resultant instead "
+            "(dashed). Crosses: drive and resistance do not balance before the closure ends "
+            "(BEYOND_CLOSURE)."
+        )
+        header = ("wall_ratio", "confining_kPa", "confinement", "size_ratio", "outcome",
+                  "critical_pressure_kPa", "critical_pressure_error_kPa")  # fmt: skip
+        return Section.written(
+            "Fig. 6: the in-vitro series",
+            "",
+            folder,
+            [Picture("fig6", figure, caption)],
+            [Table("fig6", header, rows)],
+            [_grows(found), _agreement(found, asked.points)],
+        )
+
+
+def _case(point: Point) -> Case:
+    load = Load(point.confining_pressure, "hydrostatic" if point.confining_pressure else "dead")
+    return latex_case(point.wall_ratio, point.size_ratio, load)
+
+
+def _draw(axes: Axes, curve: Sequence[Answer], colour: str, line: str, label: str | None) -> None:
+    axes.plot(
+        [answer.case.size_ratio for answer in curve],
+        [np.nan if answer.pressure is None else answer.pressure / 1e3 for answer in curve],
+        color=colour,
+        linestyle=line,
+        label=label,
+    )
+    lost = [answer.case.size_ratio for answer in curve if answer.pressure is None]
+    if lost:
+        axes.plot(lost, np.zeros(len(lost)), "x", color=colour, markersize=5, clip_on=False)
+
+
+def _draw_points(air: Axes, water: Axes, points: Sequence[Point]) -> None:
+    walls = sorted({point.wall_ratio for point in points})
+    for axes, wet in ((air, False), (water, True)):
+        for eta in walls:
+            some = [p for p in points if p.wall_ratio == eta and (p.confining_pressure > 0) is wet]
+            if some:
+                axes.errorbar(
+                    [point.size_ratio for point in some],
+                    [point.pressure / 1e3 for point in some],
+                    yerr=[0.0 if point.sd is None else point.sd / 1e3 for point in some],
+                    fmt="o",
+                    markersize=4,
+                    capsize=2,
+                    color=COLOURS[SHADES.get(eta, "grey")],
+                    label=f"measured, η = {eta:g}",
+                )
+
+
+def _row(answer: Answer) -> list[object]:
+    case, error = answer.case, answer.error
+    claimed = None if error is None else error.critical_pressure
+    return [
+        case.wall_ratio,
+        case.load.confining_pressure / 1e3,
+        case.load.confinement if case.load.confining_pressure else "",
+        case.size_ratio,
+        answer.outcome.name,
+        None if answer.pressure is None else answer.pressure / 1e3,
+        None if claimed is None else claimed / 1e3,
+    ]
+
+
+def _grows(found: Results) -> Claim:
+    steps = []
+    for load in LOADS:
+        for eta in LATEX_WALLS:
+            curve = [found.answer(latex_case(eta, xi, load)).pressure for xi in SIZES]
+            known = [pressure for pressure in curve if pressure is not None]
+            steps += [after > before for before, after in pairwise(known)]
+    return Claim(
+        "in-vitro tubes: P_ucr grows with ξ (Fig. 6)",
+        "yes",
+        f"in {sum(steps)} of {len(steps)} steps",
+        all(steps) and len(steps) > 50,
+        "the curves themselves are not published",
+    )
+
+
+def _agreement(found: Results, points: Sequence[Point]) -> Claim:
+    what = "in-vitro tubes: theory agrees with experiment (Fig. 6)"
+    if not points:
+        reason = "the measured points are not published; give yours as --points FILE.csv"
+        return Claim(what, "agrees well", "not judged", None, reason)
+    errors = []
+    for point in points:
+        pressure = found.answer(_case(point)).pressure
+        if pressure is not None and point.pressure > 0.0:
+            errors.append(pressure / point.pressure - 1.0)
+    if not errors:
+        return Claim(what, "agrees well", "no point has an answer", False, "none can be compared")
+    rms, bias = float(np.sqrt(np.mean(np.square(errors)))), float(np.mean(errors))
+    return Claim(
+        what,
+        "agrees well",
+        f"bias {bias:+.1%}, root mean square {rms:.1%} over {len(errors)} points",
+        rms <= 0.2,
+        "20 % root mean square is what we call agreement of a model without fitted constants",
+    )

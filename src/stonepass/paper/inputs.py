@@ -1,0 +1,50 @@
+"""What the paper puts in and what it publishes (Liu et al. 2022); the only numbers typed in."""
+
+from __future__ import annotations
+
+from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.units import Pressure
+
+__all__ = [
+    "BEAM",
+    "CONFINING",
+    "FRICTION",
+    "INNER_DIAMETERS",
+    "LATEX_FRICTION",
+    "LATEX_WALLS",
+    "LIMIT",
+    "PUBLISHED",
+    "WATER",
+    "latex_case",
+    "ureter_case",
+]
+
+LIMIT = Pressure(12e3)  # the paper's bearable pressure, a pig study; see the theory page
+FRICTION = 0.5
+# wall ratio η: published ξ_cr, Fung wall, friction 0.5, no confining pressure (Fig. 8a)
+PUBLISHED = {1.30: 1.22, 3.40: 1.11}
+CONFINING = (Pressure(4e3), Pressure(8e3))  # beside none (Fig. 8c)
+INNER_DIAMETERS = (0.94e-3, 3.5e-3)  # m, of the narrowest and the widest ureter (section 3.2)
+LATEX_WALLS = (1.5, 1.57, 2.0)  # section 2.2
+LATEX_FRICTION = 0.475  # section 2.4.1
+WATER = Pressure(5.4e3)  # 540 mm under water (section 2.2)
+# E₁ and E₂ of the thin wall as a beam (section 3.3.2)
+BEAM = Method(
+    model="beam",
+    circumferential_modulus=Pressure(0.465e6),
+    longitudinal_modulus=Pressure(0.02e6),
+)
+
+
+def ureter_case(
+    wall_ratio: float, size_ratio: float, load: Load | None = None, method: Method | None = None
+) -> Case:
+    """A stone in the human ureter as the paper has it."""
+    stone = Stone(size_ratio=size_ratio, friction=FRICTION)
+    return Case(stone, Ureter(wall_ratio=wall_ratio), load or Load(), method or Method())
+
+
+def latex_case(wall_ratio: float, size_ratio: float, load: Load | None = None) -> Case:
+    """A steel sphere in a latex tube."""
+    stone = Stone(size_ratio=size_ratio, friction=LATEX_FRICTION)
+    return Case(stone, Ureter(wall_ratio=wall_ratio, material="latex"), load or Load())

@@ -1,0 +1,117 @@
+"""What the figures need solved: each job once, in a pool, with a store behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import as_completed
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from stonepass.model.accuracy import LEVELS
+from stonepass.model.answer import Answer
+from stonepass.model.case import Case
+from stonepass.model.critical import solve
+from stonepass.model.size import SizeAnswer, critical_size
+from stonepass.studies.executor import executor
+from stonepass.studies.store import Store
+from stonepass.units import Pressure
+
+__all__ = ["Job", "PressureJob", "Results", "SizeJob", "run_jobs"]
+
+
+@dataclass(frozen=True)
+class PressureJob:
+    """The critical pressure of a case, with its stress field where `wall` says so.
+
+    Without `error` the coarser companion is left out, and with it the estimate of the error.
+    """
+
+    case: Case
+    wall: bool = False
+    error: bool = True
+
+    def run(self, folder: Path | None) -> Answer:
+        """Solve it, or remember it from a folder."""
+        elements = None if folder is None else Store(folder, walls=self.wall)
+        alone = None if self.error else LEVELS[self.case.method.accuracy].resolution
+        answer = solve(self.case, alone, elements)
+        return answer if self.wall else answer.without_wall()
+
+
+@dataclass(frozen=True)
+class SizeJob:
+    """The critical size of a case, whatever its own size, at a limit."""
+
+    case: Case
+    limit: Pressure
+
+    def run(self, folder: Path | None) -> SizeAnswer:
+        """Solve it, or remember it from a folder."""
+        case = self.case
+        found = critical_size(
+            case.ureter,
+            self.limit,
+            case.stone.friction,
+            case.load,
+            case.method,
+            shape=case.stone.shape,
+            elements=None if folder is None else Store(folder),
+        )
+        return replace(
+            found, at_size=None if found.at_size is None else found.at_size.without_wall()
+        )
+
+
+Job = PressureJob | SizeJob
+
+
+@dataclass(frozen=True)
+class Results:
+    """What the jobs came to."""
+
+    pressures: dict[PressureJob, Answer]
+    sizes: dict[SizeJob, SizeAnswer]
+
+    def answer(self, case: Case, *, wall: bool = False, error: bool = True) -> Answer:
+        """The answer of a case."""
+        return self.pressures[PressureJob(case, wall, error)]
+
+    def size(self, case: Case, limit: Pressure) -> SizeAnswer:
+        """The critical size of a case."""
+        return self.sizes[SizeJob(case, limit)]
+
+    def of(self, jobs: Iterable[Job]) -> Results:
+        """Those of some jobs only."""
+        asked = set(jobs)
+        return Results(
+            {job: found for job, found in self.pressures.items() if job in asked},
+            {job: found for job, found in self.sizes.items() if job in asked},
+        )
+
+
+def run_jobs(
+    jobs: Iterable[Job],
+    folder: Path | None,
+    workers: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> Results:
+    """Run every job once; `progress` is told (done, all) after each."""
+    once = list(dict.fromkeys(jobs))
+    # Long ones first: sizes take several solves.
+    queue = sorted(once, key=lambda job: isinstance(job, PressureJob))
+    with executor(workers) as pool:
+        futures = {job: pool.submit(job.run, folder) for job in queue}
+        for done, _ in enumerate(as_completed(futures.values()), start=1):
+            if progress is not None:
+                progress(done, len(queue))
+        found = {job: future.result() for job, future in futures.items()}
+    pressures, sizes = {}, {}
+    for job in once:
+        answer = found[job]
+        if isinstance(job, PressureJob):
+            assert isinstance(answer, Answer)
+            pressures[job] = answer
+        else:
+            assert isinstance(answer, SizeAnswer)
+            sizes[job] = answer
+    return Results(pressures, sizes)

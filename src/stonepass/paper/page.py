@@ -1,0 +1,94 @@
+"""The page over a reproduction: claims beside ours, then every figure with its data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+from stonepass.errors import BadInput
+from stonepass.paper.section import Asked, Claim, Section
+from stonepass.report.record import DISCLAIMER, VERSION
+
+__all__ = ["write_page"]
+
+DOI = "10.1016/j.jmbbm.2022.105432"
+_STYLE = """
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #1f2937; max-width: 62rem; margin: 2rem auto;
+  padding: 0 1rem; }
+h1 { font-size: 1.7rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin-top: 2.6rem; }
+p.note, figcaption, footer { color: #4b5563; font-size: .9rem; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; font-size: .88rem; width: 100%; }
+th, td { text-align: left; vertical-align: top; padding: .4rem .6rem;
+  border-bottom: 1px solid #e5e7eb; }
+th { border-bottom: 2px solid #9ca3af; }
+td.mark { white-space: nowrap; font-weight: 600; }
+.yes { color: #00785a; } .no { color: #b54708; } .open { color: #6b7280; }
+figure { margin: 1rem 0; } img { max-width: 100%; height: auto; }
+"""
+_MARKS = {True: ("yes", "reproduced"), False: ("no", "differs"), None: ("open", "not judged")}
+
+
+def write_page(sections: Sequence[Section], asked: Asked, path: Path) -> None:
+    """Write one HTML page beside the files it shows."""
+    claims = [claim for section in sections for claim in section.claims]
+    body = [
+        "<h1>Critical size of a kidney stone: the paper, reproduced</h1>",
+        "<p>Every computed result of Liu et al. 2022, <cite>Critical size of kidney stone through "
+        f'ureter: A mechanical analysis</cite> (<a href="https://doi.org/{DOI}">doi {DOI}</a>)'
+        f", with its errata corrected; pressure limit {asked.limit / 1e3:g} kPa.</p>",
+    ]
+    if claims:
+        body += ["<h2>Published claims beside ours</h2>", _table(claims)]
+    for section in sections:
+        if section.pictures or section.files:
+            body += _section(section)
+    body.append(f"<footer><p>stonepass {VERSION}. {DISCLAIMER}</p></footer>")
+    text = (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>The paper, reproduced</title><style>{_STYLE}</style></head><body>\n"
+        + "\n".join(body)
+        + "\n</body></html>\n"
+    )
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as problem:
+        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
+
+
+def _table(claims: Sequence[Claim]) -> str:
+    header = ("claim", "published", "ours", "deviation", "", "reason")
+    rows = []
+    for claim in claims:
+        name, word = _MARKS[claim.holds]
+        off = "" if claim.deviation is None else f"{claim.deviation:+.3g}"
+        if claim.tolerance is not None:
+            off += f" (± {claim.tolerance:.3g})"
+        cells = (claim.what, claim.published, claim.ours, off)
+        rows.append(
+            "<tr>"
+            + "".join(f"<td>{escape(cell)}</td>" for cell in cells)
+            + f'<td class="mark {name}">{word}</td><td>{escape(claim.reason)}</td></tr>'
+        )
+    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
+    return (
+        f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>\n'
+        + "\n".join(rows)
+        + "\n</tbody></table></div>"
+    )
+
+
+def _section(section: Section) -> list[str]:
+    parts = [f"<h2>{escape(section.title)}</h2>"]
+    if section.text:
+        parts.append(f"<p>{escape(section.text)}</p>")
+    for name, caption in section.pictures:
+        parts.append(
+            f'<figure><img src="{name}.svg" alt="{escape(caption)}" loading="lazy">'
+            f'<figcaption>{escape(caption)} <a href="{name}.png">PNG</a></figcaption></figure>'
+        )
+    links = ", ".join(f'<a href="{name}">{escape(name)}</a>' for name in section.files)
+    return [*parts, f'<p class="note">Data: {links}</p>']

@@ -1,0 +1,270 @@
+"""Figs 4, 5 and 7: the wall stretched over the stone, its stress, and the contact pressure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Arc as Curve
+
+from stonepass.fe.readout import Field
+from stonepass.model.case import Case
+from stonepass.model.seated import SeatedState
+from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_case
+from stonepass.paper.jobs import Job, PressureJob, Results
+from stonepass.paper.section import Asked, Claim, Picture, Section, Table
+from stonepass.report.revolve import revolved_figure, write_vtu
+from stonepass.report.section import draw_section
+from stonepass.report.stone import draw_radii
+from stonepass.report.style import COLOURS, new_figure, tidy
+
+__all__ = ["Fig4", "Fig5", "Fig7"]
+
+LATEX_SIZE = 1.2
+SIZES = (1.1, 1.15, 1.2, 1.25, 1.3)  # of the profiles beside Fig. 7
+STEP = 0.25  # degrees, of the profiles' data
+RIPPLE = 0.02  # of the peak, of the increments of the pressing
+SHADES = ("blue", "orange", "green", "pink", "grey")
+
+
+class Fig4:
+    """Latex tubes: section and contact pressure of three walls."""
+
+    def jobs(self, asked: Asked) -> list[Job]:
+        """One state with its wall for each tube."""
+        return [PressureJob(case, wall=True) for case in _latex()]
+
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
+        """Draw, write the profiles, and turn the middle tube round its axis."""
+        states = [_state(found, case) for case in _latex()]
+        return _sections(
+            "Fig. 4: latex tubes over steel spheres",
+            "fig4",
+            states,
+            "Latex tubes, ξ = 1.2, friction 0.475, pressed seating: radial compression in the "
+            "wall with the mesh, and the contact pressure σ(θ).",
+            folder,
+        )
+
+
+class Fig5:
+    """The two ureters before and after the stone is in its place."""
+
+    def jobs(self, asked: Asked) -> list[Job]:
+        """One state with its wall for each."""
+        return [PressureJob(case, wall=True) for case in _ureters()]
+
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
+        """Draw the meshes."""
+        states = [_state(found, case) for case in _ureters()]
+        figure = new_figure(8.4, 6.4)
+        for k, state in enumerate(states):
+            _meshes(figure.add_subplot(2, 1, k + 1), state)
+        caption = (
+            "The finite elements before (grey, with the arc that touches the lumen) and after the "
+            "stone is pressed in (blue), at the published critical sizes. Elements are of order "
+            "4, graded towards the edge of the contact, which is a grid line."
+        )
+        rows = [
+            [
+                state.case.wall_ratio,
+                state.case.size_ratio,
+                state.solver.dofs,
+                np.degrees(state.contact_angle),
+                state.equator_contact_pressure / 1e3,
+            ]
+            for state in states
+        ]
+        header = ("wall_ratio", "size_ratio", "dofs", "contact_angle_deg",
+                  "equator_contact_pressure_kPa")  # fmt: skip
+        return Section.written(
+            "Fig. 5: finite elements of the human ureter",
+            "",
+            folder,
+            [Picture("fig5", figure, caption)],
+            [Table("fig5", header, rows)],
+        )
+
+
+class Fig7:
+    """The two ureters: section and contact pressure, and its profile over the size of the stone."""
+
+    def jobs(self, asked: Asked) -> list[Job]:
+        """Two states with their walls, and profiles of other sizes."""
+        return [
+            *(PressureJob(case, wall=True) for case in _ureters()),
+            *(PressureJob(ureter_case(eta, xi)) for eta in PUBLISHED for xi in SIZES),
+        ]
+
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
+        """Draw, write the profiles, judge their form."""
+        states = [_state(found, case) for case in _ureters()]
+        section = _sections(
+            "Fig. 7: contact pressure in the human ureter",
+            "fig7",
+            states,
+            "The two walls at their published critical sizes, friction 0.5: radial compression in "
+            "the wall, and the contact pressure σ(θ).",
+            folder,
+        )
+        others = {
+            eta: [_state(found, ureter_case(eta, xi), wall=False) for xi in SIZES]
+            for eta in PUBLISHED
+        }
+        figure = new_figure(8.4, 3.4)
+        for k, (eta, row) in enumerate(others.items()):
+            axes = figure.add_subplot(1, 2, k + 1)
+            for state, colour in zip(row, SHADES, strict=True):
+                axes.plot(
+                    np.degrees(state.theta),
+                    state.contact_pressure / 1e3,
+                    color=COLOURS[colour],
+                    label=f"ξ = {state.case.size_ratio:g}",
+                )
+            axes.set(xlabel="θ from the upstream axis (°)", ylabel="contact pressure (kPa)",
+                     ylim=(0, None))  # fmt: skip
+            axes.set_title(f"η = {eta:.2f}")
+            axes.legend(fontsize=8, loc="lower center")
+            tidy(axes)
+        extra = Section.written(
+            "",
+            "",
+            folder,
+            [Picture("fig7_sizes", figure, "Contact pressure over the size of the stone.")],
+            [_profiles("fig7_sizes", [state for row in others.values() for state in row])],
+        )
+        return Section(
+            section.title,
+            section.text,
+            section.pictures + extra.pictures,
+            section.files + extra.files,
+            (_single_peak([*states, *(state for row in others.values() for state in row)]),),
+        )
+
+
+def _latex() -> list[Case]:
+    return [latex_case(eta, LATEX_SIZE) for eta in LATEX_WALLS]
+
+
+def _ureters() -> list[Case]:
+    return [ureter_case(eta, xi) for eta, xi in PUBLISHED.items()]
+
+
+def _state(found: Results, case: Case, *, wall: bool = True) -> SeatedState:
+    state = found.answer(case, wall=wall).seated
+    assert state is not None, "a sphere a little above the lumen is seated"
+    return state
+
+
+def _single_peak(states: Sequence[SeatedState]) -> Claim:
+    """One hump, highest near the equator, nothing at the edges."""
+    humps, edges = [], []
+    for state in states:
+        theta, top = state.theta, state.peak_contact_pressure
+        sigma = np.interp(np.linspace(theta[0], theta[-1], 25), theta, state.contact_pressure) / top
+        steps, peak = np.diff(sigma), int(np.argmax(sigma))
+        humps.append(bool((steps[:peak] > -RIPPLE).all() and (steps[peak:] < RIPPLE).all()))
+        edges.append(float(state.contact_pressure[[0, -1]].max()) / top)
+    return Claim(
+        "form of the contact pressure over θ (Fig. 7)",
+        "one hump about the equator",
+        f"one in {sum(humps)} of {len(humps)} states; at the edges {max(edges):.0e} of its height",
+        all(humps) and max(edges) < 1e-3,
+        "the figure's values are not published; ripples of the pressing's increments below 2 % of "
+        "the peak are not counted as humps",
+    )
+
+
+def _sections(
+    title: str, name: str, states: Sequence[SeatedState], caption: str, folder: Path
+) -> Section:
+    figure = new_figure(9.6, 2.7 * len(states))
+    grid = figure.add_gridspec(len(states), 2, width_ratios=(2.0, 1.0))
+    for k, state in enumerate(states):
+        assert state.wall is not None
+        axes = figure.add_subplot(grid[k, 0])
+        draw_section(axes, state.wall, state.case, state.peak_contact_pressure, (-1.0, 1.0))
+        draw_radii(axes, state.case, (state.contact_angle, state.downstream_angle))
+        axes.set_title(f"η = {state.case.wall_ratio:g}, ξ = {state.case.size_ratio:g}")
+        _profile(figure.add_subplot(grid[k, 1]), state)
+    middle = states[len(states) // 2]
+    assert middle.wall is not None
+    solid = revolved_figure(middle.wall, middle.case, middle.peak_contact_pressure)
+    write_vtu(folder / f"{name}.vtu", middle.wall, mirrored=True)
+    revolved = (
+        f"The same turned round its axis, a quarter cut away (η = {middle.case.wall_ratio:g}); "
+        f"{name}.vtu has the whole with its stresses."
+    )
+    return Section.written(
+        title,
+        "",
+        folder,
+        [Picture(name, figure, caption), Picture(f"{name}_3d", solid, revolved)],
+        [_profiles(name, states)],
+        files=(f"{name}.vtu",),
+    )
+
+
+def _profile(axes: Axes, state: SeatedState) -> None:
+    degrees, pressure = np.degrees(state.theta), state.contact_pressure / 1e3
+    axes.fill_between(degrees, pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
+    axes.plot(degrees, pressure, color=COLOURS["blue"])
+    alpha = np.degrees(state.contact_angle)
+    axes.annotate(rf"$\alpha_0$ = {alpha:.1f}°", (90.0, 0.15 * pressure.max()), ha="center")
+    axes.set(xlabel="θ (°)", ylabel="σ (kPa)", ylim=(0, None))
+    tidy(axes)
+
+
+def _profiles(name: str, states: Sequence[SeatedState]) -> Table:
+    theta = np.arange(0.0, 180.0 + STEP / 2, STEP)
+    header = ["theta_deg"]
+    columns = [theta]
+    for state in states:
+        header.append(f"pressure_kPa_eta_{state.case.wall_ratio:g}_xi_{state.case.size_ratio:g}")
+        columns.append(state.pressure_at(np.radians(theta)) / 1e3)
+    return Table(name, header, np.column_stack(columns).tolist())
+
+
+def _meshes(axes: Axes, state: SeatedState) -> None:
+    """Reference mesh above and below in grey, deformed mesh above it in blue."""
+    wall, xi = state.wall, state.case.size_ratio
+    assert wall is not None
+    for half in (1.0, -1.0):
+        for side in (1.0, -1.0):
+            if half < 0.0:
+                _lines(axes, wall, wall.R, wall.Z, side, half, COLOURS["grey"])
+            else:
+                _lines(axes, wall, wall.r, wall.z, side, half, COLOURS["blue"])
+    axes.add_patch(
+        Curve(
+            (0.0, xi - 1.0), 2 * xi, 2 * xi, theta1=180, theta2=360, color=COLOURS["ink"], ls="--"
+        )
+    )
+    axes.add_patch(Curve((0.0, 0.0), 2 * xi, 2 * xi, theta1=0, theta2=180, color=COLOURS["ink"]))
+    axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.7, linestyle="-.")
+    eta = state.case.wall_ratio
+    top = 1.08 * max(eta, float(wall.r.max()))
+    axes.set(xlim=(-3.6, 3.6), ylim=(-top, top), aspect="equal")
+    axes.set(xlabel="z / inner radius", ylabel="r / inner radius")
+    axes.set_title(f"η = {eta:.2f}, ξ = {xi:.2f}: in its place above, before below")
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def _lines(
+    axes: Axes,
+    wall: Field,
+    r: np.ndarray,
+    z: np.ndarray,
+    side: float,
+    half: float,
+    colour: str,
+) -> None:
+    """Outlines of the elements."""
+    count = round(np.sqrt(wall.r.shape[1]))
+    rim = np.arange(count**2).reshape(count, count)
+    path = np.r_[rim[0], rim[1:, -1], rim[-1, -2::-1], rim[-2::-1, 0]]
+    gap = np.full((len(r), 1), np.nan)
+    x, y = (np.concatenate([values[:, path], gap], axis=1).ravel() for values in (z, r))
+    axes.plot(side * x, half * y, color=colour, linewidth=0.5)

@@ -1,0 +1,117 @@
+"""What a part of the paper comes to: figures, their data, and claims beside the published ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from stonepass.model.points import Point
+from stonepass.report.record import write_csv
+from stonepass.report.style import save
+from stonepass.units import Pressure
+
+__all__ = ["Asked", "Claim", "Picture", "Section", "Table"]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the reader chose: the pressure limit, and measured points where there are any."""
+
+    limit: Pressure
+    points: tuple[Point, ...] = ()
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A published statement beside our number.
+
+    Attributes
+    ----------
+    what, published, ours : str
+        The statement, what the paper says, what we find.
+    deviation : float or None
+        Ours less the published number, in its unit; None where the statement is no number.
+    tolerance : float or None
+        How large it may be for the claim to count as reproduced.
+    holds : bool or None
+        Whether it is; None where it cannot be judged, for the reason given.
+    reason : str
+        Why that tolerance; where the claim is not reproduced or cannot be judged, why.
+    """
+
+    what: str
+    published: str
+    ours: str
+    holds: bool | None
+    reason: str
+    deviation: float | None = None
+    tolerance: float | None = None
+
+    @classmethod
+    def number(
+        cls, what: str, published: float, ours: float | None, tolerance: float, reason: str
+    ) -> Claim:
+        """A number, to within a tolerance."""
+        if ours is None:
+            return cls(what, f"{published:g}", "none", False, reason, None, tolerance)
+        off = ours - published
+        return cls(what, f"{published:g}", f"{ours:.4g}", abs(off) <= tolerance, reason, off,
+                   tolerance)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Table:
+    """Data of a picture: file name, columns, rows."""
+
+    name: str
+    header: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture: file name without ending, the figure, and what it shows."""
+
+    name: str
+    figure: Figure
+    caption: str
+
+
+@dataclass(frozen=True)
+class Section:
+    """One part, written: names of files in the order of the page, captions, claims."""
+
+    title: str
+    text: str
+    pictures: tuple[tuple[str, str], ...]
+    files: tuple[str, ...]
+    claims: tuple[Claim, ...]
+
+    @classmethod
+    def written(
+        cls,
+        title: str,
+        text: str,
+        folder: Path,
+        pictures: Sequence[Picture] = (),
+        tables: Sequence[Table] = (),
+        claims: Sequence[Claim] = (),
+        files: Sequence[str] = (),
+    ) -> Section:
+        """Write pictures (SVG and PNG) and tables (CSV) into a folder."""
+        for picture in pictures:
+            for ending in ("svg", "png"):
+                save(picture.figure, folder / f"{picture.name}.{ending}")
+        for table in tables:
+            write_csv(folder / f"{table.name}.csv", table.header, table.rows)
+        return cls(
+            title,
+            text,
+            tuple((picture.name, picture.caption) for picture in pictures),
+            (*(f"{table.name}.csv" for table in tables), *files),
+            tuple(claims),
+        )

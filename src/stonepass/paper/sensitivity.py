@@ -1,0 +1,156 @@
+"""What the critical size owes to everything that had to be chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from stonepass.errors import UnstableLaw
+from stonepass.materials.catalogue import material
+from stonepass.materials.protocol import Material
+from stonepass.materials.stability import check
+from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.paper.inputs import FRICTION, PUBLISHED
+from stonepass.paper.jobs import Job, Results, SizeJob
+from stonepass.paper.section import Asked, Picture, Section, Table
+from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.units import Pressure
+
+__all__ = ["Sensitivity"]
+
+OUTSIDE = Pressure(4e3)
+GROUND = (5e3, 8e3, 14e3)  # Pa, beside the default of 12 kPa
+LENGTHS = (8.0, 20.0)
+SHADES = {1.30: "blue", 3.40: "orange"}
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One thing chosen otherwise: what, how, and the case it makes of a wall."""
+
+    about: str
+    what: str
+    material: Material
+    method: Method
+    load: Load
+
+    def case(self, wall_ratio: float) -> Case:
+        """The case, its size left open."""
+        stone = Stone(size_ratio=1.1, friction=FRICTION)
+        return Case(stone, Ureter(None, None, self.material, wall_ratio), self.load, self.method)
+
+
+class Sensitivity:
+    """ξ_cr of both walls under each choice."""
+
+    def jobs(self, asked: Asked) -> list[Job]:
+        """A critical size for each choice whose law is one of a solid."""
+        return [
+            SizeJob(choice.case(eta), asked.limit)
+            for choice in choices()
+            if _refusal(choice.material) is None
+            for eta in PUBLISHED
+        ]
+
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
+        """Draw and tell."""
+        names, rows = [], []
+        figure = new_figure(8.0, 6.6)
+        axes = figure.add_subplot()
+        listed = list(choices())
+        first: dict[float, float | None] = {}
+        for k, choice in enumerate(listed):
+            names.append(f"{choice.about}: {choice.what}")
+            for eta, colour in SHADES.items():
+                refused = _refusal(choice.material)
+                if refused is not None:
+                    rows.append([choice.about, choice.what, eta, "REFUSED", None, None, None])
+                    continue
+                size = found.size(choice.case(eta), asked.limit)
+                first.setdefault(eta, size.size_ratio)
+                base = first[eta]
+                change = None
+                if size.size_ratio is None and base is not None:
+                    axes.annotate(size.outcome.name, (base, k), ha="center", va="center",
+                                  color=COLOURS[colour], fontsize=7)  # fmt: skip
+                if size.size_ratio is not None:
+                    axes.plot(size.size_ratio, k, "o", color=COLOURS[colour], markersize=5)
+                    if base is not None:
+                        change = size.size_ratio - base
+                        axes.plot([base, size.size_ratio], [k, k], color=COLOURS[colour], lw=1.2)
+                rows.append(
+                    [choice.about, choice.what, eta, size.outcome.name, size.size_ratio,
+                     size.size_ratio_error, change]
+                )  # fmt: skip
+            if _refusal(choice.material) is not None:
+                axes.annotate("refused: not stable", (1.155, k), ha="center", va="center",
+                              color=COLOURS["grey"], fontsize=8)  # fmt: skip
+        for eta, colour in SHADES.items():
+            base = first[eta]
+            if base is not None:
+                axes.axvline(base, color=COLOURS[colour], linewidth=0.8, linestyle=":")
+            axes.plot([], [], "o", color=COLOURS[colour], label=f"η = {eta:.2f}")
+            axes.plot(PUBLISHED[eta], -0.75, "*", color="white", markeredgecolor=COLOURS["ink"],
+                      markersize=10, label="published" if eta > 2.0 else None)  # fmt: skip
+        axes.set_yticks(range(len(names)), names)
+        axes.set(ylim=(len(names) - 0.4, -1.2), xlabel=r"critical size ratio $\xi_{cr}$")
+        axes.set_title(f"Critical size at {asked.limit / 1e3:g} kPa under every choice")
+        axes.legend(fontsize=8, loc="lower right")
+        tidy(axes)
+        caption = (
+            "What each choice changes from our defaults (dotted), one at a time, where the paper "
+            "is silent or contradicts itself; and the other models beside it."
+        )
+        header = ("about", "choice", "wall_ratio", "outcome", "critical_size_ratio",
+                  "critical_size_ratio_error", "change")  # fmt: skip
+        return Section.written(
+            "Sensitivity to what had to be chosen",
+            "",
+            folder,
+            [Picture("sensitivity", figure, caption)],
+            [Table("sensitivity", header, rows)],
+        )
+
+
+def choices() -> Iterator[Choice]:
+    """The defaults first, then one thing changed at a time."""
+    default = Choice("defaults", "as the paper, errata corrected", material("ureter"), Method(),
+                     Load())  # fmt: skip
+    yield default
+    for name, what in (("ureter-soft-cross", "a₁₁₂₂ = 0.0892"), ("ureter-printed", "as printed")):
+        yield replace(default, about="constants", what=what, material=material(name))
+    for modulus in GROUND:
+        entry = default.material
+        law = replace(entry.law, G=modulus)  # type: ignore[type-var]
+        named = replace(entry, law=law, name=f"ureter, G {modulus / 1e3:g} kPa", reference="")
+        yield replace(default, about="ground matrix", what=f"G = {modulus / 1e3:g} kPa",
+                      material=named)  # fmt: skip
+    yield _by(default, "far field", "with the ground matrix", far_field_ground=True)
+    yield _by(default, "sign of Eq. 5", "as printed", as_printed=True)
+    for seating in ("growing", "frictionless"):
+        yield _by(default, "seating", seating, seating=seating)
+    for length in LENGTHS:
+        yield _by(default, "half-length", f"{length:g} inner radii", half_length=length)
+    yield _by(default, "closure", "series fitted to direct states", closure="series")
+    yield _by(default, "model", "direct push-through", model="direct")
+    yield _by(default, "model", "direct, wetted", model="direct", wetted=True)
+    outside = f"P_out {OUTSIDE / 1e3:g} kPa"
+    yield replace(default, about=outside, what="dead", load=Load(OUTSIDE))
+    yield replace(default, about=outside, what="hydrostatic", load=Load(OUTSIDE, "hydrostatic"))
+    yield _by(replace(default, load=Load(OUTSIDE)), outside, "dead, Eq. 15 from the lumen",
+              closure_start="lumen")  # fmt: skip
+
+
+def _by(choice: Choice, about: str, what: str, **changed: object) -> Choice:
+    method = replace(choice.method, **changed)  # type: ignore[arg-type]
+    return replace(choice, about=about, what=what, method=method)
+
+
+def _refusal(entry: Material) -> str | None:
+    """Why a law is none of a solid; None where it is."""
+    try:
+        check(entry)
+    except UnstableLaw as problem:
+        return str(problem)
+    return None

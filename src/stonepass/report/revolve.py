@@ -1,0 +1,167 @@
+"""The wall turned round its axis: a VTU file of it, and a picture with a quarter cut away."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import meshio
+import numpy as np
+from jaxtyping import Float, Int
+from matplotlib import colormaps
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from stonepass.errors import BadInput
+from stonepass.fe.readout import STRESSES, Field
+from stonepass.model.case import Case
+from stonepass.report.style import COLOURS, new_figure
+
+__all__ = ["revolved_figure", "write_vtu"]
+
+SEGMENTS = 48  # round the axis
+CUT = 0.75  # of a turn that the picture shows
+LIGHT = np.array([-0.45, 0.9, 0.25])
+STONE_RINGS = 40
+
+
+def write_vtu(path: Path, wall: Field, *, mirrored: bool) -> None:
+    """Write the deformed wall as hexahedra with its Cauchy stress in Pa (tension positive).
+
+    Lengths are in inner radii, z along the tube; `mirrored` adds the other half of a half tube.
+    Stress components are cylindrical: rr, tt (hoop), zz, rz.
+    """
+    half = _meridian(wall, mirrored=mirrored)
+    r, z, quads = half.r, half.z, half.quads
+    count, angles = len(r), 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
+    points = np.concatenate([np.c_[r * np.cos(t), r * np.sin(t), z] for t in angles])
+    near = quads[None] + count * np.arange(SEGMENTS)[:, None, None]
+    far = quads[None] + count * ((np.arange(SEGMENTS) + 1) % SEGMENTS)[:, None, None]
+    cells = np.concatenate([near, far], axis=2).reshape(-1, 8)
+    data = {name: np.tile(values, SEGMENTS) for name, values in half.stress.items()}
+    try:
+        meshio.Mesh(points, [("hexahedron", cells)], point_data=data).write(path)
+    except OSError as problem:
+        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
+
+
+def revolved_figure(wall: Field, case: Case, top: float, extent: float = 3.0) -> Figure:
+    """Draw wall and stone in space, coloured by radial compression in Pa from 0 to `top`."""
+    mirrored = case.stone.shape.symmetric
+    half = _meridian(wall, mirrored=mirrored)
+    r, z = half.r, half.z
+    quads = half.quads[np.abs(z[half.quads]).max(axis=1) <= extent]
+    compression = -half.stress["stress_rr"]
+    colours = colormaps["magma_r"](Normalize(0.0, top)(compression[quads].mean(axis=1)))
+    ends = (np.pi, np.pi + 2.0 * np.pi * CUT)  # the gap is towards the eye, above
+    angles = np.linspace(*ends, round(SEGMENTS * CUT) * 2 + 1)
+    faces: list[Float[np.ndarray, "faces 4 3"]] = []
+    shades: list[Float[np.ndarray, "faces 4"]] = []
+    for cut in ends:
+        faces.append(_in_space(r[quads], z[quads], np.full(4, cut)))
+        shades.append(colours)
+    sides = [
+        (half.R, float(half.R.min())),
+        (half.R, float(half.R.max())),
+        (half.Z, float(half.Z[quads].min())),
+        (half.Z, float(half.Z[quads].max())),
+    ]
+    for along_which, at in sides:
+        edge = half.edges(quads, along_which, at)
+        face, shade = _revolved(r[edge], z[edge], angles)
+        values = np.repeat(compression[edge].mean(axis=1), len(angles) - 1)
+        colour = colormaps["magma_r"](Normalize(0.0, top)(values))
+        colour[:, :3] *= shade[:, None]
+        faces.append(face)
+        shades.append(colour)
+    rho, along = case.stone.shape.meridian(np.linspace(0.0, np.pi, STONE_RINGS))
+    line = np.c_[rho[:-1], rho[1:]], np.c_[along[:-1], along[1:]]
+    round_it = np.linspace(0.0, 2.0 * np.pi, SEGMENTS + 1)
+    face, shade = _revolved(case.size_ratio * line[0], case.size_ratio * line[1], round_it)
+    stone = np.tile(_rgba(COLOURS["stone"]), (len(face), 1))
+    stone[:, :3] *= shade[:, None]
+    faces.append(face)
+    shades.append(stone)
+    figure = new_figure(6.4, 4.2)
+    axes = figure.add_subplot(projection="3d", computed_zorder=False)
+    everything = np.concatenate(faces)[:, :, [2, 0, 1]]  # the tube lies along x
+    axes.add_collection3d(
+        Poly3DCollection(everything, facecolors=np.concatenate(shades), edgecolors="none",
+                         linewidths=0.0, antialiaseds=False, rasterized=True)
+    )  # fmt: skip
+    size = 1.05 * float(r.max())
+    axes.set(xlim=(-extent, extent), ylim=(-size, size), zlim=(-size, size))
+    axes.set_box_aspect((extent / size, 1.0, 1.0), zoom=1.3)
+    axes.view_init(elev=24.0, azim=-62.0)
+    axes.set_axis_off()
+    return figure
+
+
+@dataclass(frozen=True)
+class _Meridian:
+    """Points of the meridian with stresses, and quadrilaterals between them, four to an element."""
+
+    R: Float[np.ndarray, " points"]
+    Z: Float[np.ndarray, " points"]
+    r: Float[np.ndarray, " points"]
+    z: Float[np.ndarray, " points"]
+    stress: dict[str, Float[np.ndarray, " points"]]
+    quads: Int[np.ndarray, "quads 4"]
+
+    def edges(
+        self, quads: Int[np.ndarray, "quads 4"], along: Float[np.ndarray, " points"], at: float
+    ) -> Int[np.ndarray, "edges 2"]:
+        """Edges of some quadrilaterals whose points both have the reference coordinate `at`."""
+        edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
+        return edges[np.all(np.abs(along[edges] - at) < 1e-9, axis=1)]
+
+
+def _meridian(wall: Field, *, mirrored: bool) -> _Meridian:
+    count = round(np.sqrt(wall.r.shape[1]))
+    kept = np.array([0, count // 2, count - 1])
+    some = (kept[:, None] * count + kept[None, :]).ravel()
+    corner = np.array([[0, 3, 4, 1], [1, 4, 5, 2], [3, 6, 7, 4], [4, 7, 8, 5]])
+    quads = (corner[None] + 9 * np.arange(len(wall.r))[:, None, None]).reshape(-1, 4)
+    R, Z, r, z = (getattr(wall, name)[:, some].ravel() for name in ("R", "Z", "r", "z"))
+    stress = {name: getattr(wall, name)[:, some].ravel() for name in STRESSES}
+    if not mirrored:
+        return _Meridian(R, Z, r, z, stress, quads)
+    sign = {name: -1.0 if name == "stress_rz" else 1.0 for name in STRESSES}
+    return _Meridian(
+        np.tile(R, 2),
+        np.concatenate([Z, -Z]),
+        np.tile(r, 2),
+        np.concatenate([z, -z]),
+        {name: np.concatenate([each, sign[name] * each]) for name, each in stress.items()},
+        np.concatenate([quads, quads[:, ::-1] + len(r)]),
+    )
+
+
+def _in_space(
+    r: Float[np.ndarray, "faces 4"], z: Float[np.ndarray, "faces 4"], t: Float[np.ndarray, " 4"]
+) -> Float[np.ndarray, "faces 4 3"]:
+    return np.stack([r * np.cos(t), r * np.sin(t), z], axis=2)
+
+
+def _revolved(
+    r: Float[np.ndarray, "edges 2"],
+    z: Float[np.ndarray, "edges 2"],
+    angles: Float[np.ndarray, " n"],
+) -> tuple[Float[np.ndarray, "faces 4 3"], Float[np.ndarray, " faces"]]:
+    """Edges turned through the angles: faces, and how brightly each is lit."""
+    low, high = angles[:-1], angles[1:]
+    t = np.stack([low, high, high, low], axis=1)
+    order = [0, 0, 1, 1]
+    R = np.repeat(r[:, order], len(low), axis=0)
+    Z = np.repeat(z[:, order], len(low), axis=0)
+    T = np.tile(t, (len(r), 1))
+    faces = np.stack([R * np.cos(T), R * np.sin(T), Z], axis=2)
+    normal = np.cross(faces[:, 2] - faces[:, 0], faces[:, 3] - faces[:, 1])
+    size = np.linalg.norm(normal, axis=1)
+    lit = np.abs(normal @ (LIGHT / np.linalg.norm(LIGHT))) / np.where(size > 0.0, size, 1.0)
+    return faces, 0.7 + 0.3 * lit
+
+
+def _rgba(colour: str) -> Float[np.ndarray, " 4"]:
+    return np.array([*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)), 1.0])

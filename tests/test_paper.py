@@ -1,0 +1,243 @@
+"""The paper by one command: what it writes, that it writes it twice the same, what it refuses."""
+
+import csv
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.cli import run
+from stonepass.errors import BadInput
+from stonepass.model.case import Method
+from stonepass.model.points import Point, read_points
+from stonepass.paper import fig6, fig8, fig9, inputs, seated_figures
+from stonepass.paper.jobs import PressureJob, Results, SizeJob, run_jobs
+from stonepass.paper.run import PARTS, WITH_CLAIMS, chosen, reproduce
+from stonepass.paper.section import Asked, Claim
+from stonepass.paper.sensitivity import Sensitivity, choices
+from stonepass.report.revolve import write_vtu
+from stonepass.units import Pressure
+
+ASKED = Asked(inputs.LIMIT)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def fast():
+    """The same parts with fewer sizes, on the coarse mesh."""
+    patch = pytest.MonkeyPatch()
+    quick = Method(accuracy="fast")
+    plain = inputs.ureter_case
+    for module in (fig8, fig9, seated_figures):
+        patch.setattr(
+            module,
+            "ureter_case",
+            lambda eta, xi, load=None, method=None: plain(eta, xi, load, method or quick),
+        )
+    patch.setattr(fig9, "SIZES", (1.0, *(round(1.03 + 0.03 * k, 2) for k in range(10))))
+    patch.setattr(fig6, "SIZES", (1.0, 1.2, 1.4))
+    yield
+    patch.undo()
+
+
+def files(folder, *endings):
+    return sorted(path for path in folder.iterdir() if path.suffix in endings)
+
+
+def table(path):
+    return list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+
+
+def test_names_of_parts():
+    assert chosen([]) == chosen(["all"]) == list(PARTS)
+    assert chosen(["fig9", "fig4"]) == ["fig4", "fig9"]
+    assert chosen(["claims"]) == list(WITH_CLAIMS)
+    with pytest.raises(BadInput, match=r"part of the paper is fig3.*did you mean 'fig"):
+        chosen(["fig3"])
+
+
+def test_each_job_is_run_once_and_told_of():
+    case = inputs.latex_case(1.5, 0.9)
+    told = []
+    found = run_jobs([PressureJob(case), PressureJob(case)], None, 1, lambda *n: told.append(n))
+    assert told == [(1, 1)]
+    assert found.answer(case).outcome is sp.Outcome.LOOSE
+    assert found.of([]).pressures == {}
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Two parts, by one process and by two, and again from what was remembered."""
+    root = tmp_path_factory.mktemp("paper")
+    store = root / "store"
+    folders = [root / name for name in ("one", "two", "again")]
+    sections = [
+        reproduce(["fig4", "friction"], folder, ASKED, keep, workers)
+        for folder, keep, workers in zip(folders, (None, store, store), (1, 2, 1), strict=True)
+    ]
+    return folders, sections
+
+
+@pytest.fixture(scope="module")
+def beams(tmp_path_factory):
+    """Fig. 9, in this process, where it is the quick one."""
+    folder = tmp_path_factory.mktemp("fig9")
+    return folder, reproduce(["fig9"], folder, ASKED)
+
+
+def test_data_are_the_same_bytes_every_time(written):
+    folders, sections = written
+    one, *others = (files(folder, ".csv") for folder in folders)
+    assert [path.name for path in one] == ["fig4.csv"]
+    for other in others:
+        assert [path.name for path in other] == [path.name for path in one]
+        for a, b in zip(one, other, strict=True):
+            assert a.read_bytes() == b.read_bytes()
+    assert sections[0] == sections[1] == sections[2]
+
+
+def test_every_picture_is_there(written, beams):
+    pictures = [path for folder in (written[0][0], beams[0]) for path in files(folder, ".svg")]
+    assert [path.stem for path in pictures] == ["fig4", "fig4_3d", "fig9"]
+    for path in pictures:
+        ElementTree.parse(path)  # well-formed
+        assert path.with_suffix(".png").read_bytes().startswith(b"\x89PNG")
+        assert path.stat().st_size < 3_000_000
+
+
+def test_the_data_of_fig_9_are_the_models(beams):
+    folder, _ = beams
+    rows = table(folder / "fig9c.csv")
+    assert [float(row["size_ratio"]) for row in rows] == list(fig9.SIZES)
+    at = next(row for row in rows if row["size_ratio"] == "1.3")
+    beam = sp.solve(inputs.ureter_case(1.3, 1.3, method=inputs.BEAM)).pressure
+    assert float(at["beam_kPa"]) == pytest.approx(beam / 1e3, rel=1e-9)
+    elements = [float(row["finite_elements_kPa"]) for row in rows]
+    assert elements[0] == 0.0
+    assert all(np.diff(elements) > 0.0)
+    friction = table(folder / "fig9d_friction.csv")
+    assert float(friction[4]["friction"]) == 0.5
+    assert float(friction[4]["critical_size_ratio"]) == pytest.approx(1.1935, abs=2e-4)
+
+
+def test_profiles_of_fig_4_vanish_outside_the_contact(written):
+    (folder, *_), _ = written
+    rows = np.array([list(row.values()) for row in table(folder / "fig4.csv")], float)
+    assert rows[0, 0] == 0.0
+    assert rows[-1, 0] == 180.0
+    assert np.all(rows[rows[:, 0] < 60.0, 1:] == 0.0)
+    assert np.all(rows[rows[:, 0] == 90.0, 1:] > 50.0)
+    np.testing.assert_allclose(rows[:, 1:], rows[::-1, 1:], atol=1e-6)
+
+
+def test_the_revolved_wall_has_the_volume_of_the_wall(written, tmp_path):
+    """Volume of the hexahedra against π (R_b² − R_a²) 2L, which deformation keeps."""
+    (folder, *_), _ = written
+    mesh = meshio.read(folder / "fig4.vtu")
+    corners = mesh.points[mesh.cells[0].data]
+    volume = np.zeros(len(corners))
+    for a, b, c, d in ((0, 1, 3, 4), (1, 2, 3, 6), (1, 3, 4, 6), (3, 4, 6, 7), (1, 4, 5, 6)):
+        edges = corners[:, [b, c, d]] - corners[:, [a]]
+        volume += np.abs(np.linalg.det(edges)) / 6.0
+    expected = np.pi * (1.57**2 - 1.0) * 20.0
+    assert volume.sum() == pytest.approx(expected, rel=5e-3)
+    assert set(mesh.point_data) == {"stress_rr", "stress_tt", "stress_zz", "stress_rz"}
+    assert mesh.point_data["stress_rr"].min() < -5e4
+    state = sp.seat(inputs.latex_case(1.5, 1.2))
+    with pytest.raises(BadInput, match="output file"):
+        write_vtu(tmp_path / "none" / "w.vtu", state.wall, mirrored=True)
+
+
+def test_the_page_links_what_is_there_and_shows_every_claim(written, beams):
+    folder, sections = beams
+    page = (folder / "index.html").read_text()
+    for each in (folder, written[0][0]):
+        linked = re.findall(r'(?:href|src)="([^":]+)"', (each / "index.html").read_text())
+        assert len(linked) >= 5
+        assert all((each / name).is_file() for name in linked)
+    claims = [claim for section in sections for claim in section.claims]
+    assert len(claims) == 4
+    assert all(claim.what in page for claim in claims)
+    assert "Research use only" in page
+    assert "<script" not in page
+    assert all(claim.holds for claim in claims), claims
+
+
+def test_a_claim_is_judged_by_its_tolerance():
+    assert Claim.number("x", 1.22, 1.225, 0.01, "").holds is True
+    assert Claim.number("x", 1.22, 1.24, 0.01, "").holds is False
+    assert Claim.number("x", 1.22, 1.24, 0.01, "").deviation == pytest.approx(0.02)
+    assert Claim.number("x", 1.22, None, 0.01, "").holds is False
+
+
+def test_measured_points_are_drawn_and_compared(tmp_path):
+    """Points made by the model itself agree; points twice as high do not; none is not judged."""
+    case = inputs.latex_case(1.5, 1.2)
+    pressure = sp.solve(case).pressure
+    answers = {}
+    for job in fig6.Fig6().jobs(Asked(inputs.LIMIT, (Point(1.2, 1.5, Pressure(0.0), pressure),))):
+        if job.case == case:
+            answers[job] = sp.solve(case)
+        else:
+            answers[job] = sp.Answer(
+                job.case, sp.Outcome.MOVES, "", pressure=4e4 * job.case.size_ratio
+            )
+    found = Results(answers, {})
+    for factor, holds in ((1.0, True), (2.0, False)):
+        points = (Point(1.2, 1.5, Pressure(0.0), Pressure(factor * pressure), Pressure(1e3)),)
+        section = fig6.Fig6().write(found, Asked(inputs.LIMIT, points), tmp_path)
+        assert section.claims[1].holds is holds
+    section = fig6.Fig6().write(found, ASKED, tmp_path)
+    assert section.claims[1].holds is None
+    assert "not published" in section.claims[1].reason
+
+
+def test_points_from_a_file(tmp_path):
+    path = tmp_path / "points.csv"
+    path.write_text("eta,xi,pressure_kPa,confining_kPa,sd_kPa\n1.5,1.2,40,5.4,2\n")
+    (point,) = read_points(path)
+    assert point == Point(1.2, 1.5, Pressure(5400.0), Pressure(40e3), Pressure(2e3))
+    path.write_text("eta,xi,pressure_kPa,confining_kPa\n1.5,1.2,40,0\n1.5,12,40,0\n")
+    with pytest.raises(BadInput, match=r"in points\.csv, row 3, column 'xi' is 12, but must"):
+        read_points(path)
+
+
+def test_sensitivity_changes_one_thing_at_a_time():
+    listed = list(choices())
+    assert len({(each.about, each.what) for each in listed}) == len(listed) >= 16
+    default = listed[0].case(1.3)
+    for each in listed[1:]:
+        assert each.case(1.3) != default
+    jobs = Sensitivity().jobs(ASKED)
+    assert all(isinstance(job, SizeJob) for job in jobs)
+    assert len(jobs) == 2 * (len(listed) - 1)  # the printed constants are refused
+    assert not any(job.case.ureter.material.name == "ureter-printed" for job in jobs)
+
+
+def test_the_command(tmp_path, capsys):
+    out, cache = tmp_path / "out", tmp_path / "cache"
+    arguments = ["paper", "friction", "fig5", "--out", str(out), "--cache", str(cache)]
+    assert run([*arguments, "--workers", "1"]) == 0
+    shown = capsys.readouterr().out
+    assert "0.5239" in shown
+    assert "index.html" in shown
+    remembered = [path for path in cache.rglob("*") if path.is_file()]
+    assert len(remembered) == 2
+    raw = bytearray(remembered[0].read_bytes())
+    raw[100] ^= 1
+    remembered[0].write_bytes(raw)
+    before = (out / "fig5.csv").read_bytes()
+    assert run([*arguments, "--workers", "1"]) == 0
+    assert "1 remembered results were corrupt" in capsys.readouterr().err
+    assert (out / "fig5.csv").read_bytes() == before
+    assert run(["paper", "fig12"]) == 2
+    assert "did you mean" in capsys.readouterr().err
+    assert run(["paper", "--cache", "x", "--no-cache"]) == 2
+    (tmp_path / "bad.csv").write_text("xi,eta,confining_kPa\n1,2,3\n")
+    assert run(["paper", "fig6", "--points", str(tmp_path / "bad.csv")]) == 2
+    assert "bad.csv, column 'pressure_kPa' is missing" in capsys.readouterr().err
+    assert run(["paper", "fig5", "--out", str(Path(__file__))]) == 2
+    assert "output folder" in capsys.readouterr().err

@@ -126,7 +126,7 @@ class Fig7:
             axes.set(xlabel="θ from the upstream axis (°)", ylabel="contact pressure (kPa)",
                      ylim=(0, None))  # fmt: skip
             axes.set_title(f"η = {eta:.2f}")
-            axes.legend(fontsize=8, loc="lower center")
+            axes.legend(fontsize=8, loc="upper right")
             tidy(axes)
         extra = Section.written(
             "",

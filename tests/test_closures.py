@@ -257,3 +257,23 @@ def test_a_case_file_keeps_its_pairs(tmp_path):
     made = case(method=sp.Method(closure="series", series_order=1, pairs=Pairs((1.4,), (1.1,))))
     with pytest.raises(BadInput, match="from a file to be saved"):
         write_case(made, tmp_path / "other.toml")
+
+
+def test_pairs_are_of_one_stone_and_of_a_series_that_stays_near_it():
+    wild = Pairs(tuple(np.radians([75.0, 80.0, 85.0, 89.0])), (1.02, 3.0, 5.0, 9.0))
+    with pytest.raises(BadInput, match="pairs is such that their series reaches r_a"):
+        sp.solve(case(method=sp.Method(closure="series", pairs=wild, accuracy="fast")))
+    method = sp.Method(closure="series", series_order=1, pairs=Pairs((1.4,), (1.1,)))
+    with pytest.raises(BadInput, match="left out where the size varies"):
+        sp.critical_size(sp.Ureter(wall_ratio=1.5, material="latex"), "20 kPa", method=method)
+    with pytest.raises(BadInput, match="left out where the size varies"):
+        case(method=method).with_size_ratio(1.1)
+
+
+def test_a_beam_question_is_raised_by_the_direct_model():
+    method = sp.Method(model="beam", secant_stretch=1.2, accuracy="fast")
+    rising = raise_pressure(case(method=method), steps=2)
+    direct = sp.solve(case(method=sp.Method(model="direct", accuracy="fast")))
+    assert rising.critical.pressure == pytest.approx(direct.pressure)
+    assert method.by("direct").secant_stretch is None
+    assert method.by("beam") == method

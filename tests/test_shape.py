@@ -80,6 +80,7 @@ def test_a_meridian_and_its_slopes(shape):
     [
         (3.0, (1.0,), "aspect is 3.0, but must be a number from 0.5 to 2"),
         (1.8, (0.9, 0.0, -0.1), "aspect is 2.25, but must be a number from 0.5 to 2"),
+        (1.0, (), "outline of the stone is empty"),
         (0.0, (1.0,), "aspect is 0.0, but must be a number above zero"),
         (1.0, (0.9,), "outline of the stone is g = 0.9 with slope 0 at θ = 90°"),
         (1.0, (1.0, 0.2), "outline of the stone is g = 1 with slope -0.2 at θ = 90°"),
@@ -118,6 +119,38 @@ def test_points_of_a_formula_and_with_noise():
     fine = np.linspace(0.0, np.pi, 4001)
     ours, wanted = (from_pole(shape, fine) for shape in (noisy, exact))
     assert np.abs(ours - wanted).max() < 0.012
+
+
+def capsule(length, points=61):
+    """A cylinder with round caps, `length` diameters long."""
+    tau = np.linspace(0.0, np.pi, points)
+    return np.where(tau < np.pi / 2, 1.0 - length, length - 1.0) - np.cos(tau), np.sin(tau)
+
+
+def superellipse(power, points=61):
+    """|z/1.2|ᵖ + ρᵖ = 1: flat at the equator and the poles where p is above 2."""
+    tau = np.linspace(0.0, np.pi, points)
+    z = np.sign(np.cos(tau)) * np.abs(np.cos(tau)) ** (2.0 / power)
+    return -1.2 * z, np.abs(np.sin(tau)) ** (2.0 / power)
+
+
+@pytest.mark.parametrize(
+    ("points", "length", "near"),
+    [
+        (capsule(1.2), 1.2, 3e-3),
+        (capsule(1.5), 1.5, 3e-3),
+        (capsule(1.9), 1.9, 3e-3),
+        (superellipse(2.5), 1.2, 1e-3),
+        (superellipse(5.0), 1.2, 1e-3),
+        (superellipse(6.0), 1.2, 1e-3),
+    ],
+)
+def test_stones_with_flat_sides_are_convex_stones(points, length, near):
+    """No curvature at the equator: held convex, and with the mirror image that they have."""
+    shape = sp.shape_through(*points)
+    assert shape.symmetric
+    assert shape.deviation < near
+    assert shape.length == pytest.approx(length, rel=1e-2)
 
 
 @pytest.mark.parametrize(

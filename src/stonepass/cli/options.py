@@ -269,6 +269,14 @@ class Settings:
             merged.pop("pairs", None)  # the file's pairs go with its series
         if self.seating == "frictionless" and self.seating_friction is None:
             merged.pop("seating_friction", None)  # the file's friction goes with its seating
+        if self.secant_stretch is not None:
+            merged.pop("circumferential_modulus", None)
+            merged.pop("longitudinal_modulus", None)
+        if self.circumferential_modulus is not None or self.longitudinal_modulus is not None:
+            merged.pop("secant_stretch", None)
+        for name in BEAM_OPTIONS:  # both kinds on the command line are refused, as they should be
+            if getattr(self, name) is not None:
+                merged[name] = getattr(self, name)
         if self.model not in (None, "beam"):
             for name in BEAM_OPTIONS:  # the file's moduli go with its model
                 if getattr(self, name) is None:

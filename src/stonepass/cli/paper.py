@@ -74,6 +74,9 @@ def command(
     if claims:
         show(claims_table(claims))
     show(f"Page: {out / 'index.html'}", DISCLAIMER)
+    warned = sum(len(section.warnings) for section in sections)
+    if warned:
+        warn([f"{warned} kinds of warnings stand behind the answers; the page has them"])
     spoilt = 0 if folder is None else Store(folder).set_aside() - before
     if spoilt:
         warn([f"{spoilt} remembered results were corrupt: set aside in {folder}, solved again"])

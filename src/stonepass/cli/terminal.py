@@ -32,13 +32,14 @@ def print_json(record: Any) -> None:
 def show(*parts: Any) -> None:
     """Print tables and sentences for a person."""
     for part in parts:
-        _OUT.print(part, soft_wrap=isinstance(part, str))
+        sentence = isinstance(part, str)
+        _OUT.print(part, soft_wrap=sentence, markup=not sentence)
 
 
 def warn(sentences: tuple[str, ...] | list[str]) -> None:
     """Print warnings on stderr."""
     for sentence in sentences:
-        _ERR.print(f"warning: {sentence}", style="yellow", soft_wrap=True)
+        _ERR.print(f"warning: {sentence}", style="yellow", soft_wrap=True, markup=False)
 
 
 @contextmanager

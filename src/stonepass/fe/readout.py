@@ -38,7 +38,7 @@ NUDGE = 1e-12  # of the mesh
 
 @runtime_checkable
 class Solved(Protocol):
-    """Anything with a solved discretisation: a `Fitted` half tube, or a `Slide`."""
+    """Anything with a solved discretisation: a `Fitted` tube, or a `Slide`."""
 
     @property
     def discrete(self) -> Discrete:

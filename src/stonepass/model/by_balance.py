@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from stonepass.errors import Outcome
+from stonepass.errors import Outcome, require
 from stonepass.fe.problem import Resolution
 from stonepass.model.accuracy import LEVELS, ErrorEstimate
 from stonepass.model.afresh import AFRESH
@@ -33,6 +33,7 @@ UNDECIDED = (
     "a coarser solve ends otherwise: whether the stone moves before the closure ends is within the "
     "solver error"
 )
+SMALLEST_OPENING, LARGEST_OPENING = 0.5, 2.0  # of a series: r_a/R_a, r_a/R_s
 NO_PAIRS = "too few direct states were found for the series that closes the gap to be fitted"
 AT_EDGE = (
     "the drive outweighs the resistance as soon as the stone is seated: the paper's closure starts "
@@ -80,7 +81,15 @@ def _series(case: Case, seated: SeatedState, elements: Elements) -> Series | Non
         start = _closure_start(case)
         assert start is not None, "asked before the stone is seated"
         first = float(width(np.array(seated.contact_angle)))
-        return fit_series(width(alpha), radius, first, case.size_ratio, order, start)
+        fitted = fit_series(width(alpha), radius, first, case.size_ratio, order, start)
+        opened = np.asarray(fitted(np.linspace(first, 1.0, 91), first, case.size_ratio))
+        reach = float(opened.flat[np.argmax(np.abs(opened - 1.0))])
+        low, high = SMALLEST_OPENING, LARGEST_OPENING * case.size_ratio
+        shown = f"such that their series reaches r_a = {reach:.3g} R_a"
+        allowed = f"of a series that stays from {low:g} to {high:.3g} R_a"
+        within = bool(low <= opened.min() and opened.max() <= high)
+        require(within, "pairs", shown, allowed, "give more pairs or a lower order")
+        return fitted
     found = elements.pairs(case)
     return None if found is None else series_through(case, found, order)
 

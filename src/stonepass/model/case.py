@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -266,6 +266,18 @@ class Method:
             value = getattr(self, name)
             require(isinstance(value, bool), name, value, "true or false")
 
+    def by(self, model: str) -> Method:
+        """Return the same method with another model, without what is of the beam alone."""
+        if model == "beam":
+            return replace(self, model=model)
+        return replace(
+            self,
+            model=model,
+            circumferential_modulus=None,
+            longitudinal_modulus=None,
+            secant_stretch=None,
+        )
+
     def _check_beam(self) -> None:
         moduli = ("circumferential_modulus", "longitudinal_modulus")
         given = [name for name in moduli if getattr(self, name) is not None]
@@ -353,7 +365,16 @@ class Case:
         return Case(other, self.ureter, self.load, self.method)
 
     def with_size_ratio(self, size_ratio: float) -> Case:
-        """Return the same case with another stone of the same friction and shape."""
+        """Return the same case with another stone of the same friction and shape.
+
+        Raises
+        ------
+        BadInput
+            Where pairs of the closure belong to the stone that it has.
+        """
+        if self.method.pairs is not None and size_ratio != self.size_ratio:
+            why = "they are of one stone; the series is then fitted to direct states"
+            raise BadInput("pairs", "given", "left out where the size varies", why)
         stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, shape=self.stone.shape)
         return Case(stone, self.ureter, self.load, self.method)
 

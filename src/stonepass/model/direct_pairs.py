@@ -26,7 +26,7 @@ def opening_pairs(case: Case) -> Pairs | None:
     Without friction, because the series begins at the seated stone, as the wall opens then. None
     where no such states are found.
     """
-    direct = replace(case.method, model="direct", closure="linear", pairs=None)
+    direct = replace(case.method.by("direct"), closure="linear", pairs=None, wetted=False)
     bare = replace(case.with_friction(0.0), method=direct)
     rising = LAST * opening_pressure(case) * np.linspace(0.0, 1.0, PAIRS)
     states = push_along(bare, [Pressure(float(p)) for p in rising], LEVELS["fast"].resolution)

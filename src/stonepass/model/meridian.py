@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 from numpy.polynomial import chebyshev
-from scipy.optimize import brentq
+from scipy.optimize import brentq, linprog
 
 from stonepass.csv_file import read_columns
 from stonepass.errors import BadInput, require
@@ -21,10 +21,12 @@ FEWEST_POINTS = 9
 MOST_TERMS = 24
 NOTHING = 1e-12  # last terms of a series that say nothing
 EXACT = 1e-7  # of the radius: nearer to the points no series need come
+CLEARLY = 2.0  # a lopsided shape must be nearer by this factor than one with a mirror image
+GRID, LEAST = np.linspace(0.0, np.pi, 721), 1e-3  # where g + g″ is held, and above what
 SAME = 1.2  # fewer terms are taken where they come as near but for this factor
 # As shares of the radius: a series farther from its points is refused, mirror images nearer to each
 # other are one shape, and a point nearer to the axis lies on it.
-FARTHEST, MIRRORED, ON_AXIS = 0.05, 1e-3, 1e-6
+FARTHEST, MIRRORED, ON_AXIS = 0.05, 1e-3, 1e-4
 
 Points = tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]
 _SMOOTHER = "smooth the points, or leave out those of a dent"
@@ -47,9 +49,13 @@ def shape_through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " poin
     """
     z, rho = _meridian(z, rho)
     mirrored = _fit(z, rho, symmetric=True)
-    if mirrored is not None and mirrored.deviation <= MIRRORED:
-        return mirrored
-    found = _fit(z, rho, symmetric=False)
+    found = mirrored
+    if mirrored is None or mirrored.deviation > MIRRORED:
+        found = _fit(z, rho, symmetric=False)
+        # Noise makes no stone lopsided: only where that brings it much nearer to its points.
+        nearer = np.inf if found is None else found.deviation
+        if mirrored is not None and mirrored.deviation <= CLEARLY * nearer:
+            found = mirrored
     if found is None or found.deviation > FARTHEST:
         raise BadInput(
             "shape of the stone",
@@ -112,7 +118,8 @@ def _fit(
 ) -> Shape | None:
     """The convex shape nearest to the points, with few terms; None where there is none.
 
-    Least squares of the distance along rays, each point counted by the angle that it stands for.
+    Least squares of the distance along rays, each point counted by the angle that it stands for;
+    where that is far off or has dents, as with flat sides, the largest distance under convexity.
     """
     found: list[Shape] = []
     for terms in range(2, min(MOST_TERMS, len(z) // 2) + 1):
@@ -122,6 +129,10 @@ def _fit(
             found.append(shape)
             if shape.deviation <= EXACT:
                 break
+    if not found or min(shape.deviation for shape in found) > MIRRORED:
+        origin = (z[0] + z[-1]) / 2.0 if symmetric else _widest(z, rho, min(8, len(z) // 2))
+        held = _held_convex(z, rho, float(origin), symmetric)
+        found += [] if held is None else [held]
     if not found:
         return None
     enough = max(EXACT, SAME * min(shape.deviation for shape in found))
@@ -166,6 +177,39 @@ def _nearest(
     aspect = float(z[-1] - z[0]) / (2.0 * radius)
     try:
         return Shape(aspect, kept, deviation)
+    except BadInput:
+        return None
+
+
+def _held_convex(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    origin: float,
+    symmetric: bool,
+) -> Shape | None:
+    """The convex shape whose largest distance along rays is least, by linear programming."""
+    radius, basis = float(rho.max()), _basis(MOST_TERMS, symmetric)
+    k = np.arange(MOST_TERMS + 1)
+    curvature = np.cos(GRID[:, None] * k) @ (basis * (1.0 - k**2)).T
+    for _ in range(3):  # the widest place may lie between two points
+        size, tau = _polar(z, rho, origin, radius)
+        rays = (basis @ chebyshev.chebvander(np.cos(tau), MOST_TERMS).T * size).T
+        one, none = np.ones((len(z), 1)), np.zeros((len(GRID), 1))
+        bounds = np.block([[rays, -one], [-rays, -one], [-curvature, none]])
+        limits = np.concatenate([np.ones(len(z)), -np.ones(len(z)), np.full(len(GRID), -LEAST)])
+        goal = np.append(np.zeros(len(basis)), 1.0)
+        solved = linprog(goal, bounds, limits, bounds=(None, None))
+        if not solved.success:
+            return None
+        outline = solved.x[:-1] @ basis
+        widest = float(chebyshev.chebval(0.0, outline))
+        if not widest > 0.0:
+            return None
+        radius = radius / widest
+    try:
+        return Shape(
+            float(z[-1] - z[0]) / (2.0 * radius), tuple((outline / widest).tolist()), solved.x[-1]
+        )
     except BadInput:
         return None
 

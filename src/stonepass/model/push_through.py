@@ -113,7 +113,7 @@ class PushedState:
         Axial stretch far downstream.
     wall : Field
         Deformed wall and Cauchy stress (Pa, tension positive) of the whole tube, lengths in inner
-        radii, z from the stone's centre downstream.
+        radii, z from the stone's widest place downstream.
     solver : PushReport
     soundness : Soundness
         Stability of the wall's own law in this state, kinks left out.

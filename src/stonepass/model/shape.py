@@ -38,7 +38,8 @@ class Shape:
         Coefficients of g; g(π/2) = 1, g′(π/2) = 0, and g + g″ > 0 (convex). The length over the
         diameter, (1/g(0) + 1/g(π)) κ/2, must be 0.5 to 2.
     deviation : float
-        Largest distance from the points that the shape was put through, over R_s.
+        Largest distance from the points that the shape was put through, over R_s; along rays from
+        the widest place's centre, with z shrunk by κ.
     reference : str
         The file it was read from; empty where it was not.
 
@@ -56,6 +57,7 @@ class Shape:
 
     def __post_init__(self) -> None:
         require(0.0 < self.aspect < np.inf, "aspect", self.aspect, "a number above zero")
+        require(len(self.outline) > 0, "outline of the stone", "empty", "at least one number")
         object.__setattr__(self, "outline", tuple(float(c) for c in self.outline))
         widest = np.array(np.pi / 2)
         middle, tilt = float(self.width(widest)), float(self.slopes(widest)[0])

@@ -27,6 +27,7 @@ SLOPE_BASE = 1e-4  # sizes nearer than this say too little of the slope
 SMALLEST_OVERSIZE = 2e-4
 SMALL_LIMIT = 100.0  # Pa; only below it can a limit lie under every stuck stone
 SMALLER = (0.75, 0.5, 0.35, 0.25)  # of the largest oversize
+LARGER = 3  # sizes tried between one that moves below the limit and one without an answer
 LIMIT = (1.0, 1e6)
 
 
@@ -158,22 +159,25 @@ def _search(
 def _top(largest: float, lumen: float, excess: Callable[[float], float]) -> tuple[float, float]:
     """The largest size that has an answer, and its excess over the limit.
 
-    Where the largest of all has none, smaller ones are tried; they serve as the upper end if their
-    pressure is above the limit.
+    Where the largest of all has none, smaller ones are tried, then larger ones up to what has none;
+    they serve as the upper end if their pressure is above the limit.
     """
     try:
         return largest, excess(largest)
     except _Unanswered as stop:
         unanswered = stop
-    for share in SMALLER:
+    answered, lost, shares = 0.0, 1.0, [*SMALLER]
+    for _ in range(len(SMALLER) + LARGER):
+        share = shares.pop(0) if shares else (answered + lost) / 2.0
         size_ratio = lumen + share * (largest - lumen)
         try:
             top = excess(size_ratio)
         except _Unanswered:
+            lost = share
             continue
         if top >= 0.0:
             return size_ratio, top
-        break
+        answered, shares = share, []
     raise unanswered
 
 

@@ -85,7 +85,7 @@ class Fig8:
             ],
             _tables(found, asked.limit, line),
             [*_sizes(found, asked.limit), *_diameters(found, asked.limit), _grows(found),
-             *_added(found), *_falls(fits), _clinical()],
+             *_added(found), *_falls(fits, asked.limit), _clinical()],
         )  # fmt: skip
 
 
@@ -307,7 +307,7 @@ def _added(found: Results) -> list[Claim]:
                 "nearly equal to P_out",
                 ", ".join(f"{ratio:.3f} P_out" for ratio in ratios),
                 len(ratios) == len(CONFINING) and all(abs(r - 1.0) <= 0.1 for r in ratios),
-                "'nearly' is read as 10 %",
+                "'nearly' is read as 10 %" + _beyond(found, eta, xi),
                 max((r - 1.0 for r in ratios), key=abs, default=None),
                 0.1,
             )
@@ -315,7 +315,24 @@ def _added(found: Results) -> list[Claim]:
     return claims
 
 
-def _falls(fits: dict[float, tuple[float, float] | None]) -> list[Claim]:
+def _beyond(found: Results, eta: float, xi: float) -> str:
+    """A remark where the loaded wall is no longer stable."""
+    margins = []
+    for pressure in CONFINING:
+        seated = found.answer(ureter_case(eta, xi, Load(pressure))).seated
+        if seated is not None and seated.soundness.margin < 0.0:
+            margins.append(f"{seated.soundness.margin:.2f} at {pressure / 1e3:g} kPa")
+    if not margins:
+        return ""
+    return (
+        f"; the wall is beyond its stability there (margin {', '.join(margins)}; 1 unloaded, "
+        "0 lost), so no real wall stays in that state"
+    )
+
+
+def _falls(fits: dict[float, tuple[float, float] | None], limit: Pressure) -> list[Claim]:
+    if limit != LIMIT:
+        return []
     known = {eta: fit for eta, fit in fits.items() if fit is not None}
     shown = "; ".join(f"η {eta:.2f}: {slope:+.4f} per kPa, R² {r2:.4f}"
                       for eta, (slope, r2) in known.items())  # fmt: skip

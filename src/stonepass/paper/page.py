@@ -18,7 +18,7 @@ _STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; color: #1f2937; max-width: 62rem; margin: 2rem auto;
   padding: 0 1rem; }
 h1 { font-size: 1.7rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin-top: 2.6rem; }
-p.note, figcaption, footer { color: #4b5563; font-size: .9rem; }
+p.note, figcaption, footer, details { color: #4b5563; font-size: .9rem; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .88rem; width: 100%; }
 th, td { text-align: left; vertical-align: top; padding: .4rem .6rem;
@@ -89,6 +89,12 @@ def _section(section: Section) -> list[str]:
         parts.append(
             f'<figure><img src="{name}.svg" alt="{escape(caption)}" loading="lazy">'
             f'<figcaption>{escape(caption)} <a href="{name}.png">PNG</a></figcaption></figure>'
+        )
+    if section.warnings:
+        told = "".join(f"<li>{escape(each)}</li>" for each in section.warnings)
+        parts.append(
+            f"<details><summary>What the answers behind it warn of ({len(section.warnings)})"
+            f"</summary><ul>{told}</ul></details>"
         )
     links = ", ".join(f'<a href="{name}">{escape(name)}</a>' for name in section.files)
     return [*parts, f'<p class="note">Data: {links}</p>']

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
@@ -17,6 +18,7 @@ from stonepass.paper.page import write_page
 from stonepass.paper.seated_figures import Fig4, Fig5, Fig7
 from stonepass.paper.section import Asked, Section
 from stonepass.paper.sensitivity import Sensitivity
+from stonepass.report.table import grouped_warnings
 from stonepass.studies.executor import executor
 
 __all__ = ["PARTS", "Part", "chosen", "reproduce"]
@@ -93,6 +95,16 @@ def reproduce(
         for done, _ in enumerate(as_completed(parts), start=1):
             if drawing is not None:
                 drawing(done, len(parts))
-        sections = [part.result() for part in parts]
+        sections = [
+            replace(part.result(), warnings=_warnings(found.of(jobs[name])))
+            for name, part in zip(wanted, parts, strict=True)
+        ]
     write_page(sections, asked, folder / "index.html")
     return sections
+
+
+def _warnings(found: Results) -> tuple[str, ...]:
+    """What the answers behind a part warn of, each kind once; errors are left out on purpose."""
+    sizes = [size.at_size for size in found.sizes.values() if size.at_size is not None]
+    told = grouped_warnings([*found.pressures.values(), *sizes])
+    return tuple(each for each in told if "the error is not estimated" not in each)

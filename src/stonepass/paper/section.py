@@ -9,12 +9,15 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from stonepass.errors import require
 from stonepass.model.points import Point
 from stonepass.report.record import write_csv
 from stonepass.report.style import save
 from stonepass.units import Pressure
 
 __all__ = ["Asked", "Claim", "Picture", "Section", "Table"]
+
+LIMITS = (1e2, 1e5)  # Pa
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,11 @@ class Asked:
 
     limit: Pressure
     points: tuple[Point, ...] = ()
+
+    def __post_init__(self) -> None:
+        low, high = LIMITS
+        shown = f"{self.limit / 1e3:g} kPa"
+        require(low <= self.limit <= high, "limit", shown, "0.1 kPa to 100 kPa")
 
 
 @dataclass(frozen=True)
@@ -90,6 +98,7 @@ class Section:
     pictures: tuple[tuple[str, str], ...]
     files: tuple[str, ...]
     claims: tuple[Claim, ...]
+    warnings: tuple[str, ...] = ()
 
     @classmethod
     def written(

@@ -103,7 +103,7 @@ def record(answer: Answer) -> dict[str, Any]:
 
 
 def _series(answer: Answer) -> dict[str, Any]:
-    """Coefficients of the fitted closure: in t, and those of Eq. 14 in sin α, in inner radii."""
+    """Coefficients of the fitted closure: in t, and those of Eq. 14 in ρ_α/R_s, in inner radii."""
     series, touch = answer.series, answer.touch
     if series is None or touch is None:
         return {"series_coefficients": None, "printed_series_coefficients": None}

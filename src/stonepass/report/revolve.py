@@ -38,7 +38,7 @@ def write_vtu(path: Path, wall: Field, *, mirrored: bool) -> None:
     points = np.concatenate([np.c_[r * np.cos(t), r * np.sin(t), z] for t in angles])
     near = quads[None] + count * np.arange(SEGMENTS)[:, None, None]
     far = quads[None] + count * ((np.arange(SEGMENTS) + 1) % SEGMENTS)[:, None, None]
-    cells = np.concatenate([near, far], axis=2).reshape(-1, 8)
+    cells = np.concatenate([far, near], axis=2).reshape(-1, 8)
     data = {name: np.tile(values, SEGMENTS) for name, values in half.stress.items()}
     try:
         meshio.Mesh(points, [("hexahedron", cells)], point_data=data).write(path)

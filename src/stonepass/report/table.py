@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich import box
+from rich.markup import escape
 from rich.table import Table
 
 from stonepass.model.answer import Answer
@@ -156,7 +157,7 @@ def case_title(case: Case, *, with_stone: bool = True) -> str:
     parts = [", ".join(sizes), f"friction {stone.friction:g}", ureter.material.name]
     if not stone.shape.spheroidal:
         name = Path(stone.shape.reference).name or "of its own"
-        parts.append(f"shape {name}")
+        parts.append(f"shape {escape(name)}")
     elif stone.aspect != 1.0:
         parts.append(f"aspect {stone.aspect:g}")
     if case.load.confining_pressure > 0.0:

@@ -129,7 +129,8 @@ def _said_once(sentences: Sequence[str]) -> tuple[str, ...]:
 
 def _by(case: Case, **changed: Any) -> Case:
     """The case by another method."""
-    return replace(case, method=replace(case.method, **changed))
+    method = case.method.by(changed.pop("model", case.method.model))
+    return replace(case, method=replace(method, **changed))
 
 
 def _by_energy(direct: Answer) -> float | None:

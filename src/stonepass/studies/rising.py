@@ -57,7 +57,7 @@ def raise_pressure(case: Case, top: Pressure | None = None, steps: int = 13) -> 
     require(STEPS[0] <= steps <= STEPS[1], "steps", steps, f"{STEPS[0]} to {STEPS[1]}")
     if top is not None:
         require(0.0 < top < np.inf, "highest pressure", f"{top:g} Pa", "above zero")
-    direct = replace(case, method=replace(case.method, model="direct"))
+    direct = replace(case, method=case.method.by("direct"))
     critical = solve(direct)
     if critical.pushed is None and critical.outcome is not Outcome.NO_SOLUTION:
         return Rising(critical, [], None, np.empty(0), "")
@@ -69,7 +69,7 @@ def raise_pressure(case: Case, top: Pressure | None = None, steps: int = 13) -> 
     found = push_along(direct, pressures, LEVELS[case.method.accuracy].resolution)
     states = [state for state in found if isinstance(state, PushedState)]
     lost = next((state for state in found if isinstance(state, NoPush)), None)
-    seated = seat(replace(case, method=replace(case.method, model="paper")))
+    seated = seat(replace(case, method=case.method.by("paper")))
     reason = "" if lost is None else lost.reason
     if isinstance(seated, NoSeat):
         return Rising(critical, states, None, np.full(len(states), np.nan), reason)

@@ -138,6 +138,8 @@ def _key(what: str, case: Case, asked: dict[str, Any]) -> str | None:
     law = case.ureter.material.law
     if not is_dataclass(law) or isinstance(law, type):
         return None
+    if not type(law).__module__.startswith("stonepass.materials"):  # its source is not in the key
+        return None
     document = {
         "what": what,
         "solver": _solver(),
@@ -201,6 +203,10 @@ def _read(path: Path, corrupt: Path) -> tuple[Any, dict[str, Any]] | None:
             return json.loads(arrays.pop("document").tobytes()), arrays
         except (ValueError, KeyError, zipfile.BadZipFile):  # of another writer
             pass
-    corrupt.mkdir(parents=True, exist_ok=True)
-    path.replace(corrupt / path.name)
+    try:
+        corrupt.mkdir(parents=True, exist_ok=True)
+        if path.read_bytes() == raw:  # else another process has mended it meanwhile
+            path.replace(corrupt / path.name)
+    except OSError:  # gone, or a folder that cannot be written: solved again all the same
+        pass
     return None

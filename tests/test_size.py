@@ -104,5 +104,7 @@ def test_where_the_largest_stone_has_no_answer_a_smaller_one_bounds_the_search()
 
     # 1 + 0.75 × 0.3 = 1.225 has none either, 1 + 0.5 × 0.3 = 1.15 has.
     assert _top(1.3, 1.0, excess(1.1)) == pytest.approx((1.15, 0.05))
+    # Then halves between 1.15 and 1.225: 1.1875 moves below the limit, 1.2063 has no answer.
+    assert _top(1.3, 1.0, excess(1.19)) == pytest.approx((1.196875, 0.006875))
     with pytest.raises(_Unanswered):  # the limit lies where nothing is known
-        _top(1.3, 1.0, excess(1.19))
+        _top(1.3, 1.0, excess(1.1999))

@@ -21,7 +21,7 @@ FEWEST_POINTS = 9
 MOST_TERMS = 24
 NOTHING = 1e-12  # last terms of a series that say nothing
 EXACT = 1e-7  # of the radius: nearer to the points no series need come
-CLEARLY = 2.0  # a lopsided shape must be nearer by this factor than one with a mirror image
+CLEARLY = 2.0  # a lopsided or a held shape must be nearer by this factor to be taken
 GRID, LEAST = np.linspace(0.0, np.pi, 721), 1e-3  # where g + g″ is held, and above what
 SAME = 1.2  # fewer terms are taken where they come as near but for this factor
 # As shares of the radius: a series farther from its points is refused, mirror images nearer to each
@@ -129,10 +129,13 @@ def _fit(
             found.append(shape)
             if shape.deviation <= EXACT:
                 break
-    if not found or min(shape.deviation for shape in found) > MIRRORED:
+    nearest = min((shape.deviation for shape in found), default=np.inf)
+    if nearest > MIRRORED:
         origin = (z[0] + z[-1]) / 2.0 if symmetric else _widest(z, rho, min(8, len(z) // 2))
         held = _held_convex(z, rho, float(origin), symmetric)
-        found += [] if held is None else [held]
+        # It follows noise, so only where it comes much nearer.
+        if held is not None and CLEARLY * held.deviation < nearest:
+            found.append(held)
     if not found:
         return None
     enough = max(EXACT, SAME * min(shape.deviation for shape in found))

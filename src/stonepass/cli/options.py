@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from pathlib import Path
@@ -260,37 +260,39 @@ class Settings:
         """Build the method."""
         from stonepass.model.case import Method
 
-        merged = self._merged(_METHOD_OPTIONS, "method")
+        merged = self._merged(_METHOD_OPTIONS, "method", self._displaced())
         if self.pairs is not None:
             from stonepass.model.opening import read_pairs
 
             merged["pairs"] = read_pairs(self.pairs)
-        elif self.closure == "linear":
-            merged.pop("pairs", None)  # the file's pairs go with its series
-        if self.seating == "frictionless" and self.seating_friction is None:
-            merged.pop("seating_friction", None)  # the file's friction goes with its seating
-        if self.secant_stretch is not None:
-            merged.pop("circumferential_modulus", None)
-            merged.pop("longitudinal_modulus", None)
-        if self.circumferential_modulus is not None or self.longitudinal_modulus is not None:
-            merged.pop("secant_stretch", None)
-        for name in BEAM_OPTIONS:  # both kinds on the command line are refused, as they should be
-            if getattr(self, name) is not None:
-                merged[name] = getattr(self, name)
-        if self.model not in (None, "beam"):
-            for name in BEAM_OPTIONS:  # the file's moduli go with its model
-                if getattr(self, name) is None:
-                    merged.pop(name, None)
         return Method(**merged)
+
+    def _displaced(self) -> set[str]:
+        """What a case file says of the method that goes where an option is given beside it."""
+        moduli = {"circumferential_modulus", "longitudinal_modulus"}
+        found: set[str] = set()
+        if self.closure == "linear":
+            found.add("pairs")  # they go with the series
+        if self.seating == "frictionless":
+            found.add("seating_friction")
+        if self.secant_stretch is not None:
+            found |= moduli
+        if any(getattr(self, name) is not None for name in moduli):
+            found.add("secant_stretch")
+        if self.model not in (None, "beam"):
+            found |= set(BEAM_OPTIONS)
+        return found
 
     @property
     def _base(self) -> Case | None:
         return None if self.case_file is None else _read(self.case_file)
 
-    def _merged(self, names: tuple[str, ...], section: str) -> dict[str, Any]:
+    def _merged(
+        self, names: tuple[str, ...], section: str, displaced: Collection[str] = ()
+    ) -> dict[str, Any]:
         """Options that were given, else the file's values, else nothing (the defaults)."""
-        base = self._base
-        kept = {} if base is None else {n: getattr(getattr(base, section), n) for n in names}
+        base = None if self._base is None else getattr(self._base, section)
+        kept = {} if base is None else {n: getattr(base, n) for n in names if n not in displaced}
         given = {name: getattr(self, name) for name in names}
         return kept | {name: value for name, value in given.items() if value is not None}
 

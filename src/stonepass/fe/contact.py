@@ -21,6 +21,7 @@ from stonepass.fe.wall import SYMBOLS
 __all__ = [
     "Arc",
     "bilateral",
+    "joined",
     "lobatto",
     "lobatto_rule",
     "lobatto_slopes",
@@ -111,6 +112,14 @@ def resampling(
     ``resampling(1, 3)`` is [[1, 0], [0.5, 0.5], [0, 1]] and three rows of [-1, 1].
     """
     return _basis_change(order, np.linspace(0.0, 1.0, count))
+
+
+def joined(samples: Float[np.ndarray, "edges count"]) -> Float[np.ndarray, " n"]:
+    """Samples of neighbouring columns in one line, what two columns share once.
+
+    ``joined`` of [[1, 2], [2, 3]] is [1, 2, 3].
+    """
+    return np.concatenate([samples[0, :1], samples[:, 1:].ravel()])
 
 
 @lru_cache(maxsize=8)

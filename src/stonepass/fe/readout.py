@@ -9,7 +9,7 @@ import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.fe.contact import lobatto, resampling
+from stonepass.fe.contact import joined, lobatto, resampling
 from stonepass.fe.discrete import Discrete, inner_wall, smallest_volume_ratio
 from stonepass.fe.fit import Fitted
 from stonepass.fe.mesh import Layout
@@ -119,15 +119,12 @@ def contact_profile(solved: Fitted) -> ContactProfile:
     run = wall.station[:, -1:] - wall.station[:, :1]
     r, z = wall.r @ values.T, wall.z @ values.T
     area = r * np.hypot(wall.r @ slopes.T, wall.z @ slopes.T) / run
-    # The first sample of every column but the first is the last of the one before.
-    keep = np.arange(r.size) % SAMPLES_PER_COLUMN > 0
-    keep[0] = True
 
     def whole(
         samples: Float[np.ndarray, "edges points"], sign: float = 1.0, middle: float = 0.0
     ) -> Float[np.ndarray, " n"]:
         """Samples in axial order; of a half with their image, `sign` × them about the middle."""
-        run = samples.ravel()[keep]
+        run = joined(samples)
         if solved.layout.whole:
             return run
         return np.concatenate([(middle + sign * (run - middle))[:0:-1], run])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,6 +29,7 @@ SAME = 1.2  # fewer terms are taken where they come as near but for this factor
 # other are one shape, and a point nearer to the axis lies on it.
 FARTHEST, MIRRORED, ON_AXIS = 0.05, 1e-3, 1e-4
 
+Outline = Float[np.ndarray, " coefficients"]
 Points = tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]
 _SMOOTHER = "smooth the points, or leave out those of a dent"
 
@@ -121,20 +123,25 @@ def _fit(
     Least squares of the distance along rays, each point counted by the angle that it stands for;
     where that is far off or has dents, as with flat sides, the largest distance under convexity.
     """
+    middle = float(z[0] + z[-1]) / 2.0
+
+    def nearest(terms: int, find: Callable[..., Outline | None], most: int) -> Shape | None:
+        origin = middle if symmetric else _widest(z, rho, min(terms, most))
+        return _nearest(z, rho, origin, _basis(terms, symmetric), find)
+
     found: list[Shape] = []
-    for terms in range(2, min(MOST_TERMS, len(z) // 2) + 1):
-        origin = (z[0] + z[-1]) / 2.0 if symmetric else _widest(z, rho, terms)
-        shape = _nearest(z, rho, float(origin), terms, symmetric)
+    most = min(MOST_TERMS, len(z) // 2)
+    for terms in range(2, most + 1):
+        shape = nearest(terms, _series, terms)
         if shape is not None:
             found.append(shape)
             if shape.deviation <= EXACT:
                 break
-    nearest = min((shape.deviation for shape in found), default=np.inf)
-    if nearest > MIRRORED:
-        origin = (z[0] + z[-1]) / 2.0 if symmetric else _widest(z, rho, min(8, len(z) // 2))
-        held = _held_convex(z, rho, float(origin), symmetric)
+    best = min((shape.deviation for shape in found), default=np.inf)
+    if best > MIRRORED:
+        held = nearest(MOST_TERMS, _held_convex, min(8, len(z) // 2))
         # It follows noise, so only where it comes much nearer.
-        if held is not None and CLEARLY * held.deviation < nearest:
+        if held is not None and CLEARLY * held.deviation < best:
             found.append(held)
     if not found:
         return None
@@ -162,16 +169,18 @@ def _nearest(
     z: Float[np.ndarray, " points"],
     rho: Float[np.ndarray, " points"],
     origin: float,
-    terms: int,
-    symmetric: bool,
+    basis: Float[np.ndarray, "unknowns coefficients"],
+    find: Callable[..., Outline | None],
 ) -> Shape | None:
-    """The shape of so many terms nearest to the points; None where it is none, as with a dent."""
-    radius, widest, basis = float(rho.max()), 1.0, _basis(terms, symmetric)
+    """The shape whose g `find` gives; None where it is none, as with a dent."""
+    radius, widest = float(rho.max()), 1.0
     for _ in range(3):  # the widest place may lie between two points
         radius = radius / widest
         size, tau = _polar(z, rho, origin, radius)
-        outline = _series(size, tau, basis)
-        widest = float(chebyshev.chebval(0.0, outline))
+        found = find(size, tau, basis)
+        if found is None:
+            return None
+        outline, widest = found, float(chebyshev.chebval(0.0, found))
         if not widest > 0.0:
             return None
     deviation = float(np.abs(size * chebyshev.chebval(np.cos(tau), outline) - 1.0).max())
@@ -180,39 +189,6 @@ def _nearest(
     aspect = float(z[-1] - z[0]) / (2.0 * radius)
     try:
         return Shape(aspect, kept, deviation)
-    except BadInput:
-        return None
-
-
-def _held_convex(
-    z: Float[np.ndarray, " points"],
-    rho: Float[np.ndarray, " points"],
-    origin: float,
-    symmetric: bool,
-) -> Shape | None:
-    """The convex shape whose largest distance along rays is least, by linear programming."""
-    radius, basis = float(rho.max()), _basis(MOST_TERMS, symmetric)
-    k = np.arange(MOST_TERMS + 1)
-    curvature = np.cos(GRID[:, None] * k) @ (basis * (1.0 - k**2)).T
-    for _ in range(3):  # the widest place may lie between two points
-        size, tau = _polar(z, rho, origin, radius)
-        rays = (basis @ chebyshev.chebvander(np.cos(tau), MOST_TERMS).T * size).T
-        one, none = np.ones((len(z), 1)), np.zeros((len(GRID), 1))
-        bounds = np.block([[rays, -one], [-rays, -one], [-curvature, none]])
-        limits = np.concatenate([np.ones(len(z)), -np.ones(len(z)), np.full(len(GRID), -LEAST)])
-        goal = np.append(np.zeros(len(basis)), 1.0)
-        solved = linprog(goal, bounds, limits, bounds=(None, None))
-        if not solved.success:
-            return None
-        outline = solved.x[:-1] @ basis
-        widest = float(chebyshev.chebval(0.0, outline))
-        if not widest > 0.0:
-            return None
-        radius = radius / widest
-    try:
-        return Shape(
-            float(z[-1] - z[0]) / (2.0 * radius), tuple((outline / widest).tolist()), solved.x[-1]
-        )
     except BadInput:
         return None
 
@@ -238,6 +214,25 @@ def _series(
     rows = basis @ chebyshev.chebvander(np.cos(tau), basis.shape[1] - 1).T * size * weight
     solved: Float[np.ndarray, " unknowns"] = np.linalg.lstsq(rows.T, weight, rcond=None)[0]
     return solved @ basis
+
+
+def _held_convex(
+    size: Float[np.ndarray, " points"],
+    tau: Float[np.ndarray, " points"],
+    basis: Float[np.ndarray, "unknowns coefficients"],
+) -> Outline | None:
+    """The g with g + g″ above zero whose largest distance from the points is least.
+
+    By linear programming, the distance along rays one more unknown; None where it fails.
+    """
+    k = np.arange(basis.shape[1])
+    curvature = np.cos(GRID[:, None] * k) @ (basis * (1.0 - k**2)).T
+    rays = (basis @ chebyshev.chebvander(np.cos(tau), len(k) - 1).T * size).T
+    one, none = np.ones((len(size), 1)), np.zeros((len(GRID), 1))
+    bounds = np.block([[rays, -one], [-rays, -one], [-curvature, none]])
+    limits = np.concatenate([np.ones(len(size)), -np.ones(len(size)), np.full(len(GRID), -LEAST)])
+    solved = linprog(np.append(np.zeros(len(basis)), 1.0), bounds, limits, bounds=(None, None))
+    return solved.x[:-1] @ basis if solved.success else None
 
 
 def _basis(terms: int, symmetric: bool) -> Float[np.ndarray, "unknowns coefficients"]:

@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.errors import require
-from stonepass.fe.contact import resampling
+from stonepass.fe.contact import joined, resampling
 from stonepass.fe.discrete import inner_wall
 from stonepass.fe.fit import Fitted
 from stonepass.fe.problem import Failure, Resolution
@@ -436,10 +436,7 @@ def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedStat
     slide, modulus = ready.slide, ready.modulus
     order = found.station.shape[1] - 1
     fine = resampling(order, SAMPLES)[0].T
-    # The first sample of every column but the first is the last of the one before.
-    keep = np.arange(len(found.station) * SAMPLES) % SAMPLES > 0
-    keep[0] = True
-    r, z, sigma = ((x @ fine).ravel()[keep] for x in (found.r, found.z, found.contact_pressure))
+    r, z, sigma = (joined(x @ fine) for x in (found.r, found.z, found.contact_pressure))
     in_pascals = field(slide).in_units(modulus)
     far = slide.far_field()
     return PushedState(

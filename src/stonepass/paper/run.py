@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import as_completed
 from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
@@ -66,7 +65,6 @@ def reproduce(
     store: Path | None = None,
     workers: int = 1,
     progress: Callable[[int, int], None] | None = None,
-    drawing: Callable[[int, int], None] | None = None,
 ) -> list[Section]:
     """Solve what the parts need, write them into `folder`, and ``index.html`` over them.
 
@@ -78,8 +76,8 @@ def reproduce(
         Limit and measured points.
     store : Path, optional
         Folder of remembered finite-element results; without one everything is solved.
-    progress, drawing : callable
-        Told (done, all) of the jobs, and of the parts written.
+    progress : callable
+        Told (done, all) of the jobs.
     """
     wanted = chosen(names)
     try:
@@ -92,9 +90,6 @@ def reproduce(
         parts = [
             pool.submit(PARTS[name].write, found.of(jobs[name]), asked, folder) for name in wanted
         ]
-        for done, _ in enumerate(as_completed(parts), start=1):
-            if drawing is not None:
-                drawing(done, len(parts))
         sections = [
             replace(part.result(), warnings=_warnings(found.of(jobs[name])))
             for name, part in zip(wanted, parts, strict=True)

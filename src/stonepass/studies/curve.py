@@ -8,7 +8,6 @@ from concurrent.futures import as_completed
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
-from stonepass.model.elements import Elements
 from stonepass.studies.executor import can_travel, executor
 
 __all__ = ["curve", "solve_slim"]
@@ -34,6 +33,6 @@ def curve(
         return [future.result() for future in futures]
 
 
-def solve_slim(case: Case, elements: Elements | None = None) -> Answer:
+def solve_slim(case: Case) -> Answer:
     """Solve, and leave the stress field behind."""
-    return solve(case, elements=elements).without_wall()
+    return solve(case).without_wall()

@@ -34,6 +34,7 @@ def to_plain(value: Any) -> tuple[Any, dict[str, Any]]:
     arrays: dict[str, Any] = {}
 
     def plain(part: Any) -> Any:
+        """One part as JSON, its arrays put aside."""
         if part is None or isinstance(part, str | bool | int):
             return part
         if isinstance(part, np.bool_):

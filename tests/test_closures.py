@@ -229,6 +229,10 @@ def test_pairs_that_are_none_are_refused_with_their_place(tmp_path, text, senten
 @pytest.mark.parametrize(
     ("method", "sentence"),
     [
+        (
+            {"closure": "series", "model": "direct"},
+            "closure is series, but must be left out; it is of the model 'paper', not 'direct'",
+        ),
         ({"closure": "cubic"}, "closure is cubic, but must be one of linear, series"),
         ({"series_order": 9}, "series_order is 9, but must be a whole number from 1 to 8"),
         ({"series_order": 2.0}, "series_order is 2.0, but must be a whole number"),
@@ -277,3 +281,12 @@ def test_a_beam_question_is_raised_by_the_direct_model():
     assert rising.critical.pressure == pytest.approx(direct.pressure)
     assert method.by("direct").secant_stretch is None
     assert method.by("beam") == method
+
+
+def test_another_model_leaves_the_closure_behind(compared):
+    method = sp.Method(closure="series", pairs=compared.pairs)
+    assert method.by("direct") == sp.Method(model="direct")
+    assert method.by("paper") == method
+    beam = sp.Method(model="beam", secant_stretch=1.2)
+    assert beam.by("beam") == beam
+    assert beam.by("direct") == sp.Method(model="direct")

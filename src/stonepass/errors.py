@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 from difflib import get_close_matches
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Self
 
 __all__ = [
     "BadInput",
@@ -26,6 +26,10 @@ class BadInput(StonepassError, ValueError):
     def __init__(self, argument: str, value: Any, allowed: str, remedy: str = "") -> None:
         super().__init__(argument, value, allowed, remedy)
         self.argument, self.value, self.allowed, self.remedy = argument, value, allowed, remedy
+
+    def within(self, file: str) -> Self:
+        """Return the same refusal, of something that stands in a file."""
+        return type(self)(f"in {file}, {self.argument}", self.value, self.allowed, self.remedy)
 
     def __str__(self) -> str:
         shown = self.value if isinstance(self.value, str) else repr(self.value)

@@ -281,6 +281,8 @@ class Settings:
             found.add("secant_stretch")
         if self.model not in (None, "beam"):
             found |= set(BEAM_OPTIONS)
+        if self.model not in (None, "paper"):
+            found |= {"closure", "pairs"}
         return found
 
     @property

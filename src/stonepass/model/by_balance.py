@@ -25,7 +25,7 @@ from stonepass.model.seated import Contact, NoSeat, SeatedState
 from stonepass.model.soundness import folding_warning
 from stonepass.units import Values
 
-__all__ = ["balance_pressure", "pressure_of_angle", "solve_by_balance"]
+__all__ = ["balance_pressure", "pressure_of_angle", "solve_by_balance", "with_whole_law"]
 
 # (ρ_α/R_s, ρ₀/R_s, ξ) to r_a/R_a, ρ₀ that of α₀.
 Closure = Callable[[Values, float, float], Values]
@@ -61,14 +61,17 @@ def solve_by_balance(
         did = seated.solver
         return unanswered(case, Outcome.NO_SOLUTION, NO_PAIRS, did.newton_steps, did.seconds)
     if case.method.pairs is None:
-        # Back to a pressure by the law that the pairs are of, so that each pair gives its own.
-        whole = replace(case.method, far_field_ground=True)
-        seated = _of(replace(case, method=whole), seated)
+        seated = with_whole_law(seated)
     return _balance(case, seated, series)
 
 
-def _of(case: Case, seated: SeatedState) -> SeatedState:
-    """The same contact as that of another case."""
+def with_whole_law(seated: SeatedState) -> SeatedState:
+    """Return the same contact in a far field of the whole law, ground matrix included.
+
+    Direct states are of that law, so that a series fitted to them gives each its own pressure.
+    """
+    method = replace(seated.case.method, far_field_ground=True)
+    case = replace(seated.case, method=method)
     coarse = None if seated.coarse is None else replace(seated.coarse, case=case)
     return replace(seated, case=case, coarse=coarse)
 

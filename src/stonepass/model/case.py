@@ -26,6 +26,7 @@ CONFINING = (0.0, 1e5)
 PRESTRETCH = (0.8, 1.6)
 HALF_LENGTH = (3.0, 100.0)
 MODULUS = (1e2, 1e10)
+MODULI = ("circumferential_modulus", "longitudinal_modulus")  # of the beam
 SECANT_STRETCH = (1.001, 2.0)
 _BY_RATIO = "give both diameters, or the ratio alone"
 
@@ -200,7 +201,8 @@ class Method:
     closure_start : {"inner-radius", "lumen"}
         Where Eq. 15 starts: at R_a as in the paper, or at the lumen that load leaves open.
     closure : {"linear", "series"}
-        Eq. 15; or the series of Eqs 13–14, fitted to `pairs` or to direct states of the case.
+        Paper's model: Eq. 15; or the series of Eqs 13–14, fitted to `pairs` or to direct states of
+        the case.
     series_order : int
         Of the series, 1 to 8.
     pairs : Pairs, optional
@@ -249,6 +251,9 @@ class Method:
         _choice("accuracy", self.accuracy, ("fast", "standard", "reference"))
         _choice("closure_start", self.closure_start, ("inner-radius", "lumen"))
         _choice("closure", self.closure, ("linear", "series"))
+        if self.closure == "series" and self.model != "paper":
+            why = f"it is of the model 'paper', not '{self.model}'"
+            raise BadInput("closure", self.closure, "left out", why)
         low, high = ORDER
         whole = isinstance(self.series_order, int) and not isinstance(self.series_order, bool)
         allowed = f"a whole number from {low} to {high}"
@@ -267,20 +272,15 @@ class Method:
             require(isinstance(value, bool), name, value, "true or false")
 
     def by(self, model: str) -> Method:
-        """Return the same method with another model, without what is of the beam alone."""
-        if model == "beam":
-            return replace(self, model=model)
-        return replace(
-            self,
-            model=model,
-            circumferential_modulus=None,
-            longitudinal_modulus=None,
-            secant_stretch=None,
-        )
+        """Return the same method with another model, without what is of one model alone."""
+        of_paper: dict[str, Any] = {"closure": "linear", "pairs": None}
+        of_beam: dict[str, Any] = dict.fromkeys((*MODULI, "secant_stretch"))
+        dropped = {} if model == "paper" else of_paper
+        dropped |= {} if model == "beam" else of_beam
+        return replace(self, model=model, **dropped)
 
     def _check_beam(self) -> None:
-        moduli = ("circumferential_modulus", "longitudinal_modulus")
-        given = [name for name in moduli if getattr(self, name) is not None]
+        given = [name for name in MODULI if getattr(self, name) is not None]
         for name in given:
             value = getattr(self, name)
             read = pressure(value, name)
@@ -293,7 +293,7 @@ class Method:
             for name in (*given, *(["secant_stretch"] if self.secant_stretch is not None else [])):
                 raise BadInput(name, getattr(self, name), "left out", "it is of the model 'beam'")
         elif self.secant_stretch is None and len(given) < 2:
-            missing = next(name for name in moduli if name not in given)
+            missing = next(name for name in MODULI if name not in given)
             raise BadInput(missing, "missing", "given", "or give a secant_stretch")
         elif self.secant_stretch is not None and given:
             raise BadInput("secant_stretch", self.secant_stretch, f"left out beside a {given[0]}")

@@ -95,9 +95,7 @@ def read_case(path: Path) -> Case:
             Method(**method),
         )
     except BadInput as problem:
-        raise BadInput(
-            f"in {path.name}, {problem.argument}", problem.value, problem.allowed, problem.remedy
-        ) from problem
+        raise problem.within(path.name) from problem
 
 
 def write_case(case: Case, path: Path) -> None:

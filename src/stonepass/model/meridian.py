@@ -80,12 +80,7 @@ def read_shape(path: Path) -> Shape:
     try:
         found = shape_through(columns["z"], columns["rho"])
     except BadInput as problem:
-        raise BadInput(
-            f"in {path.name}, {problem.argument}",
-            problem.value,
-            problem.allowed,
-            problem.remedy,
-        ) from problem
+        raise problem.within(path.name) from problem
     return replace(found, reference=str(path))
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rich import box
 from rich.table import Table
+from rich.text import Text
 
 from stonepass.paper.section import Claim
 
@@ -20,7 +21,8 @@ def claims_table(claims: Sequence[Claim]) -> Table:
     for column in ("claim", "published", "ours", "reproduced"):
         table.add_column(column)
     for claim in claims:
-        table.add_row(claim.what, claim.published, claim.ours, _MARKS[claim.holds])
+        cells = (claim.what, claim.published, claim.ours, _MARKS[claim.holds])
+        table.add_row(*map(Text, cells))
         if claim.holds is not True:
-            table.add_row(f"  [dim]{claim.reason}[/dim]", "", "", "")
+            table.add_row(Text(f"  {claim.reason}", "dim"))
     return table

@@ -14,7 +14,7 @@ from stonepass.model.case import Case, Load
 from stonepass.model.points import Point
 from stonepass.paper.inputs import LATEX_WALLS, WATER, latex_case
 from stonepass.paper.jobs import Job, PressureJob, Results
-from stonepass.paper.section import Asked, Claim, Picture, Section, Table
+from stonepass.paper.section import Asked, Claim, Picture, Section, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 
 __all__ = ["Fig6"]
@@ -42,14 +42,14 @@ class Fig6:
         """Draw both panels, write the curves, compare with points."""
         figure = new_figure(9.2, 4.0)
         air, water = (figure.add_subplot(1, 2, k) for k in (1, 2))
-        rows = []
+        answers = []
         for load, line in zip(LOADS, LINES, strict=True):
             axes = water if load.confining_pressure > 0.0 else air
             for eta in LATEX_WALLS:
                 curve = [found.answer(latex_case(eta, xi, load)) for xi in SIZES]
                 label = f"η = {eta:g}" if line == "-" else None
                 _draw(axes, curve, COLOURS[SHADES[eta]], line, label)
-                rows += [_row(answer) for answer in curve]
+                answers += curve
         if asked.points:
             _draw_points(air, water, asked.points)
         water.plot([], [], color=COLOURS["ink"], linestyle="--", label="dead load (Eq. 10)")
@@ -72,7 +72,7 @@ class Fig6:
             "",
             folder,
             [Picture("fig6", figure, caption)],
-            [Table("fig6", header, rows)],
+            [answers_table("fig6", header, answers)],
             [_grows(found), _agreement(found, asked.points)],
         )
 
@@ -111,20 +111,6 @@ def _draw_points(air: Axes, water: Axes, points: Sequence[Point]) -> None:
                     color=COLOURS[SHADES.get(eta, "grey")],
                     label=f"measured, η = {eta:g}",
                 )
-
-
-def _row(answer: Answer) -> list[object]:
-    case, error = answer.case, answer.error
-    claimed = None if error is None else error.critical_pressure
-    return [
-        case.wall_ratio,
-        case.load.confining_pressure / 1e3,
-        case.load.confinement if case.load.confining_pressure else "",
-        case.size_ratio,
-        answer.outcome.name,
-        None if answer.pressure is None else answer.pressure / 1e3,
-        None if claimed is None else claimed / 1e3,
-    ]
 
 
 def _grows(found: Results) -> Claim:

@@ -12,10 +12,12 @@ from matplotlib.axes import Axes
 from scipy.interpolate import PchipInterpolator
 from scipy.stats import linregress
 
+from stonepass.errors import Outcome
 from stonepass.model.case import Load
-from stonepass.paper.inputs import CONFINING, INNER_DIAMETERS, LIMIT, PUBLISHED, ureter_case
+from stonepass.model.size import SizeAnswer
+from stonepass.paper.inputs import CONFINING, LIMIT, PASSING, PUBLISHED, ureter_case
 from stonepass.paper.jobs import Job, PressureJob, Results, SizeJob
-from stonepass.paper.section import Asked, Claim, Picture, Section, Table
+from stonepass.paper.section import Asked, Claim, Picture, Section, Table, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 from stonepass.units import Pressure
 
@@ -32,6 +34,7 @@ SOURCES = (
     "Sizes that passed: Jendeberg et al. 2017, doi 10.1007/s00330-017-4852-6 (by secondary "
     "sources); lumen 3.40 ± 0.61 mm: Song et al. 2010, Korean J. Urol. 51(3)."
 )
+Line = dict[float, tuple[Outcome, float | None]]  # η: ξ_cr at the limit
 
 
 class Fig8:
@@ -51,7 +54,7 @@ class Fig8:
 
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the panels, write their data, judge the claims."""
-        line = [_size_of(found, eta, asked.limit) for eta in WALLS]
+        line = {eta: _size_of(found, eta, asked.limit) for eta in WALLS}
         figure = new_figure(9.6, 8.0)
         _curves(figure.add_subplot(2, 2, 1), found, asked)
         _surface(
@@ -89,24 +92,27 @@ class Fig8:
         )  # fmt: skip
 
 
-def _tables(found: Results, limit: Pressure, line: Sequence[float | None]) -> list[Table]:
+def _tables(found: Results, limit: Pressure, line: Line) -> list[Table]:
     """The data of the panels."""
-    curve = ("wall_ratio", "size_ratio", "critical_pressure_kPa")
-    loads = (Pressure(0.0), *CONFINING)
-
-    def pressure(eta: float, xi: float, load: Pressure) -> float | None:
-        return _kilo(found.answer(ureter_case(eta, xi, Load(load))).pressure)
-
-    surface = [[e, x, _kilo(_surface_pressure(found, e, x))] for e in WALLS for x in SIZES]
-    confined = [[e, p / 1e3, x, pressure(e, x, p)] for e in PUBLISHED for p in loads for x in SIZES]
+    rest = ("size_ratio", "outcome", "critical_pressure_kPa", "critical_pressure_error_kPa",
+            "stability_margin")  # fmt: skip
+    confined = [
+        found.answer(ureter_case(eta, xi, Load(pressure)))
+        for eta in PUBLISHED
+        for pressure in (Pressure(0.0), *CONFINING)
+        for xi in SIZES
+    ]
+    bare = [answer for answer in confined if answer.case.load == Load()]
+    surface = [found.answer(ureter_case(e, x), error=False) for e in WALLS for x in SIZES]
     return [
-        Table("fig8a", curve, [[e, x, pressure(e, x, loads[0])] for e in PUBLISHED for x in SIZES]),
-        Table("fig8b", curve, surface),
-        Table("fig8b_line", ("wall_ratio", "critical_size_ratio"),
-              [[e, x] for e, x in zip(WALLS, line, strict=True)]),
-        Table("fig8c", ("wall_ratio", "confining_kPa", *curve[1:]), confined),
-        Table("fig8d", ("wall_ratio", "confining_kPa", "critical_size_ratio",
-                        "critical_size_ratio_error"), _sizes_rows(found, limit)),
+        answers_table("fig8a", ("wall_ratio", *rest), bare),
+        answers_table("fig8b", ("wall_ratio", *(c for c in rest if "error" not in c)), surface),
+        Table("fig8b_line", ("wall_ratio", "outcome", "critical_size_ratio"),
+              [[e, outcome.name, size] for e, (outcome, size) in line.items()]),
+        answers_table("fig8c", ("wall_ratio", "confining_kPa", *rest), confined),
+        Table("fig8d", ("wall_ratio", "confining_kPa", "outcome", "critical_size_ratio",
+                        "critical_size_ratio_error", "stability_margin"),
+              [_size_row(size) for size in _sizes_under(found, limit)]),
     ]  # fmt: skip
 
 
@@ -118,14 +124,17 @@ def _surface_pressure(found: Results, eta: float, xi: float) -> float | None:
     return found.answer(ureter_case(eta, xi), error=False).pressure
 
 
-def _size_of(found: Results, eta: float, limit: Pressure) -> float | None:
-    """ξ_cr of one wall from its row of the surface; None where the row does not reach the limit."""
+def _size_of(found: Results, eta: float, limit: Pressure) -> tuple[Outcome, float | None]:
+    """ξ_cr of one wall from its row of the surface, or why the row does not reach the limit."""
     row = [(x, _surface_pressure(found, eta, x)) for x in SIZES]
-    known = [(x, p) for x, p in row if p is not None]
-    sizes, pressures = np.array(known).T
-    if not pressures[0] < limit < pressures[-1] or np.any(np.diff(pressures) <= 0.0):
-        return None
-    return float(PchipInterpolator(pressures, sizes)(limit))
+    sizes, pressures = np.array([(x, p) for x, p in row if p is not None]).reshape(-1, 2).T
+    if len(sizes) < 2 or np.any(np.diff(pressures) <= 0.0):
+        return Outcome.NO_SOLUTION, None
+    if limit < pressures[0]:
+        return Outcome.BELOW_RANGE, None
+    if limit > pressures[-1]:
+        return Outcome.BEYOND_RANGE if len(sizes) == len(row) else Outcome.NO_SOLUTION, None
+    return Outcome.MOVES, float(PchipInterpolator(pressures, sizes)(limit))
 
 
 def _curves(axes: Axes, found: Results, asked: Asked) -> None:
@@ -159,14 +168,20 @@ def _frame(axes: Axes, name: str) -> None:
     add_mmhg_axis(axes)
 
 
-def _surface(axes: Axes, found: Results, line: Sequence[float | None], limit: Pressure) -> None:
+def _known(line: Line) -> tuple[list[float], list[float]]:
+    """Wall ratios and critical sizes of the walls that have one."""
+    known = [(eta, size) for eta, (_, size) in line.items() if size is not None]
+    return [eta for eta, _ in known], [size for _, size in known]
+
+
+def _surface(axes: Axes, found: Results, line: Line, limit: Pressure) -> None:
     x, y = np.meshgrid(SIZES, WALLS)
     z = np.array([[_kilo(_surface_pressure(found, e, s)) for s in SIZES] for e in WALLS], float)
     space: Any = axes
     space.plot_surface(x, y, z, cmap="magma_r", linewidth=0.2, edgecolor="white", alpha=0.9)
-    drawn = [(s, e) for s, e in zip(line, WALLS, strict=True) if s is not None]
+    walls, sizes = _known(line)
     for height in (0.0, limit / 1e3):
-        space.plot([s for s, _ in drawn], [e for _, e in drawn], height, color=COLOURS["ink"])
+        space.plot(sizes, walls, height, color=COLOURS["ink"])
     space.set(xlabel="ξ", ylabel="η", zlabel="$P_{ucr}$ (kPa)")
     space.set_title("b")
     space.view_init(elev=22, azim=-128)
@@ -182,15 +197,20 @@ def _confined(axes: Axes, found: Results) -> None:
     axes.legend(fontsize=7, loc="upper left")
 
 
-def _sizes_rows(found: Results, limit: Pressure) -> list[list[float | None]]:
-    rows = []
-    for eta in PUBLISHED:
-        for load in LOADS:
-            size = found.size(ureter_case(eta, 1.1, load), limit)
-            rows.append(
-                [eta, load.confining_pressure / 1e3, size.size_ratio, size.size_ratio_error]
-            )
-    return rows
+def _sizes_under(found: Results, limit: Pressure) -> list[SizeAnswer]:
+    return [found.size(ureter_case(e, 1.1, load), limit) for e in PUBLISHED for load in LOADS]
+
+
+def _size_row(size: SizeAnswer) -> list[object]:
+    state = None if size.at_size is None else size.at_size.state
+    return [
+        size.case.wall_ratio,
+        size.case.load.confining_pressure / 1e3,
+        size.outcome.name,
+        size.size_ratio,
+        size.size_ratio_error,
+        None if state is None else state.soundness.margin,
+    ]
 
 
 def _sizes_under_load(
@@ -199,10 +219,14 @@ def _sizes_under_load(
     """Draw ξ_cr(P_out) with its straight line; slope per kPa and R² of each wall."""
     fits: dict[float, tuple[float, float] | None] = {}
     for eta, colour in SHADES.items():
-        rows = [row for row in _sizes_rows(found, limit) if row[0] == eta and row[2] is not None]
-        loads, sizes = (np.array([float(row[k] or 0.0) for row in rows]) for k in (1, 2))
+        known = [
+            (size.case.load.confining_pressure / 1e3, size.size_ratio)
+            for size in _sizes_under(found, limit)
+            if size.case.wall_ratio == eta and size.size_ratio is not None
+        ]
+        loads, sizes = np.array(known).reshape(-1, 2).T
         axes.plot(loads, sizes, "o", color=COLOURS[colour])
-        if len(rows) < 3:
+        if len(known) < 3:
             fits[eta] = None
             continue
         line = linregress(loads, sizes)
@@ -217,9 +241,8 @@ def _sizes_under_load(
     return fits
 
 
-def _line(axes: Axes, line: Sequence[float | None], limit: Pressure, found: Results) -> None:
-    drawn = [(e, s) for e, s in zip(WALLS, line, strict=True) if s is not None]
-    axes.plot(*zip(*drawn, strict=True), color=COLOURS["blue"], marker="o", markersize=3,
+def _line(axes: Axes, line: Line, limit: Pressure, found: Results) -> None:
+    axes.plot(*_known(line), color=COLOURS["blue"], marker="o", markersize=3,
               label=f"computed, limit {limit / 1e3:g} kPa")  # fmt: skip
     walls = list(PUBLISHED)
     ends = [found.size(ureter_case(e, 1.1, LOADS[0]), limit).size_ratio for e in walls]
@@ -264,7 +287,7 @@ def _diameters(found: Results, limit: Pressure) -> list[Claim]:
     if limit != LIMIT:
         return []
     claims = []
-    for inner, eta, published in zip(INNER_DIAMETERS, (3.40, 1.30), (1.04, 4.27), strict=True):
+    for inner, (eta, published) in PASSING.items():
         size = found.size(ureter_case(eta, 1.1, LOADS[0]), limit).size_ratio
         claims.append(
             Claim.number(

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
+from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Method, Stone
 from stonepass.model.critical import solve
-from stonepass.model.size import critical_size
-from stonepass.paper.inputs import BEAM, FRICTION, LIMIT, ureter_case
+from stonepass.model.size import SizeAnswer, critical_size
+from stonepass.paper.inputs import BEAM, BEAM_SIZE, FRICTION, LIMIT, ureter_case
 from stonepass.paper.jobs import Job, PressureJob, Results
 from stonepass.paper.section import Asked, Claim, Picture, Section, Table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
@@ -21,7 +22,6 @@ from stonepass.units import Pressure
 __all__ = ["Fig9"]
 
 WALL = 1.30
-PUBLISHED_SIZE = 1.24
 SECANT = 1.297  # stretch whose secant is the published E₁
 SIZES = tuple(float(x) for x in np.round(np.linspace(1.0, 1.3, 13), 10))
 FACTORS = tuple(float(x) for x in np.round(np.geomspace(0.5, 8.0, 17), 4))
@@ -37,11 +37,15 @@ class Fig9:
 
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw both panels, judge the claims."""
-        elements = _curve(lambda xi: found.answer(ureter_case(WALL, xi)).pressure)
-        published = _curve(lambda xi: solve(ureter_case(WALL, xi, method=BEAM)).pressure)
-        secants = _curve(lambda xi: solve(_by_secants(xi)).pressure)
-        stiffness = np.array([_size(asked.limit, _scaled(f), FRICTION) for f in FACTORS])
-        friction = np.array([_size(asked.limit, BEAM, mu) for mu in FRICTIONS])
+        answers = [
+            [found.answer(ureter_case(WALL, xi)) for xi in SIZES],
+            [solve(ureter_case(WALL, xi, method=BEAM)) for xi in SIZES],
+            [solve(_by_secants(xi)) for xi in SIZES],
+        ]
+        elements, published, secants = (_pressures(each) for each in answers)
+        by_stiffness = [_size(asked.limit, _scaled(factor), FRICTION) for factor in FACTORS]
+        by_friction = [_size(asked.limit, BEAM, friction) for friction in FRICTIONS]
+        stiffness, friction = _ratios(by_stiffness), _ratios(by_friction)
         figure = new_figure(9.2, 4.0)
         left, right = (figure.add_subplot(1, 2, k) for k in (1, 2))
         for values, colour, line, label in (
@@ -68,29 +72,37 @@ class Fig9:
             "foundation. (d) Critical size by the beam, over stiffness (E₁ and E₂ together) and "
             "over friction."
         )
-        rows = np.column_stack([SIZES, elements, published, secants]).tolist()
+        names = ("finite_elements", "beam", "beam_by_secants")
+        columns = [f"{name}_{what}" for name in names for what in ("outcome", "kPa")]
+        size = ("outcome", "critical_size_ratio")
         return Section.written(
             "Fig. 9: the thin wall as a beam",
             "",
             folder,
             [Picture("fig9", figure, caption)],
             [
-                Table("fig9c", ("size_ratio", "finite_elements_kPa", "beam_kPa",
-                                "beam_by_secants_kPa"), _empty(rows)),
-                Table("fig9d_stiffness", ("factor", "critical_size_ratio"),
-                      _empty(np.column_stack([FACTORS, stiffness]).tolist())),
-                Table("fig9d_friction", ("friction", "critical_size_ratio"),
-                      _empty(np.column_stack([FRICTIONS, friction]).tolist())),
+                Table("fig9c", ("size_ratio", *columns),
+                      [_row(xi, row) for xi, *row in zip(SIZES, *answers, strict=True)]),
+                Table("fig9d_stiffness", ("factor", *size),
+                      [[x, *_outcome(s)] for x, s in zip(FACTORS, by_stiffness, strict=True)]),
+                Table("fig9d_friction", ("friction", *size),
+                      [[x, *_outcome(s)] for x, s in zip(FRICTIONS, by_friction, strict=True)]),
             ],
             [*_headline(asked.limit), _agree(elements, published),
              *_trends(stiffness, friction, asked.limit)],
         )  # fmt: skip
 
 
-def _curve(pressure: Callable[[float], float | None]) -> Float[np.ndarray, " sizes"]:
+def _pressures(answers: Sequence[Answer]) -> Float[np.ndarray, " sizes"]:
     """Critical pressures in kPa; NaN where there is none."""
-    found = (pressure(xi) for xi in SIZES)
-    return np.array([np.nan if each is None else each / 1e3 for each in found])
+    return np.array([np.nan if a.pressure is None else a.pressure / 1e3 for a in answers])
+
+
+def _row(xi: float, answers: Sequence[Answer]) -> list[object]:
+    row: list[object] = [xi]
+    for answer in answers:
+        row += [answer.outcome.name, None if answer.pressure is None else answer.pressure / 1e3]
+    return row
 
 
 def _by_secants(xi: float) -> Case:
@@ -103,33 +115,36 @@ def _scaled(factor: float) -> Method:
     return replace(BEAM, circumferential_modulus=hoop, longitudinal_modulus=axial)
 
 
-def _size(limit: Pressure, method: Method, friction: float) -> float:
-    """ξ_cr by the beam; NaN where there is none."""
+def _size(limit: Pressure, method: Method, friction: float) -> SizeAnswer:
+    """Critical size by the beam."""
     case = ureter_case(WALL, 1.1, method=method)
     case = replace(case, stone=Stone(size_ratio=1.1, friction=friction))
-    found = critical_size(case.ureter, limit, friction, method=method)
-    return np.nan if found.size_ratio is None else found.size_ratio
+    return critical_size(case.ureter, limit, friction, method=method)
 
 
-def _empty(rows: list[list[float]]) -> list[list[float | None]]:
-    """Empty cells in place of NaN."""
-    return [[None if np.isnan(value) else value for value in row] for row in rows]
+def _ratios(sizes: Sequence[SizeAnswer]) -> Float[np.ndarray, " sizes"]:
+    """ξ_cr; NaN where there is none."""
+    return np.array([np.nan if s.size_ratio is None else s.size_ratio for s in sizes])
+
+
+def _outcome(size: SizeAnswer) -> tuple[str, float | None]:
+    return size.outcome.name, size.size_ratio
 
 
 def _headline(limit: Pressure) -> list[Claim]:
     if limit != LIMIT:
         return []
-    ours = _size(limit, BEAM, FRICTION)
+    ours = _size(limit, BEAM, FRICTION).size_ratio
     return [
         Claim(
             "ξ_cr of the beam at 12 kPa, η = 1.30 (section 3.3.1)",
-            f"{PUBLISHED_SIZE:g}",
-            f"{ours:.4g}",
+            f"{BEAM_SIZE:g}",
+            "none" if ours is None else f"{ours:.4g}",
             None,
             "differs: ours are the printed equations, with the fourth root in Eq. 24, and the "
             "printed moduli; the secants that the paper solved with are in its unpublished "
             "Supporting Information, so which of the two is at fault cannot be told",
-            ours - PUBLISHED_SIZE,
+            None if ours is None else ours - BEAM_SIZE,
         )
     ]
 

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future, as_completed
 from dataclasses import dataclass
-from itertools import chain
-from typing import Any
 
 import numpy as np
 
 from stonepass.model.answer import Answer
-from stonepass.model.case import Load, Ureter
-from stonepass.model.size import SizeAnswer, critical_size
-from stonepass.paper.inputs import CONFINING, FRICTION, LIMIT, PUBLISHED, ureter_case
-from stonepass.studies.curve import solve_slim
-from stonepass.studies.executor import executor
+from stonepass.model.case import Load
+from stonepass.model.size import SizeAnswer
+from stonepass.paper.inputs import CONFINING, LIMIT, PUBLISHED, ureter_case
+from stonepass.paper.jobs import Job, PressureJob, SizeJob, run_jobs
 
 __all__ = ["Wall", "headline"]
 
@@ -56,33 +52,20 @@ def headline(progress: Callable[[int, int], None] | None = None, workers: int = 
     `progress` is told (done, all) after every case and every critical size.
     """
     loads = [Load(), *(Load(p) for p in CONFINING)]
-    with executor(workers) as pool:
-        sizes = {
-            eta: pool.submit(critical_size, Ureter(wall_ratio=eta), LIMIT, FRICTION)
-            for eta in PUBLISHED
-        }
-        curves = {
-            eta: [pool.submit(solve_slim, ureter_case(eta, xi, Load())) for xi in SIZE_RATIOS]
-            for eta in PUBLISHED
-        }
-        confined = {
-            eta: [pool.submit(solve_slim, ureter_case(eta, xi, load)) for load in loads]
-            for eta, xi in PUBLISHED.items()
-        }
-        everything: list[Future[Any]] = [
-            *sizes.values(),
-            *chain.from_iterable([*curves.values(), *confined.values()]),
-        ]
-        for done, _ in enumerate(as_completed(everything), start=1):
-            if progress is not None:
-                progress(done, len(everything))
-        return [
-            Wall(
-                eta,
-                published,
-                sizes[eta].result(),
-                [future.result() for future in curves[eta]],
-                [future.result() for future in confined[eta]],
-            )
-            for eta, published in PUBLISHED.items()
-        ]
+    curves = {eta: [ureter_case(eta, xi) for xi in SIZE_RATIOS] for eta in PUBLISHED}
+    confined = {eta: [ureter_case(eta, xi, p) for p in loads] for eta, xi in PUBLISHED.items()}
+    jobs: list[Job] = [SizeJob(stones[-1], LIMIT) for stones in curves.values()]
+    jobs += [
+        PressureJob(case) for each in (curves, confined) for row in each.values() for case in row
+    ]
+    found = run_jobs(jobs, None, workers, progress)
+    return [
+        Wall(
+            eta,
+            published,
+            found.size(curves[eta][-1], LIMIT),
+            [found.answer(case) for case in curves[eta]],
+            [found.answer(case) for case in confined[eta]],
+        )
+        for eta, published in PUBLISHED.items()
+    ]

@@ -1,4 +1,4 @@
-"""What the paper puts in and what it publishes (Liu et al. 2022); the only numbers typed in."""
+"""What the paper puts in and what it publishes (Liu et al. 2022), as typed in."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ from stonepass.units import Pressure
 
 __all__ = [
     "BEAM",
+    "BEAM_SIZE",
     "CONFINING",
     "FRICTION",
-    "INNER_DIAMETERS",
     "LATEX_FRICTION",
     "LATEX_WALLS",
     "LIMIT",
+    "PASSING",
     "PUBLISHED",
+    "SLOPES",
     "WATER",
     "latex_case",
     "ureter_case",
@@ -24,7 +26,8 @@ FRICTION = 0.5
 # wall ratio η: published ξ_cr, Fung wall, friction 0.5, no confining pressure (Fig. 8a)
 PUBLISHED = {1.30: 1.22, 3.40: 1.11}
 CONFINING = (Pressure(4e3), Pressure(8e3))  # beside none (Fig. 8c)
-INNER_DIAMETERS = (0.94e-3, 3.5e-3)  # m, of the narrowest and the widest ureter (section 3.2)
+# inner diameter in m: wall ratio η, published largest passing diameter in mm (section 3.2)
+PASSING = {0.94e-3: (3.40, 1.04), 3.5e-3: (1.30, 4.27)}
 LATEX_WALLS = (1.5, 1.57, 2.0)  # section 2.2
 LATEX_FRICTION = 0.475  # section 2.4.1
 WATER = Pressure(5.4e3)  # 540 mm under water (section 2.2)
@@ -34,6 +37,8 @@ BEAM = Method(
     circumferential_modulus=Pressure(0.465e6),
     longitudinal_modulus=Pressure(0.02e6),
 )
+BEAM_SIZE = 1.24  # published ξ_cr of that beam (section 3.3.1)
+SLOPES = (0.38, 0.12)  # k₀ and k₁ of a stone's surface (section 2.3)
 
 
 def ureter_case(

@@ -73,8 +73,8 @@ class Results:
     sizes: dict[SizeJob, SizeAnswer]
 
     def answer(self, case: Case, *, wall: bool = False, error: bool = True) -> Answer:
-        """The answer of a case."""
-        return self.pressures[PressureJob(case, wall, error)]
+        """The answer of a case; one with its wall serves for one without."""
+        return self.pressures[self._serving(PressureJob(case, wall, error))]
 
     def size(self, case: Case, limit: Pressure) -> SizeAnswer:
         """The critical size of a case."""
@@ -82,11 +82,17 @@ class Results:
 
     def of(self, jobs: Iterable[Job]) -> Results:
         """Those of some jobs only."""
-        asked = set(jobs)
-        return Results(
-            {job: found for job, found in self.pressures.items() if job in asked},
-            {job: found for job, found in self.sizes.items() if job in asked},
-        )
+        pressures, sizes = {}, {}
+        for job in jobs:
+            if isinstance(job, SizeJob):
+                sizes[job] = self.sizes[job]
+            else:
+                serving = self._serving(job)
+                pressures[serving] = self.pressures[serving]
+        return Results(pressures, sizes)
+
+    def _serving(self, job: PressureJob) -> PressureJob:
+        return job if job in self.pressures else replace(job, wall=True)
 
 
 def run_jobs(
@@ -96,7 +102,7 @@ def run_jobs(
     progress: Callable[[int, int], None] | None = None,
 ) -> Results:
     """Run every job once; `progress` is told (done, all) after each."""
-    once = list(dict.fromkeys(jobs))
+    once = _once(jobs)
     # Long ones first: sizes take several solves.
     queue = sorted(once, key=lambda job: isinstance(job, PressureJob))
     with executor(workers) as pool:
@@ -115,3 +121,13 @@ def run_jobs(
             assert isinstance(answer, SizeAnswer)
             sizes[job] = answer
     return Results(pressures, sizes)
+
+
+def _once(jobs: Iterable[Job]) -> list[Job]:
+    """Each job once; one with its wall covers the same without."""
+    listed = dict.fromkeys(jobs)
+    return [
+        job
+        for job in listed
+        if not isinstance(job, PressureJob) or job.wall or replace(job, wall=True) not in listed
+    ]

@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from stonepass.paper.inputs import SLOPES
 from stonepass.paper.jobs import Job, Results
 from stonepass.paper.section import Asked, Claim, Section
 
 __all__ = ["Eq18"]
-
-SLOPES = (0.38, 0.12)  # largest slopes of the baseline and of the deviation's baseline
 
 
 class Eq18:

@@ -7,7 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
-from stonepass.errors import BadInput, refuse_unknown
+from stonepass.errors import refuse_unknown
+from stonepass.folder import require_writable
 from stonepass.paper.fig6 import Fig6
 from stonepass.paper.fig8 import Fig8
 from stonepass.paper.fig9 import Fig9
@@ -80,10 +81,9 @@ def reproduce(
         Told (done, all) of the jobs.
     """
     wanted = chosen(names)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        raise BadInput("output folder", str(folder), f"writable ({problem.strerror})") from problem
+    require_writable(folder, "output folder")
+    if store is not None:
+        require_writable(store, "cache folder", "name another one, or none")
     jobs = {name: PARTS[name].jobs(asked) for name in wanted}
     found = run_jobs([job for each in jobs.values() for job in each], store, workers, progress)
     with executor(workers) as pool:

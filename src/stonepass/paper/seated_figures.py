@@ -25,6 +25,7 @@ __all__ = ["Fig4", "Fig5", "Fig7"]
 LATEX_SIZE = 1.2
 SIZES = (1.1, 1.15, 1.2, 1.25, 1.3)  # of the profiles beside Fig. 7
 STEP = 0.25  # degrees, of the profiles' data
+ASIDE = 0.05  # of half the contact, of the highest pressure from the equator
 RIPPLE = 0.02  # of the peak, of the increments of the pressing
 SHADES = ("blue", "orange", "green", "pink", "grey")
 
@@ -159,21 +160,23 @@ def _state(found: Results, case: Case, *, wall: bool = True) -> SeatedState:
 
 
 def _single_peak(states: Sequence[SeatedState]) -> Claim:
-    """One hump, highest near the equator, nothing at the edges."""
-    humps, edges = [], []
+    """One hump, highest near the equator."""
+    humps, aside = [], []
     for state in states:
         theta, top = state.theta, state.peak_contact_pressure
         sigma = np.interp(np.linspace(theta[0], theta[-1], 25), theta, state.contact_pressure) / top
         steps, peak = np.diff(sigma), int(np.argmax(sigma))
         humps.append(bool((steps[:peak] > -RIPPLE).all() and (steps[peak:] < RIPPLE).all()))
-        edges.append(float(state.contact_pressure[[0, -1]].max()) / top)
+        highest = theta[np.argmax(state.contact_pressure)]
+        aside.append(abs(highest - np.pi / 2) / (np.pi / 2 - state.contact_angle))
     return Claim(
         "form of the contact pressure over θ (Fig. 7)",
         "one hump about the equator",
-        f"one in {sum(humps)} of {len(humps)} states; at the edges {max(edges):.0e} of its height",
-        all(humps) and max(edges) < 1e-3,
-        "the figure's values are not published; ripples of the pressing's increments below 2 % of "
-        "the peak are not counted as humps",
+        f"one in {sum(humps)} of {len(humps)} states; highest within {max(aside):.1%} of half the "
+        "contact from it",
+        all(humps) and max(aside) < ASIDE,
+        "the figure's values are not published; about is read as 5 % of half the contact, and "
+        "ripples of the pressing's increments below 2 % of the peak are not counted as humps",
     )
 
 

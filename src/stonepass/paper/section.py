@@ -10,12 +10,13 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from stonepass.errors import require
+from stonepass.model.answer import Answer
 from stonepass.model.points import Point
-from stonepass.report.record import write_csv
+from stonepass.report.record import record, write_csv
 from stonepass.report.style import save
 from stonepass.units import Pressure
 
-__all__ = ["Asked", "Claim", "Picture", "Section", "Table"]
+__all__ = ["Asked", "Claim", "Picture", "Section", "Table", "answers_table"]
 
 LIMITS = (1e2, 1e5)  # Pa
 
@@ -78,6 +79,19 @@ class Table:
     name: str
     header: Sequence[str]
     rows: Sequence[Sequence[Any]]
+
+
+def answers_table(name: str, header: Sequence[str], answers: Sequence[Answer]) -> Table:
+    """Make a table of answers; columns are names of `report.record`, or the load's."""
+    rows = []
+    for answer in answers:
+        confining = answer.case.load.confining_pressure
+        known = record(answer) | {
+            "confining_kPa": confining / 1e3,
+            "confinement": answer.case.load.confinement if confining else "",
+        }
+        rows.append([known[column] for column in header])
+    return Table(name, header, rows)
 
 
 @dataclass(frozen=True)

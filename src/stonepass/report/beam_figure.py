@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from stonepass.errors import BadInput
 from stonepass.model.answer import Answer
 from stonepass.model.thin_wall import BeamState
+from stonepass.report.balance import draw_balance
 from stonepass.report.stone import draw_radii, draw_stone
 from stonepass.report.style import COLOURS, new_figure, tidy
 
@@ -65,24 +66,5 @@ def _balance(axes: Axes, answer: Answer, beam: BeamState) -> None:
     xi = beam.case.size_ratio
     alpha = np.linspace(beam.contact_angle, np.pi / 2, 300)
     y = np.minimum(xi * np.cos(alpha), beam.half_length)
-    section = np.pi * xi**2 * 1e3
-    resistance = beam.friction(y) / section
-    drive = beam.urine_pressure(y) * np.pi * (xi**2 - y**2) / section
-    axes.plot(np.degrees(alpha), resistance, color=COLOURS["blue"], label="resistance")
-    axes.plot(np.degrees(alpha), drive, color=COLOURS["green"], label="drive")
-    if answer.pressure is not None and answer.critical_angle is not None:
-        at = np.degrees(answer.critical_angle)
-        axes.plot(
-            at,
-            np.interp(at, np.degrees(alpha), resistance),
-            marker="o",
-            color=COLOURS["orange"],
-            linestyle="none",
-            label=rf"$P_{{ucr}}$ = {answer.pressure / 1e3:.4g} kPa",
-        )
-    axes.set(
-        xlabel="angle α up to which the wall is open (°)", ylabel=r"force / ($\pi R_s^2$)  (kPa)"
-    )
-    axes.set_title("Resistance and drive")
-    axes.legend(fontsize=8)
-    tidy(axes)
+    push = beam.urine_pressure(y) * (1.0 - (y / xi) ** 2)
+    draw_balance(axes, answer, alpha, beam.friction(y) / (np.pi * xi**2), push)

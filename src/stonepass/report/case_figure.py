@@ -12,6 +12,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.balance import drive, resistance
 from stonepass.model.by_balance import pressure_of_angle
 from stonepass.model.seated import SeatedState
+from stonepass.report.balance import draw_balance
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy
@@ -79,35 +80,8 @@ def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:
 
 
 def _balance(axes: Axes, answer: Answer, seated: SeatedState) -> None:
-    """F_re and F_dr over α, as pressures on the stone's cross-section."""
     forces = resistance(seated)
     alpha = np.linspace(seated.contact_angle, np.pi / 2, 300)
-    pressure = pressure_of_angle(seated, alpha, answer.series)
-    push = drive(pressure, seated.case.stone.shape.width(alpha))
-    degrees = np.degrees(alpha)
-    axes.plot(degrees, forces.total(alpha) / 1e3, color=COLOURS["blue"], label="resistance")
-    axes.plot(
-        degrees,
-        forces.friction(alpha) / 1e3,
-        color=COLOURS["blue"],
-        linewidth=0.9,
-        linestyle=":",
-        label="of it friction",
-    )
-    axes.plot(degrees, push / 1e3, color=COLOURS["green"], label="drive")
-    if answer.pressure is not None and answer.critical_angle is not None:
-        at = np.array(answer.critical_angle)
-        axes.plot(
-            np.degrees(at),
-            float(forces.total(at)) / 1e3,
-            marker="o",
-            color=COLOURS["orange"],
-            linestyle="none",
-            label=rf"$P_{{ucr}}$ = {answer.pressure / 1e3:.4g} kPa",
-        )
-    axes.set(
-        xlabel="angle α up to which the wall is open (°)", ylabel=r"force / ($\pi R_s^2$)  (kPa)"
-    )
-    axes.set_title("Resistance and drive")
-    axes.legend(fontsize=8)
-    tidy(axes)
+    opened = pressure_of_angle(seated, alpha, answer.series)
+    push = drive(opened, seated.case.stone.shape.width(alpha))
+    draw_balance(axes, answer, alpha, forces.total(alpha), push, forces.friction(alpha))

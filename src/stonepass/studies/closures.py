@@ -11,7 +11,7 @@ from stonepass.errors import Outcome, require
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.advance import advance_force
 from stonepass.model.answer import Answer
-from stonepass.model.by_balance import balance_pressure
+from stonepass.model.by_balance import balance_pressure, with_whole_law
 from stonepass.model.case import Case
 from stonepass.model.closure import ORDER, Series
 from stonepass.model.critical import solve
@@ -101,9 +101,7 @@ def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison
     series = None if pairs is None else series_through(case, pairs, order)
     if pairs is None or series is None:
         return found
-    # Back to a pressure by the law that the pairs are of, so that each pair gives its own.
-    whole = replace(paper.seated, case=_by(paper.case, far_field_ground=True))
-    pressures["series"] = balance_pressure(whole, series)
+    pressures["series"] = balance_pressure(with_whole_law(paper.seated), series)
     return replace(found, series=series, pairs=pairs)
 
 

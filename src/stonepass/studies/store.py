@@ -50,7 +50,7 @@ def default_folder() -> Path:
 
 @dataclass(frozen=True)
 class Store:
-    """Remembers finite-element results in `folder`; `walls` keeps the stress fields too.
+    """Remembers finite-element results in `folder`; with `walls` those with their stress fields.
 
     Results depend on ratios alone, so cases of another size share theirs, as do those that differ
     only in closure, sign or far field. A law that is a Python function is solved afresh every time.
@@ -67,10 +67,7 @@ class Store:
             found = AFRESH.seat(case, resolution)
             return found if self.walls or isinstance(found, NoSeat) else replace(found, wall=None)
 
-        def enough(found: Any) -> bool:
-            return isinstance(found, NoSeat) or not self.walls or found.wall is not None
-
-        return self._remembered("seat", case, asked | _mesh(case, resolution), solve, enough)
+        return self._remembered("seat", case, asked | _mesh(case, resolution), solve)
 
     def push(
         self, case: Case, resolutions: Sequence[Resolution], *, leak: bool
@@ -86,11 +83,7 @@ class Store:
         def solve() -> tuple[Critical | NoPush, ...]:
             return tuple(map(self._slim, AFRESH.push(case, resolutions, leak=leak)))
 
-        def enough(found: Any) -> bool:
-            pushed = [each.state for each in found if isinstance(each, Critical)]
-            return not self.walls or all(state.wall is not None for state in pushed)
-
-        return list(self._remembered("push", case, asked, solve, enough))
+        return list(self._remembered("push", case, asked, solve))
 
     def pairs(self, case: Case) -> Pairs | None:
         """See `model.direct_pairs.opening_pairs`."""
@@ -111,17 +104,14 @@ class Store:
         case: Case,
         asked: dict[str, Any],
         solve: Callable[[], Found],
-        enough: Callable[[Found], bool] = lambda found: True,
     ) -> Found:
-        key = _key(what, case, asked)
+        key = _key(what, case, asked | {"walls": self.walls})
         if key is None:
             return solve()
         path = self.folder / key[:2] / key
         known = _read(path, self.folder / CORRUPT)
         if known is not None:
-            found = cast(Found, from_plain(known[0], known[1], case))
-            if enough(found):
-                return found
+            return cast(Found, from_plain(known[0], known[1], case))
         found = solve()
         _write(path, *to_plain(found))
         return found

@@ -60,14 +60,16 @@ def test_names_of_parts():
         chosen(["fig3"])
 
 
-def test_one_with_its_wall_serves_for_one_without():
+def test_an_answer_that_says_more_serves_for_one_that_says_less():
     case = inputs.latex_case(1.5, 1.2)
     quick = replace(case, method=Method(accuracy="fast"))
-    jobs = [PressureJob(quick), PressureJob(quick, wall=True)]
+    jobs = [PressureJob(quick, error=False), PressureJob(quick), PressureJob(quick, wall=True)]
     found = run_jobs(jobs, None)
-    assert list(found.pressures) == jobs[1:]
+    assert list(found.pressures) == jobs[2:]
     assert found.answer(quick) is found.answer(quick, wall=True)
+    assert found.answer(quick, error=False) is found.answer(quick)
     assert found.of(jobs[:1]).pressures == found.pressures
+    assert list(run_jobs(jobs[:2], None).pressures) == jobs[1:2]
 
 
 def test_each_job_is_run_once_and_told_of():

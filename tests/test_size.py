@@ -4,7 +4,7 @@ import pytest
 
 import stonepass as sp
 from stonepass.model.answer import Answer
-from stonepass.model.size import _top, _Unanswered
+from stonepass.model.size import _Search, _top, _Unanswered
 
 THIN = sp.Ureter(wall_ratio=1.3)
 
@@ -87,6 +87,19 @@ def test_progress_is_told_every_size():
     sp.critical_size(THIN, "12 kPa", progress=tried.append)
     assert tried[0] == 1.3
     assert 3 < len(tried) < 15
+
+
+@pytest.mark.parametrize("model", ["paper", "direct"])
+def test_a_search_that_begins_on_a_coarser_mesh_ends_where_one_without_does(monkeypatch, model):
+    method = sp.Method(accuracy="fast", model=model)
+    tried = []
+    near = sp.critical_size(THIN, "12 kPa", method=method, progress=tried.append)
+    monkeypatch.setattr(_Search, "near", lambda search, coarse: None)
+    alone = sp.critical_size(THIN, "12 kPa", method=method)
+    assert near.size_ratio == pytest.approx(alone.size_ratio, abs=2e-6)
+    assert near.size_ratio_error == pytest.approx(alone.size_ratio_error, rel=0.05)
+    assert near.at_size.pressure == pytest.approx(12e3, rel=1e-5)
+    assert near.at_size.error.critical_pressure > 0.0
 
 
 def test_where_the_largest_stone_has_no_answer_a_smaller_one_bounds_the_search():

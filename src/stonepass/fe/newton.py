@@ -260,7 +260,8 @@ class Bordered(Plain):
         if not self._possible:
             return math.inf
         self._missed = self._conditions()
-        return math.hypot(super().residual(), float(np.linalg.norm(self._missed)))
+        # Of huge numbers the norm is still a number, so that a step there is only refused.
+        return math.hypot(super().residual(), *self._missed.tolist())
 
     def direction(self, *, again: bool = False) -> None:
         """Solve the bordered system by block elimination."""

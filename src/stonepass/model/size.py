@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from scipy.optimize import brentq
 
@@ -18,11 +20,17 @@ from stonepass.model.shape import Shape
 from stonepass.model.thin_wall import largest_beam_size
 from stonepass.units import Length, Pressure, pressure
 
+if TYPE_CHECKING:  # loads the finite elements
+    from stonepass.fe.problem import Resolution
+
 __all__ = ["SizeAnswer", "critical_size"]
 
-SIZE_TOLERANCE = 1e-6
-LIMIT_TOLERANCE = 1e-6  # of the limit: P_ucr grows at several limits per unit of ξ
+TOLERANCE = 1e-6  # of ξ, and of the limit: P_ucr grows at several limits per unit of ξ
+FIRST_TOLERANCE = 1e-4  # on the coarser mesh, whose root is only where to begin
 SLOPE_BASE = 1e-4  # sizes nearer than this say too little of the slope
+CLOSE = 1e-3  # to the root, by the step there: probably the last one
+SECANTS = 5  # steps from the root of a coarser mesh
+FARTHEST = 0.03  # of such a step
 # Stones less than this fraction above the lumen are not told from the lumen itself.
 SMALLEST_OVERSIZE = 2e-4
 SMALL_LIMIT = 100.0  # Pa; only below it can a limit lie under every stuck stone
@@ -107,53 +115,171 @@ def _search(
     progress: Callable[[float], None],
     elements: Elements | None,
 ) -> SizeAnswer:
-    tried: dict[float, Answer] = {}
-    # The search needs no estimate of the error; the answer at the size that it finds has one.
-    resolution = LEVELS[case.method.accuracy].resolution
-
-    def excess(size_ratio: float) -> float:
-        """P_ucr less the limit in Pa; without a balance the end of the closure stands in."""
-        progress(size_ratio)
-        if size_ratio not in tried:
-            tried[size_ratio] = solve(case.with_size_ratio(size_ratio), resolution, elements)
-        answer = tried[size_ratio]
-        if answer.pressure is not None:
-            return answer.pressure - limit
-        end = answer.closure_end_pressure
-        if end is not None and end >= limit:
-            return end - limit  # no balance below the closure's end: P_ucr is above the limit
-        raise _Unanswered(answer)
-
-    lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+    level = LEVELS[case.method.accuracy]
+    search = _Search(case, limit, level.resolution, progress, elements)
     try:
-        if lumen is None:  # then solve() says why, and so do we
-            excess(case.size_ratio)
-        assert lumen is not None
-        high, top = _top(case.size_ratio, lumen, excess)
-        if top < 0.0:
-            return _beyond_range(case, limit, tried[high])
-        smallest = lumen * (1.0 + SMALLEST_OVERSIZE)
-        if limit < SMALL_LIMIT and excess(smallest) > 0.0:
-            return _below_range(case, limit)
-        known = {lumen: -float(limit), high: top}
-
-        def bracketed(size_ratio: float) -> float:
-            if size_ratio in known:
-                return known[size_ratio]
-            if size_ratio < smallest:  # P_ucr vanishes at the lumen: a straight line from there
-                share = (size_ratio - lumen) / (smallest - lumen)
-                return share * (excess(smallest) + limit) - limit
-            missed = excess(size_ratio)
-            return 0.0 if abs(missed) < LIMIT_TOLERANCE * limit else missed
-
-        root = float(brentq(bracketed, lumen, high, xtol=SIZE_TOLERANCE))
+        if search.lumen is None:  # then solve() says why, and so do we
+            search.excess(case.size_ratio)
+        coarse = replace(
+            search, resolution=level.companion, tolerance=FIRST_TOLERANCE, tried={}, whole={}
+        )
+        found = search.near(coarse) or search.bracketed()
     except _Unanswered as stop:
         answer = stop.answer
         where = f" (at size ratio {answer.case.size_ratio:.4g})"
         return SizeAnswer(
             case, answer.outcome, answer.message[:-1] + where + ".", limit, at_size=answer
         )
-    return _found(case, limit, root, lumen, tried, elements)
+    except _BeyondRange as stop:
+        return _beyond_range(case, limit, stop.answer)
+    return _below_range(case, limit) if found is None else _found(search, found)
+
+
+@dataclass(frozen=True)
+class _Root:
+    """A size whose P_ucr is the limit, and dP_ucr/dξ there in Pa, where two sizes tell it."""
+
+    size_ratio: float
+    slope: float | None
+
+
+@dataclass(frozen=True)
+class _Search:
+    """Looks for the size whose P_ucr is the limit, on one mesh; `tried` has what was solved.
+
+    The search needs no estimate of the error. Close to the root the whole answer, which has one, is
+    solved in its place (`whole`).
+    """
+
+    case: Case
+    limit: Pressure
+    resolution: Resolution
+    progress: Callable[[float], None]
+    elements: Elements | None
+    tolerance: float = TOLERANCE
+    tried: dict[float, Answer] = field(default_factory=dict)
+    whole: dict[float, Answer] = field(default_factory=dict)
+
+    @cached_property
+    def lumen(self) -> float | None:
+        """Size ratio of a stone as large as the loaded lumen."""
+        case = self.case
+        return lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+
+    def answer(self, size_ratio: float) -> Answer:
+        """The answer of a size on this mesh, solved once."""
+        self.progress(size_ratio)
+        if size_ratio not in self.tried:
+            question = self.case.with_size_ratio(size_ratio)
+            self.tried[size_ratio] = solve(question, self.resolution, self.elements)
+        return self.tried[size_ratio]
+
+    def whole_answer(self, size_ratio: float) -> Answer:
+        """The answer of a size with the estimate of its error, solved once."""
+        if size_ratio not in self.whole:
+            self.progress(size_ratio)
+            question = self.case.with_size_ratio(size_ratio)
+            self.whole[size_ratio] = solve(question, elements=self.elements)
+        return self.whole[size_ratio]
+
+    def excess(self, size_ratio: float) -> float:
+        """P_ucr less the limit in Pa; without a balance the end of the closure stands in."""
+        answer = self.answer(size_ratio)
+        if answer.pressure is not None:
+            return answer.pressure - self.limit
+        end = answer.closure_end_pressure
+        if end is not None and end >= self.limit:
+            return end - self.limit  # no balance below the closure's end: P_ucr is above the limit
+        raise _Unanswered(answer)
+
+    def bracketed(self) -> _Root | None:
+        """The root between the lumen and the largest size; None where it lies below every size."""
+        lumen, limit = self.lumen, self.limit
+        assert lumen is not None
+        high, top = _top(self.case.size_ratio, lumen, self.excess)
+        if top < 0.0:
+            raise _BeyondRange(self.tried[high])
+        smallest = lumen * (1.0 + SMALLEST_OVERSIZE)
+        if limit < SMALL_LIMIT and self.excess(smallest) > 0.0:
+            return None
+        known = {lumen: -float(limit), high: top}
+
+        def excess(size_ratio: float) -> float:
+            if size_ratio in known:
+                return known[size_ratio]
+            if size_ratio < smallest:  # P_ucr vanishes at the lumen: a straight line from there
+                share = (size_ratio - lumen) / (smallest - lumen)
+                return share * (self.excess(smallest) + limit) - limit
+            missed = self.excess(size_ratio)
+            return 0.0 if abs(missed) < self.tolerance * limit else missed
+
+        root = float(brentq(excess, lumen, high, xtol=self.tolerance))
+        return _Root(root, self._slope(root))
+
+    def near(self, coarse: _Search) -> _Root | None:
+        """The root by secants from that on a coarser mesh; None where they do not lead to one."""
+        if self.case.method.model == "beam":
+            return None  # which has no mesh
+        try:
+            first = coarse.bracketed()
+        except (_Unanswered, _BeyondRange):
+            return None
+        if first is None or first.slope is None:
+            return None
+        last, slope, before = first.size_ratio, first.slope, self.answer(first.size_ratio).pressure
+        for _ in range(SECANTS):
+            if before is None or not abs(before - self.limit) < slope * FARTHEST:
+                return None
+            size_ratio = last - (before - self.limit) / slope
+            step = abs(size_ratio - last)
+            solved = self.whole_answer if step < CLOSE else self.answer
+            pressure = solved(size_ratio).pressure
+            if pressure is None:
+                return None
+            if step > SLOPE_BASE:
+                slope = (pressure - before) / (size_ratio - last)
+            if abs(pressure - self.limit) < self.tolerance * max(self.limit, slope):
+                return _Root(size_ratio, slope)
+            last, before = size_ratio, pressure
+        return None
+
+    def _slope(self, size_ratio: float) -> float | None:
+        """dP_ucr/dξ in Pa, by the nearest size that is not too near."""
+        known = {x: a.pressure for x, a in self.tried.items() if a.pressure is not None}
+        for x in sorted(known, key=lambda x: abs(x - size_ratio)):
+            if abs(x - size_ratio) > SLOPE_BASE and size_ratio in known:
+                return (known[x] - known[size_ratio]) / (x - size_ratio)
+        return None
+
+
+def _found(search: _Search, found: _Root) -> SizeAnswer:
+    case, limit, root = search.case, search.limit, found.size_ratio
+    assert search.lumen is not None
+    if root <= search.lumen * (1.0 + SMALLEST_OVERSIZE):
+        return _below_range(case, limit)
+    at_size = search.whole_answer(root)
+    if at_size.outcome is not Outcome.MOVES:
+        message = f"{at_size.message[:-1]} (at size ratio {root:.4g}, where the limit is reached)."
+        return SizeAnswer(case, at_size.outcome, message, limit, at_size=at_size)
+    inner = case.ureter.inner_diameter
+    return SizeAnswer(
+        case=case,
+        outcome=Outcome.MOVES,
+        message=f"A stone of {root:.4g} times the inner diameter moves at the pressure limit.",
+        limit=limit,
+        size_ratio=root,
+        diameter=None if inner is None else Length(root * inner),
+        at_size=at_size,
+        size_ratio_error=_size_ratio_error(at_size, found.slope),
+        warnings=at_size.warnings,
+    )
+
+
+def _size_ratio_error(at_size: Answer, slope: float | None) -> float | None:
+    """The error of P_ucr over its slope."""
+    if at_size.error is None or at_size.error.critical_pressure is None or slope is None:
+        return None
+    return abs(at_size.error.critical_pressure / slope) + TOLERANCE
 
 
 def _top(largest: float, lumen: float, excess: Callable[[float], float]) -> tuple[float, float]:
@@ -181,49 +307,6 @@ def _top(largest: float, lumen: float, excess: Callable[[float], float]) -> tupl
     raise unanswered
 
 
-def _found(
-    case: Case,
-    limit: Pressure,
-    root: float,
-    lumen: float,
-    tried: dict[float, Answer],
-    elements: Elements | None,
-) -> SizeAnswer:
-    if root <= lumen * (1.0 + SMALLEST_OVERSIZE):
-        return _below_range(case, limit)
-    at_size = solve(case.with_size_ratio(root), elements=elements)
-    if at_size.outcome is not Outcome.MOVES:
-        message = f"{at_size.message[:-1]} (at size ratio {root:.4g}, where the limit is reached)."
-        return SizeAnswer(case, at_size.outcome, message, limit, at_size=at_size)
-    inner = case.ureter.inner_diameter
-    return SizeAnswer(
-        case=case,
-        outcome=Outcome.MOVES,
-        message=f"A stone of {root:.4g} times the inner diameter moves at the pressure limit.",
-        limit=limit,
-        size_ratio=root,
-        diameter=None if inner is None else Length(root * inner),
-        at_size=at_size,
-        size_ratio_error=_size_ratio_error(at_size, tried),
-        warnings=at_size.warnings,
-    )
-
-
-def _size_ratio_error(at_size: Answer, tried: dict[float, Answer]) -> float | None:
-    """The error of P_ucr over its slope between the two sizes tried nearest to the root."""
-    if at_size.error is None or at_size.error.critical_pressure is None:
-        return None
-    root = at_size.case.size_ratio
-    near = sorted(tried, key=lambda x: abs(x - root))
-    known = [(x, tried[x].pressure) for x in near if abs(x - root) > SLOPE_BASE]
-    pressures = [(x, p) for x, p in known if p is not None]
-    if not pressures or at_size.pressure is None:
-        return None
-    size_ratio, pressure = pressures[0]
-    slope = (pressure - at_size.pressure) / (size_ratio - root)
-    return abs(at_size.error.critical_pressure / slope) + SIZE_TOLERANCE
-
-
 def _below_range(case: Case, limit: Pressure) -> SizeAnswer:
     message = (
         f"{Outcome.BELOW_RANGE.value[:-1]}, {limit / 1e3:.4g} kPa, "
@@ -249,9 +332,17 @@ def _beyond_range(case: Case, limit: Pressure, top: Answer) -> SizeAnswer:
     return SizeAnswer(case, Outcome.BEYOND_RANGE, message, limit, at_size=top)
 
 
-class _Unanswered(Exception):
-    """Carries an answer without a pressure out of the root search."""
+class _Stop(Exception):
+    """Carries an answer out of the search."""
 
     def __init__(self, answer: Answer) -> None:
         super().__init__(answer)
         self.answer = answer
+
+
+class _Unanswered(_Stop):
+    """An answer without a pressure."""
+
+
+class _BeyondRange(_Stop):
+    """The answer of the largest size, whose pressure is below the limit."""

@@ -30,6 +30,12 @@ class PressureJob:
     wall: bool = False
     error: bool = True
 
+    def fuller(self) -> list[PressureJob]:
+        """Jobs whose answer says all that this one's does, and more; the least first."""
+        others = (PressureJob(self.case, *more) for more in ((False, True), (True, True)))
+        return [job for job in others if job.wall >= self.wall and job.error >= self.error
+                and job != self]  # fmt: skip
+
     def run(self, folder: Path | None) -> Answer:
         """Solve it, or remember it from a folder."""
         elements = None if folder is None else Store(folder, walls=self.wall)
@@ -73,7 +79,7 @@ class Results:
     sizes: dict[SizeJob, SizeAnswer]
 
     def answer(self, case: Case, *, wall: bool = False, error: bool = True) -> Answer:
-        """The answer of a case; one with its wall serves for one without."""
+        """The answer of a case; one that says more serves for it."""
         return self.pressures[self._serving(PressureJob(case, wall, error))]
 
     def size(self, case: Case, limit: Pressure) -> SizeAnswer:
@@ -92,7 +98,7 @@ class Results:
         return Results(pressures, sizes)
 
     def _serving(self, job: PressureJob) -> PressureJob:
-        return job if job in self.pressures else replace(job, wall=True)
+        return next(each for each in (job, *job.fuller()) if each in self.pressures)
 
 
 def run_jobs(
@@ -124,10 +130,10 @@ def run_jobs(
 
 
 def _once(jobs: Iterable[Job]) -> list[Job]:
-    """Each job once; one with its wall covers the same without."""
+    """Each job once, and none that another one covers."""
     listed = dict.fromkeys(jobs)
     return [
         job
         for job in listed
-        if not isinstance(job, PressureJob) or job.wall or replace(job, wall=True) not in listed
+        if isinstance(job, SizeJob) or not any(other in listed for other in job.fuller())
     ]

@@ -24,7 +24,15 @@ import stonepass
 
 SIDE_BY_SIDE = ("far_field", "refinement", "accuracy", "half_length", "pressed", "calibration")
 # Each has its own workers.
-ON_ALL_CORES = ("error_estimates", "smoothness", "robustness", "push_through", "shapes", "paper")
+ON_ALL_CORES = (
+    "error_estimates",
+    "smoothness",
+    "robustness",
+    "push_through",
+    "shapes",
+    "paper",
+    "micrograph",
+)
 SECTIONS = (*SIDE_BY_SIDE, *ON_ALL_CORES)
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "verification.md"

@@ -11,6 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from stonepass.errors import BadInput, Outcome, StonepassError
+    from stonepass.imaging.friction import SurfaceFriction, surface_friction
+    from stonepass.imaging.paths import StraightPath
+    from stonepass.imaging.picture import Picture
+    from stonepass.imaging.readers import read_picture
+    from stonepass.imaging.untrusted import read_untrusted
     from stonepass.materials.protocol import Material
     from stonepass.model.answer import Answer
     from stonepass.model.case import Case, Load, Method, Stone, Ureter
@@ -32,20 +37,26 @@ _HOME = {
     "Material": "materials.protocol",
     "Method": "model.case",
     "Outcome": "errors",
+    "Picture": "imaging.picture",
     "PushedState": "model.push_through",
     "SeatedState": "model.seated",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
     "Stone": "model.case",
     "StonepassError": "errors",
+    "StraightPath": "imaging.paths",
+    "SurfaceFriction": "imaging.friction",
     "Ureter": "model.case",
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
     "push_through": "model.push_through",
+    "read_picture": "imaging.readers",
     "read_shape": "model.meridian",
+    "read_untrusted": "imaging.untrusted",
     "seat": "model.seated",
     "shape_through": "model.meridian",
     "solve": "model.critical",
+    "surface_friction": "imaging.friction",
 }
 
 __all__ = [
@@ -56,20 +67,26 @@ __all__ = [
     "Material",
     "Method",
     "Outcome",
+    "Picture",
     "PushedState",
     "SeatedState",
     "Shape",
     "SizeAnswer",
     "Stone",
     "StonepassError",
+    "StraightPath",
+    "SurfaceFriction",
     "Ureter",
     "critical_pressure",
     "critical_size",
     "push_through",
+    "read_picture",
     "read_shape",
+    "read_untrusted",
     "seat",
     "shape_through",
     "solve",
+    "surface_friction",
 ]
 
 

@@ -7,7 +7,17 @@ from typing import Annotated
 import typer
 
 import stonepass
-from stonepass.cli import closures, curve, headline, material, paper, pressure, push, size
+from stonepass.cli import (
+    closures,
+    curve,
+    friction,
+    headline,
+    material,
+    paper,
+    pressure,
+    push,
+    size,
+)
 
 __all__ = ["app"]
 
@@ -42,6 +52,7 @@ app.command("size")(size.command)
 app.command("curve")(curve.command)
 app.command("push")(push.command)
 app.command("closures")(closures.command)
+app.command("friction")(friction.command)
 app.command("headline")(headline.command)
 app.command("paper")(paper.command)
 app.add_typer(material.app, name="material")

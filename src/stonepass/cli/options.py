@@ -74,6 +74,14 @@ class Settings:
         float | None,
         typer.Option("--friction", help="Coulomb friction coefficient.  [default: 0.5]"),
     ] = None
+    friction_from: Annotated[
+        Path | None,
+        typer.Option(
+            "--friction-from",
+            metavar="FILE.json",
+            help="Take it from the JSON of 'stonepass friction'.",
+        ),
+    ] = None
     aspect: Annotated[
         float | None,
         typer.Option("--aspect", help="Length of a spheroid over its diameter.  [default: 1]"),
@@ -227,6 +235,13 @@ class Settings:
 
     def friction_value(self) -> float:
         """Friction coefficient of the options, of the case file, or the default."""
+        if self.friction is not None and self.friction_from is not None:
+            allowed = "one of the two"
+            raise BadInput("combination of --friction and --friction-from", "ambiguous", allowed)
+        if self.friction_from is not None:
+            from stonepass.model.friction_file import read_friction
+
+            return read_friction(self.friction_from)
         if self.friction is not None:
             return self.friction
         return 0.5 if self._base is None else self._base.stone.friction

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
+from stonepass.imaging.friction import friction_of_slopes
 from stonepass.paper.inputs import SLOPES
 from stonepass.paper.jobs import Job, Results
 from stonepass.paper.section import Asked, Claim, Section
@@ -14,7 +13,7 @@ __all__ = ["Eq18"]
 
 
 class Eq18:
-    """μ_f = tan(arctan k₀ + arctan k₁)."""
+    """The published slopes by Eq. 18."""
 
     def jobs(self, asked: Asked) -> list[Job]:
         """Nothing to solve."""
@@ -22,11 +21,10 @@ class Eq18:
 
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Only a claim."""
-        friction = float(np.tan(sum(np.arctan(slope) for slope in SLOPES)))
         claim = Claim.number(
             "friction coefficient from slopes 0.38 and 0.12 (Eq. 18)",
             0.5,
-            friction,
+            friction_of_slopes(*SLOPES),
             0.03,
             "Eq. 18 gives 0.52, which the paper rounds to 0.5",
         )

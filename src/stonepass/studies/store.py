@@ -22,7 +22,6 @@ from typing import Any, TypeVar, cast
 import numpy as np
 import platformdirs
 
-import stonepass
 from stonepass.errors import BadInput
 from stonepass.fe.problem import Resolution
 from stonepass.model.afresh import AFRESH
@@ -156,7 +155,7 @@ def _key(what: str, case: Case, asked: dict[str, Any]) -> str | None:
 def _solver() -> str:
     """Digest of the solver's source and of the libraries under it."""
     digest = hashlib.sha256()
-    root = Path(stonepass.__file__).parent
+    root = Path(__file__).parents[1]
     for path in sorted(each for name in SOLVER for each in (root / name).glob("*.py")):
         digest.update(path.name.encode() + path.read_bytes())
     for library in LIBRARIES:

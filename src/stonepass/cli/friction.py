@@ -1,0 +1,133 @@
+"""``stonepass friction``: the friction coefficient of a stone from a micrograph of its surface."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stonepass.cli.options import Json
+
+if TYPE_CHECKING:
+    from stonepass.imaging.paths import StraightPath
+    from stonepass.units import Length
+
+__all__ = ["command"]
+
+
+def command(
+    image: Annotated[
+        Path, typer.Argument(metavar="IMAGE", help="TIFF, PNG, JPEG, or a height map.")
+    ],
+    pixel: Annotated[
+        str | None,
+        typer.Option("--pixel", metavar="LENGTH", help="Size of a pixel; wins over the file's."),
+    ] = None,
+    relief: Annotated[
+        str | None,
+        typer.Option("--relief", metavar="LENGTH", help="Height from black to white, e.g. 35um."),
+    ] = None,
+    crystal: Annotated[
+        str | None,
+        typer.Option(
+            "--crystal", metavar="LENGTH", help="Edge of the cubic crystals; relief is √3 of it."
+        ),
+    ] = None,
+    paths: Annotated[
+        int | None,
+        typer.Option("--paths", help="Horizontal paths, evenly spaced.  [default: 6]"),
+    ] = None,
+    path: Annotated[
+        list[str] | None,
+        typer.Option("--path", metavar="X0,Y0,X1,Y1", help="A path in pixels; may be repeated."),
+    ] = None,
+    area: Annotated[
+        str | None,
+        typer.Option(
+            "--area", metavar="LEFT,TOP,RIGHT,BOTTOM", help="Part that is surface, in pixels."
+        ),
+    ] = None,
+    baseline_order: Annotated[
+        int, typer.Option("--baseline-order", help="Half waves of the mean profile's baseline.")
+    ] = 8,
+    deviation_order: Annotated[
+        int | None,
+        typer.Option(
+            "--deviation-order", help="Of the deviation's baseline.  [default: twice as many]"
+        ),
+    ] = None,
+    json: Json = False,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", metavar="OUT.svg", help="Draw the four panels (svg, png, pdf)."),
+    ] = None,
+) -> int:
+    """Estimate the friction coefficient from the slopes of a stone's surface (Eq. 18).
+
+    The file is read in a process of its own, within limits of time and memory.
+    """
+    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
+
+    writable(figure, FIGURES)
+    scale = _relief(relief, crystal)
+    lines = _paths(paths, path)
+    from stonepass.imaging.friction import surface_friction
+    from stonepass.imaging.untrusted import read_untrusted
+    from stonepass.units import length
+
+    size = None if pixel is None else length(pixel, "--pixel")
+    part = None if area is None else _area(area)
+    with working("reading the picture"):
+        picture = read_untrusted(image)
+        if size is not None:
+            picture = picture.with_pixel(size)
+        if part is not None:
+            picture = picture.with_area(*part)
+        found = surface_friction(picture, scale, lines, baseline_order, deviation_order)
+    from stonepass.report.friction_report import friction_record, friction_table
+    from stonepass.report.record import DISCLAIMER
+
+    if figure is not None:
+        from stonepass.report.friction_figure import friction_figure
+        from stonepass.report.style import save
+
+        save(friction_figure(found), figure)
+    if json:
+        print_json(friction_record(found, image.name))
+    else:
+        show(friction_table(found, image.name), DISCLAIMER)
+        warn(found.warnings)
+    return 0
+
+
+def _relief(relief: str | None, crystal: str | None) -> Length | None:
+    from stonepass.errors import BadInput
+    from stonepass.imaging.friction import CRYSTAL_DIAGONAL
+    from stonepass.units import Length, length
+
+    if relief is not None and crystal is not None:
+        raise BadInput("combination of --relief and --crystal", "ambiguous", "one of the two")
+    if crystal is not None:
+        return Length(CRYSTAL_DIAGONAL * length(crystal, "--crystal"))
+    return None if relief is None else length(relief, "--relief")
+
+
+def _paths(count: int | None, given: list[str] | None) -> int | list[StraightPath]:
+    from stonepass.errors import BadInput
+    from stonepass.imaging.paths import read_path
+
+    if count is not None and given:
+        raise BadInput("combination of --paths and --path", "ambiguous", "one of the two")
+    if given:
+        return [read_path(text) for text in given]
+    return 6 if count is None else count
+
+
+def _area(text: str) -> list[int]:
+    from stonepass.errors import BadInput
+
+    parts = text.split(",")
+    if len(parts) != 4 or not all(part.strip().isdecimal() for part in parts):
+        raise BadInput("--area", text, "four whole numbers LEFT,TOP,RIGHT,BOTTOM in pixels")
+    return [int(part) for part in parts]

@@ -1,0 +1,1 @@
+"""Pictures to numbers: micrographs and height maps to a friction coefficient."""

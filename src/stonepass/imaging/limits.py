@@ -1,0 +1,46 @@
+"""What a picture may cost: checked from its header, before a pixel is decoded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from stonepass.errors import BadInput
+
+__all__ = ["MEMORY", "SECONDS", "check_file", "check_size", "too_large"]
+
+FILE = 200_000_000  # bytes
+PIXELS = 40_000_000
+DECODED = 90_000_000  # bytes, of all samples of all pixels
+SMALLEST = 16  # pixels along each side
+SECONDS = 2.5  # a file may take to be read
+MEMORY = 420_000_000  # bytes of data, of the process that reads it
+
+
+def check_file(path: Path) -> None:
+    """Refuse what is no file, empty, or larger than 200 MB."""
+    if not path.is_file():
+        raise BadInput("image", str(path), "a file that exists", "check the path")
+    size = path.stat().st_size
+    if not 0 < size <= FILE:
+        shown = f"{path.name} of {size / 1e6:.3g} MB"
+        raise BadInput("image", shown, f"of at most {FILE // 1_000_000} MB and not empty")
+
+
+def check_size(name: str, shape: Sequence[int], sample_bytes: int) -> None:
+    """Refuse a picture (rows, columns[, samples]) that is too large to decode, or too small."""
+    rows, columns = (int(each) for each in shape[:2])
+    samples = 1
+    for each in shape[2:]:
+        samples *= int(each)
+    what = f"{name} of {columns} × {rows} pixels"
+    if min(rows, columns) < SMALLEST:
+        raise BadInput("image", what, f"at least {SMALLEST} × {SMALLEST}")
+    if rows * columns > PIXELS or rows * columns * samples * sample_bytes > DECODED:
+        raise too_large(what)
+
+
+def too_large(what: str) -> BadInput:
+    """The refusal of a picture that is too large to decode."""
+    allowed = f"of at most {PIXELS // 1_000_000} million pixels and {DECODED // 1_000_000} MB"
+    return BadInput("image", what, allowed, "cut out the part that matters")

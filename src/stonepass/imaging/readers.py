@@ -1,0 +1,250 @@
+"""Files to pictures: TIFF, PNG and JPEG of 8 or 16 bit, and height maps of surface instruments.
+
+Sizes are checked from the header before anything is decoded. Use `untrusted.read_untrusted` for a
+file of unknown origin: it reads in a process of its own, with limits.
+"""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Num
+
+from stonepass.errors import BadInput, StonepassError
+from stonepass.imaging.limits import check_file, check_size, too_large
+from stonepass.imaging.picture import PIXEL, Area, Picture
+from stonepass.imaging.pixel_size import (
+    TESCAN_TAG,
+    Scan,
+    fei_scan,
+    tescan_scan,
+    tescan_text_beside,
+    zeiss_scan,
+)
+from stonepass.units import length
+
+__all__ = ["HEIGHT_MAPS", "load_libraries", "read_picture"]
+
+# Ending of the name to the reader of SurfaceTopography.
+HEIGHT_MAPS = {
+    ".al3d": "al3d", ".bcr": "bcr", ".bcrf": "bcr", ".datx": "datx", ".ezd": "ezd", ".frt": "frt",
+    ".gwy": "gwy", ".ibw": "ibw", ".jpk": "jpk", ".lext": "lext", ".mdt": "mdt", ".mnt": "mnt",
+    ".nid": "ezd", ".oir": "oir", ".opd": "opd", ".opdx": "opdx", ".os3d": "os3d", ".plu": "plu",
+    ".plux": "plux", ".poir": "poir", ".sdf": "sdf", ".spm": "di", ".sur": "sur", ".tmd": "tmd",
+    ".vk3": "vk", ".vk4": "vk", ".vk6": "vk", ".vk7": "vk", ".x3p": "x3p", ".zmg": "zmg",
+    ".zon": "zon",
+}  # fmt: skip
+TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+PNG, JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
+COLOURED = 2  # grey levels of 255 by which channels may differ in a grey picture
+ROWS = 512  # compared at a time
+INSTALL = "pip install 'stonepass[imaging]'"
+
+
+def read_picture(path: Path) -> Picture:
+    """Read a micrograph or a height map.
+
+    Grey pictures saved as colour are grey; a palette or an opaque alpha channel is no matter. Of
+    several pages the first is taken.
+
+    Raises
+    ------
+    BadInput
+        No such file, an unknown kind, one that is damaged or too large, colour, bits other than 8
+        or 16, numbers that are not finite, or a library that is not installed.
+    """
+    check_file(path)
+    with path.open("rb") as file:
+        head = file.read(16)
+    reader: Callable[[Path], Picture]
+    if path.suffix.lower() in HEIGHT_MAPS:
+        reader = _heights
+    elif head[:4] in TIFF:
+        reader = _tiff
+    elif head.startswith((PNG, JPEG)):
+        reader = _plain
+    else:
+        allowed = "a TIFF, PNG or JPEG file, or a height map (" + ", ".join(HEIGHT_MAPS) + ")"
+        raise BadInput("image", path.name, allowed)
+    try:
+        with _quiet():
+            return reader(path)
+    except StonepassError:
+        raise
+    except MemoryError as problem:
+        raise BadInput("image", path.name, "readable in the memory it may take") from problem
+    except Exception as problem:  # a decoder may raise anything at all over a damaged file
+        said = " ".join(f"{type(problem).__name__}: {problem}".split())[:120]
+        raise BadInput("image", path.name, f"undamaged ({said})") from problem
+
+
+def load_libraries(path: Path) -> None:
+    """Load what a file of this name may need, as far as it is installed."""
+    heights = path.suffix.lower() in HEIGHT_MAPS
+    for name in ("SurfaceTopography.IO",) if heights else ("tifffile", "PIL.Image"):
+        with _quiet(), suppress(ImportError):
+            import_module(name)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Decoders warn and log about files that they then refuse, or read all the same."""
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(logging.NOTSET)
+
+
+def _library(name: str) -> Any:
+    try:
+        return import_module(name)
+    except ImportError as problem:
+        package = name.split(".")[0]
+        raise BadInput("library", package, "installed to read this file", INSTALL) from problem
+
+
+def _tiff(path: Path) -> Picture:
+    tifffile = _library("tifffile")
+    with tifffile.TiffFile(path) as file:
+        page = file.pages[0]
+        shape = (page.imagelength, page.imagewidth, page.samplesperpixel)
+        bits = page.bitspersample
+        _check_bits(path, bits, int(page.sampleformat or 1) == 1)
+        check_size(path.name, shape, bits // 8)
+        scan, kind = _scan_of_tiff(file, page, path)
+        several = len(file.pages) > 1
+        compressed = int(page.compression) not in (1, 8, 32946)  # those that need no codec
+        simple = page.shape in (shape, shape[:2]) and int(page.photometric) in (0, 1, 2, 3)
+        values = page.asarray() if simple and not compressed else None
+        if values is not None and int(page.photometric) == 3:
+            values = np.moveaxis(np.asarray(page.colormap)[:, values], 0, -1) >> 8
+            values = values.astype(np.uint8)
+        if values is not None and int(page.photometric) == 0:  # white is zero
+            values = np.iinfo(values.dtype).max - values
+    if values is None:
+        values = _decoded(path)
+    notes = ["the first of several pages is taken"] if several else []
+    return _grey(path, values, scan, kind, notes)
+
+
+def _scan_of_tiff(file: Any, page: Any, path: Path) -> tuple[Scan | None, str]:
+    """Pixel size and data bar, and whose."""
+    if file.sem_metadata:
+        return zeiss_scan(file.sem_metadata, page.imagewidth), "Zeiss tag"
+    if file.fei_metadata:
+        return fei_scan(file.fei_metadata, page.imagelength), "FEI tag"
+    tag = page.tags.get(TESCAN_TAG)
+    if tag is not None:
+        raw = tag.value
+        text = raw if isinstance(raw, str) else bytes(raw).decode("latin-1")
+        return tescan_scan(text.replace("\0", "\n")), "TESCAN tag"
+    return _scan_beside(path)
+
+
+def _scan_beside(path: Path) -> tuple[Scan | None, str]:
+    text = tescan_text_beside(path)
+    return (None, "") if text is None else (tescan_scan(text), "TESCAN .hdr file")
+
+
+def _plain(path: Path) -> Picture:
+    """PNG and JPEG."""
+    return _grey(path, _decoded(path), *_scan_beside(path), [])
+
+
+def _decoded(path: Path) -> Num[np.ndarray, "..."]:
+    """Decode with Pillow."""
+    from PIL import Image
+
+    try:
+        opened = Image.open(path, formats=("TIFF", "PNG", "JPEG"))
+    except Image.DecompressionBombError as problem:
+        raise too_large(path.name) from problem
+    with opened as image:
+        if image.mode == "P":
+            check_size(path.name, (image.height, image.width, 3), 1)
+            return np.asarray(image.convert("RGB"))
+        deep = image.mode.startswith("I;16") or image.mode == "I"
+        if not deep and image.mode not in ("L", "LA", "RGB", "RGBA"):
+            raise BadInput("image", f"{path.name} of mode {image.mode}", "grey, of 8 or 16 bit")
+        samples = len(image.getbands())
+        check_size(path.name, (image.height, image.width, samples), 4 if deep else 1)
+        return np.asarray(image)
+
+
+def _check_bits(path: Path, bits: Any, unsigned: bool) -> None:
+    if bits not in (8, 16) or not unsigned:
+        kind = "" if unsigned else " signed or floating"
+        raise BadInput("image", f"{path.name} of {bits}{kind} bits", "of 8 or 16 bits a sample")
+
+
+def _grey(
+    path: Path,
+    values: Num[np.ndarray, "..."],
+    scan: Scan | None,
+    kind: str,
+    notes: list[str],
+) -> Picture:
+    """One channel of grey; an equal one for each colour counts as one."""
+    if values.dtype.kind != "u" or values.dtype.itemsize > 2:
+        low, high = (int(values.min()), int(values.max())) if values.size else (0, 0)
+        if values.dtype.kind != "i" or low < 0 or high > 65535:
+            allowed = "of 8 or 16 bits a sample"
+            raise BadInput("image", f"{path.name} of type {values.dtype}", allowed)
+        values = values.astype(np.uint16)
+    full = int(np.iinfo(values.dtype).max)
+    if values.ndim == 3:
+        colours = values[..., :3] if values.shape[2] >= 3 else values[..., :1]
+        for start in range(0, len(colours), ROWS):
+            some = colours[start : start + ROWS].astype(np.int32)
+            if np.ptp(some, axis=2).max() > COLOURED * (full // 255):
+                raise BadInput("image", f"{path.name} in colour", "grey")
+        values = colours[..., 0]
+    rows, columns = values.shape
+    bar = 0
+    pixel = None
+    if scan is not None:
+        pixel, bar = scan
+        notes.append(f"pixel size of the {kind}")
+        if not all(PIXEL[0] <= each <= PIXEL[1] for each in pixel):
+            raise BadInput(f"pixel size of the {kind}", f"{pixel[0]:g} m", "1e-11 m to 1e-3 m",
+                           "give --pixel")  # fmt: skip
+        if 0 < bar < rows - 2:
+            notes.append(f"the lowest {bar} rows are the data bar and left out")
+        else:
+            bar = 0
+    area = Area(0, 0, columns, rows - bar)
+    return Picture(np.ascontiguousarray(values), pixel, full, area, tuple(notes))
+
+
+def _heights(path: Path) -> Picture:
+    reading = _library("SurfaceTopography.IO")
+    reader = reading.open_topography(str(path), format=HEIGHT_MAPS[path.suffix.lower()])
+    with reader:
+        channel = reader.default_channel
+        if len(channel.nb_grid_pts) != 2:
+            raise BadInput("image", f"{path.name}, a line", "a map of heights")
+        columns, rows = (int(count) for count in channel.nb_grid_pts)
+        check_size(path.name, (rows, columns), 8)
+        topography = channel.topography()
+        heights = np.ma.asarray(topography.heights())
+        sizes, unit = topography.physical_sizes, topography.unit
+    if unit is None:
+        raise BadInput("image", f"{path.name} without a unit", "a map with a unit of length")
+    metre = float(length(f"1 {unit}", "unit of the height map"))
+    values = np.ma.filled(heights.astype(float), np.nan).T * metre
+    pixel = (float(sizes[0]) * metre / columns, float(sizes[1]) * metre / rows)
+    if not all(PIXEL[0] <= each <= PIXEL[1] for each in pixel):
+        shown = f"{pixel[0]:g} m × {pixel[1]:g} m"
+        raise BadInput("pixel of the height map", shown, f"{PIXEL[0]:g} m to {PIXEL[1]:g} m")
+    notes = [f"heights of {path.suffix.lower()[1:]}"]
+    return Picture(np.ascontiguousarray(values), pixel, 0, Area(0, 0, columns, rows), tuple(notes))

@@ -1,0 +1,92 @@
+"""The picture behind a friction coefficient: paths, profiles, both baselines (paper, Fig. 3)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from stonepass.imaging.friction import SurfaceFriction
+from stonepass.report.style import COLOURS, new_figure, tidy
+
+__all__ = ["friction_figure"]
+
+MICRO = 1e6
+SHOWN = 1200  # pixels along the longer side, of the picture as drawn
+TANGENT, NEAR = 0.12, 1e-4  # of the profile's length: drawn of the steepest tangent, to find it
+
+
+def friction_figure(found: SurfaceFriction) -> Figure:
+    """Draw the four panels: surface with paths, profiles, mean and deviation with baselines."""
+    figure = new_figure(9.2, 6.4)
+    grid = figure.add_gridspec(2, 2)
+    shades = colormaps["viridis"](np.linspace(0.1, 0.9, len(found.paths)))
+    picture, profiles = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[0, 1])
+    _picture(picture, found, shades)
+    x = found.distance * MICRO
+    for row, shade in zip(found.profiles, shades, strict=True):
+        profiles.plot(x, row * MICRO, color=shade, linewidth=0.7)
+    profiles.plot(x, found.mean * MICRO, color=COLOURS["ink"], linewidth=1.5, label="mean")
+    profiles.set_title("Profiles along the paths")
+    mean, rest = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
+    _baseline(mean, found, found.mean, 0)
+    _baseline(rest, found, found.deviation, 1)
+    mean.set_title(f"Mean profile: k₀ = {found.k0:.3f}")
+    rest.set_title(f"Deviation: k₁ = {found.k1:.3f}, so μ = {found.friction:.3f}")
+    for axes in (profiles, mean, rest):
+        axes.set(xlabel="distance along the path (µm)", ylabel="height (µm)")
+        axes.margins(x=0.0)
+        axes.legend(fontsize=8, loc="best")
+        tidy(axes)
+    return figure
+
+
+def _picture(axes: Axes, found: SurfaceFriction, shades: np.ndarray) -> None:
+    picture = found.picture
+    assert picture.pixel is not None
+    across, down = (each * MICRO for each in picture.pixel)
+    rows, columns = picture.values.shape
+    step = max(1, math.ceil(max(rows, columns) / SHOWN))
+    extent = (-0.5 * across, (columns - 0.5) * across, (rows - 0.5) * down, -0.5 * down)
+    axes.imshow(picture.values[::step, ::step], cmap="gray", extent=extent, interpolation="nearest")
+    for path, shade in zip(found.paths, shades, strict=True):
+        axes.plot([path.x0 * across, path.x1 * across], [path.y0 * down, path.y1 * down],
+                  color=shade, linewidth=1.2)  # fmt: skip
+    area = picture.area
+    if (area.left, area.top, area.right, area.bottom) != (0, 0, columns, rows):
+        axes.add_patch(
+            Rectangle(
+                ((area.left - 0.5) * across, (area.top - 0.5) * down),
+                (area.right - area.left) * across,
+                (area.bottom - area.top) * down,
+                fill=False,
+                color=COLOURS["orange"],
+                linewidth=1.0,
+                linestyle="--",
+            )
+        )
+    axes.set(xlabel="µm", ylabel="µm", xlim=extent[:2], ylim=extent[2:])
+    axes.set_title("Surface and paths")
+
+
+def _baseline(axes: Axes, found: SurfaceFriction, heights: np.ndarray, which: int) -> None:
+    """A profile, its baseline, and the tangent where that is steepest."""
+    baseline = (found.baseline, found.deviation_baseline)[which]
+    fitted = baseline.at(found.distance)
+    x = found.distance * MICRO
+    names = ("mean profile", "deviation from the baseline")
+    axes.plot(x, heights * MICRO, color=COLOURS["ink"], linewidth=0.8, label=names[which])
+    axes.plot(x, fitted * MICRO, color=COLOURS["orange"], label=f"baseline, order {baseline.order}")
+    looked_at, slopes = baseline.slopes()
+    at = looked_at[int(np.argmax(slopes))]
+    ends = at + TANGENT * found.distance[-1] * np.array([-0.5, 0.5])
+    near = at + NEAR * found.distance[-1] * np.array([-0.5, 0.5])
+    rise = np.diff(baseline.at(near)) / np.diff(near)
+    axes.plot(ends * MICRO, (baseline.at(np.array([at])) + rise * (ends - at)) * MICRO,
+              color=COLOURS["blue"], linewidth=2.0, label="steepest tangent")  # fmt: skip
+    for edges in ((0.0, looked_at[0]), (looked_at[-1], found.distance[-1])):
+        axes.axvspan(*(edge * MICRO for edge in edges), color=COLOURS["grey"], alpha=0.12, lw=0)

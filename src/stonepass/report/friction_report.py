@@ -1,0 +1,107 @@
+"""The friction coefficient of a surface: JSON record and table."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich import box
+from rich.table import Table
+from rich.text import Text
+
+import stonepass
+from stonepass.imaging.friction import SurfaceFriction
+from stonepass.report.record import DISCLAIMER
+
+__all__ = ["friction_record", "friction_table"]
+
+MICRO = 1e6  # µm per m
+
+
+def friction_record(found: SurfaceFriction, image: str) -> dict[str, Any]:
+    """All of it as a JSON-ready record; `image` is the name of the file."""
+    assert found.picture.pixel is not None
+    across, down = (each * MICRO for each in found.picture.pixel)
+    roughness, spread = found.roughness, found.spread
+    return {
+        "friction_coefficient": found.friction,
+        "friction_sd": spread.sd,
+        "k0": found.k0,
+        "k1": found.k1,
+        "baseline_order": found.baseline.order,
+        "deviation_order": found.deviation_baseline.order,
+        "baseline_wavelength_um": found.baseline.wavelength * MICRO,
+        "deviation_wavelength_um": found.deviation_baseline.wavelength * MICRO,
+        "relief_um": None if found.relief is None else found.relief * MICRO,
+        "pixel_um": across if across == down else [across, down],
+        "paths": [[path.x0, path.y0, path.x1, path.y1] for path in found.paths],
+        "path_length_um": float(found.distance[-1]) * MICRO,
+        "roughness": {
+            "Ra_um": roughness.Ra * MICRO,
+            "Rq_um": roughness.Rq * MICRO,
+            "RdeltaQ": roughness.RdeltaQ,
+        },
+        "friction_from_rms_slope": roughness.RdeltaQ,
+        "spread": {
+            "without_one_path": [_number(mu) for mu in spread.paths],
+            "baseline_order": {str(order): _number(mu) for order, mu in spread.orders},
+            "relief_scaling": {how: _number(mu) for how, mu in spread.relief},
+        },
+        "image": image,
+        "notes": list(found.picture.notes),
+        "warnings": list(found.warnings),
+        "version": stonepass.__version__,
+        "disclaimer": DISCLAIMER,
+    }
+
+
+def friction_table(found: SurfaceFriction, image: str) -> Table:
+    """The result, what it was computed from, and how it moves with what was chosen."""
+    table = Table(box=box.SIMPLE_HEAD, title=Text(f"Friction of {image}"), title_justify="left")
+    for name in ("", "value", ""):
+        table.add_column(name)
+    for name, value, remark in _rows(found):
+        table.add_row(Text(name, "bold" if name == "friction coefficient" else ""), value, remark)
+    return table
+
+
+def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
+    assert found.picture.pixel is not None
+    across, down = (each * MICRO for each in found.picture.pixel)
+    first, rest, rough, spread = (
+        found.baseline, found.deviation_baseline, found.roughness, found.spread,
+    )  # fmt: skip
+    sd = "spread not known" if spread.sd is None else f"± {spread.sd:.2g} by what was chosen"
+    pixel = f"{across:.4g} µm" if across == down else f"{across:.4g} × {down:.4g} µm"
+    rows = [
+        ("friction coefficient", f"{found.friction:.3f}", sd),
+        ("slope k0", f"{found.k0:.3f}",
+         f"of waves over {first.wavelength * MICRO:.3g} µm (order {first.order})"),
+        ("slope k1", f"{found.k1:.3f}",
+         f"of waves over {rest.wavelength * MICRO:.3g} µm (order {rest.order})"),
+        ("friction by RMS slope", f"{rough.RdeltaQ:.3f}", "of single profiles, pixel by pixel"),
+        ("Ra, Rq", f"{rough.Ra * MICRO:.3g}, {rough.Rq * MICRO:.3g} µm", "of single profiles"),
+        ("relief", "its own" if found.relief is None else f"{found.relief * MICRO:.4g} µm", ""),
+        ("pixel", pixel, "; ".join(found.picture.notes)),
+        ("paths", f"{len(found.paths)}", f"of {found.distance[-1] * MICRO:.4g} µm"),
+    ]  # fmt: skip
+    if spread.paths:
+        rows.append(("without one path", _between(spread.paths), ""))
+    orders = ", ".join(f"{order}: {_shown(mu)}" for order, mu in spread.orders)
+    rows.append(("by baseline order", _between([mu for _, mu in spread.orders]), orders))
+    if spread.relief:
+        scalings = ", ".join(f"{how}: {_shown(mu)}" for how, mu in spread.relief)
+        rows.append(("by scaling of grey", _between([mu for _, mu in spread.relief]), scalings))
+    return rows
+
+
+def _between(values: list[float] | tuple[float, ...]) -> str:
+    known = [value for value in values if value == value]
+    return f"{min(known):.3f} to {max(known):.3f}" if known else "–"
+
+
+def _shown(value: float) -> str:
+    return f"{value:.3f}" if value == value else "too steep"
+
+
+def _number(value: float) -> float | None:
+    return value if value == value else None

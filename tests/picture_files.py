@@ -82,8 +82,8 @@ def header_of(path, rows, columns, kind):
     return path
 
 
-def hostile(folder, bomb=False):
-    """Name of a file to what its refusal says; a `bomb` takes a GB when it is opened."""
+def hostile(folder):
+    """Name of a file to what its refusal says."""
     made = {}
 
     def make(name, sentence, content=None):
@@ -128,12 +128,13 @@ def hostile(folder, bomb=False):
     head = bytearray(sur.read_bytes())
     head[108:120] = struct.pack("<iiI", 100_000, 100_000, 100_000 * 100_000 % 2**32)
     make("huge.sur", "", bytes(head))
-    if bomb:
-        packed = zipfile.ZipFile(make("bomb.x3p", ""), "w", zipfile.ZIP_DEFLATED)
-        with packed, packed.open("main.xml", "w") as inner:
-            inner.write(b"<a>")
-            for _ in range(1000):
-                inner.write(b"x" * 1_000_000)
+    packed = zipfile.ZipFile(
+        make("bomb.x3p", "of at most 90 MB unpacked"), "w", zipfile.ZIP_DEFLATED
+    )
+    with packed, packed.open("main.xml", "w") as inner:
+        inner.write(b"<a>")
+        for _ in range(200):
+            inner.write(b"x" * 1_000_000)
     return made
 
 

@@ -7,13 +7,13 @@ from pathlib import Path
 
 from stonepass.errors import BadInput
 
-__all__ = ["MEMORY", "SECONDS", "check_file", "check_size", "too_large"]
+__all__ = ["MEMORY", "SECONDS", "check_file", "check_size", "check_unpacked", "too_large"]
 
 FILE = 200_000_000  # bytes
 PIXELS = 40_000_000
 DECODED = 90_000_000  # bytes, of all samples of all pixels
 SMALLEST = 16  # pixels along each side
-SECONDS = 2.5  # a file may take to be read
+SECONDS = 2.0  # a file may take to be read
 MEMORY = 420_000_000  # bytes of data, of the process that reads it
 
 
@@ -38,6 +38,13 @@ def check_size(name: str, shape: Sequence[int], sample_bytes: int) -> None:
         raise BadInput("image", what, f"at least {SMALLEST} × {SMALLEST}")
     if rows * columns > PIXELS or rows * columns * samples * sample_bytes > DECODED:
         raise too_large(what)
+
+
+def check_unpacked(name: str, size: int) -> None:
+    """Refuse an archive whose parts are too large together, by what its directory says in bytes."""
+    if size > DECODED:
+        allowed = f"of at most {DECODED // 1_000_000} MB unpacked"
+        raise BadInput("image", f"{name} of {size / 1e6:.3g} MB unpacked", allowed)
 
 
 def too_large(what: str) -> BadInput:

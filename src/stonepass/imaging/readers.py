@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 import warnings
+import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
@@ -18,7 +19,7 @@ import numpy as np
 from jaxtyping import Num
 
 from stonepass.errors import BadInput, StonepassError
-from stonepass.imaging.limits import check_file, check_size, too_large
+from stonepass.imaging.limits import check_file, check_size, check_unpacked, too_large
 from stonepass.imaging.picture import PIXEL, Area, Picture
 from stonepass.imaging.pixel_size import (
     TESCAN_TAG,
@@ -227,6 +228,9 @@ def _grey(
 
 
 def _heights(path: Path) -> Picture:
+    if zipfile.is_zipfile(path):
+        with zipfile.ZipFile(path) as packed:
+            check_unpacked(path.name, sum(part.file_size for part in packed.infolist()))
     reading = _library("SurfaceTopography.IO")
     reader = reading.open_topography(str(path), format=HEIGHT_MAPS[path.suffix.lower()])
     with reader:

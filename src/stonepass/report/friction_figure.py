@@ -17,7 +17,7 @@ __all__ = ["friction_figure"]
 
 MICRO = 1e6
 SHOWN = 1200  # pixels along the longer side, of the picture as drawn
-TANGENT, NEAR = 0.12, 1e-4  # of the profile's length: drawn of the steepest tangent, to find it
+TANGENT, NEAR = 0.08, 1e-4  # of the profile's length: drawn of the steepest tangent, to find it
 
 
 def friction_figure(found: SurfaceFriction) -> Figure:

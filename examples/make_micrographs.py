@@ -69,7 +69,7 @@ def cubic_crystals(rows=400, columns=512, pixel=0.5, edge=20.0, count=900):
 
 
 def write_png(folder):
-    """A surface of known slopes along x, 8 bit, 0.5 µm a pixel, 17.1 µm from black to white."""
+    """A surface of known slopes along x, 8 bit, 0.5 µm a pixel, 24.8 µm from black to white."""
     distance = 0.5 * np.arange(1001)
     profile = known_profile(distance)
     grey = np.round(255.0 * (profile - profile.min()) / np.ptp(profile)).astype(np.uint8)

@@ -11,10 +11,18 @@ import pytest
 
 import stonepass
 from stonepass.cli import run
+from stonepass.report.friction_report import friction_record
 from stonepass.report.record import record, size_record
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted((ROOT / "examples").iterdir())
+
+
+PICTURES = {
+    "known_slopes.png": ["--pixel", "0.5um", "--relief", "24.8um"],
+    "crystals.tif": ["--crystal", "20um"],
+    "crystals.x3p": [],
+}
 
 
 def test_there_are_examples():
@@ -22,8 +30,10 @@ def test_there_are_examples():
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
-def test_example_runs(path, capsys):
-    if path.suffix == ".toml" and "[stone]" in path.read_text():
+def test_example_runs(path, capsys, tmp_path, monkeypatch):
+    if path.name in PICTURES:
+        assert run(["friction", str(path), *PICTURES[path.name]]) == 0
+    elif path.suffix == ".toml" and "[stone]" in path.read_text():
         assert run(["pressure", str(path)]) == 0
     elif path.suffix == ".csv":
         assert run(["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", str(path)]) == 0
@@ -32,6 +42,7 @@ def test_example_runs(path, capsys):
         assert run(["material", "check", law]) == 0
         assert run(["pressure", "--xi", "1.2", "--eta", "1.3", "--material", law]) == 0
     else:
+        monkeypatch.setattr("sys.argv", [str(path), str(tmp_path)])  # a folder for what it writes
         runpy.run_path(str(path), run_name="__main__")
     assert capsys.readouterr().out
 
@@ -54,6 +65,11 @@ def test_json_keys_are_in_the_glossary():
     assert [key for key in sorted(keys) if f"`{key}`" not in glossary] == []
     for outcome in stonepass.Outcome:
         assert f"`{outcome.name}`" in glossary
+    surface = stonepass.surface_friction(stonepass.read_picture(ROOT / "examples/crystals.x3p"))
+    keys = friction_record(surface, "crystals.x3p")
+    assert [
+        key for key in keys | keys["roughness"] | keys["spread"] if f"`{key}`" not in glossary
+    ] == []
 
 
 def test_readme_commands_are_real():

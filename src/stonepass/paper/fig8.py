@@ -10,7 +10,6 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from scipy.interpolate import PchipInterpolator
-from scipy.stats import linregress
 
 from stonepass.errors import Outcome
 from stonepass.model.case import Load
@@ -229,10 +228,11 @@ def _sizes_under_load(
         if len(known) < 3:
             fits[eta] = None
             continue
-        line = linregress(loads, sizes)
-        fits[eta] = float(line.slope), float(line.rvalue**2)
-        label = f"η = {eta:.2f}: {line.slope:+.4f} per kPa, $R^2$ = {line.rvalue**2:.4f}"
-        fitted = line.intercept + line.slope * loads
+        slope, intercept = np.polyfit(loads, sizes, 1)
+        share = float(np.corrcoef(loads, sizes)[0, 1] ** 2)
+        fits[eta] = float(slope), share
+        label = f"η = {eta:.2f}: {slope:+.4f} per kPa, $R^2$ = {share:.4f}"
+        fitted = intercept + slope * loads
         axes.plot(loads, fitted, color=COLOURS[colour], linewidth=1.0, label=label)
     axes.set(xlabel="confining pressure (kPa)", ylabel=r"critical size ratio $\xi_{cr}$")
     axes.set_title(f"d  (limit {limit / 1e3:g} kPa)")

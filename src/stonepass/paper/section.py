@@ -127,8 +127,9 @@ class Section:
     ) -> Section:
         """Write pictures (SVG and PNG) and tables (CSV) into a folder."""
         for picture in pictures:
-            for ending in ("svg", "png"):
-                save(picture.figure, folder / f"{picture.name}.{ending}")
+            save(picture.figure, folder / f"{picture.name}.svg")
+            picture.figure.set_layout_engine("none")  # laid out for the first, it is for both
+            save(picture.figure, folder / f"{picture.name}.png")
         for table in tables:
             write_csv(folder / f"{table.name}.csv", table.header, table.rows)
         return cls(

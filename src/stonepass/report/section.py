@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from jaxtyping import Int
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.tri import Triangulation
 
 from stonepass.fe.readout import Field
 from stonepass.model.case import Case
@@ -21,33 +24,43 @@ def draw_section(
 
     `wall` is drawn once for each of `sides`: -1 mirrors a half tube at the stone's equator.
     """
-    order = round(np.sqrt(wall.r.shape[1])) - 1
-    shape = (order + 1, order + 1)
-    compression, image = -wall.stress_rr / 1e3, None
-    for side in sides:
-        for half in (1.0, -1.0):  # above and below the axis
-            for r, z, value in zip(wall.r, wall.z, compression, strict=True):
-                x, y, c = (side * z).reshape(shape), (half * r).reshape(shape), value.reshape(shape)
-                image = axes.pcolormesh(
-                    x,
-                    y,
-                    c,
-                    shading="gouraud",
-                    cmap="magma_r",
-                    vmin=0.0,
-                    vmax=top / 1e3,
-                    rasterized=True,
-                )
-                outline = np.r_[x[0], x[:, -1], x[-1, ::-1], x[::-1, 0]]
-                outline_y = np.r_[y[0], y[:, -1], y[-1, ::-1], y[::-1, 0]]
-                axes.plot(outline, outline_y, color="white", linewidth=0.25, alpha=0.6)
-    draw_stone(axes, case)
     extent = 2.2 * case.size_ratio * case.stone.shape.reach + 0.6
+    shown = np.abs(wall.z).min(axis=1) < extent
+    z, r, compression = wall.z[shown], wall.r[shown], -wall.stress_rr[shown] / 1e3
+    images = [(side, half) for side in sides for half in (1.0, -1.0)]  # above and below the axis
+    x = np.concatenate([side * z for side, _ in images])
+    y = np.concatenate([half * r for _, half in images])
+    triangles, rim = _pieces(x.shape[1])
+    corners = (np.arange(len(x))[:, None, None] * x.shape[1] + triangles).reshape(-1, 3)
+    # One mesh of all elements, since each artist costs; neighbours share no corner, so that a
+    # jump of the stress between them stays one.
+    image = axes.tripcolor(
+        Triangulation(x.ravel(), y.ravel(), corners),
+        np.tile(compression, (len(images), 1)).ravel(),
+        shading="gouraud",
+        cmap="magma_r",
+        vmin=0.0,
+        vmax=top / 1e3,
+        rasterized=True,
+    )
+    outlines = LineCollection(list(np.stack([x[:, rim], y[:, rim]], axis=-1)), colors="white",
+                              linewidths=0.25, alpha=0.6)  # fmt: skip
+    axes.add_collection(outlines, autolim=False)
+    draw_stone(axes, case)
     height = float(wall.r.max()) * 1.06
     axes.set(xlim=(-extent, extent), ylim=(-height, height), aspect="equal")
     axes.set(xlabel="z / inner radius   (urine comes from the left)", ylabel="r / inner radius")
     axes.spines[["top", "right"]].set_visible(False)
-    assert image is not None
     bar = axes.figure.colorbar(image, ax=axes, shrink=0.85, pad=0.01)
     bar.set_label(r"$-\sigma_{rr}$  (kPa)")
     bar.outline.set_visible(False)
+
+
+def _pieces(points: int) -> tuple[Int[np.ndarray, "triangles 3"], Int[np.ndarray, " rim"]]:
+    """Triangles of the square grid of an element's points, and its rim in order."""
+    grid = np.arange(points).reshape(round(np.sqrt(points)), -1)
+    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    triangles = np.concatenate(
+        [np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))]
+    )
+    return triangles, np.r_[grid[0], grid[1:, -1], grid[-1, -2::-1], grid[-2::-1, 0]]

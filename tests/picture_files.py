@@ -103,6 +103,9 @@ def hostile(folder):
     header_of(make("tiny.png", "at least 16 × 16"), 5, 5, "png")
     bomb = make("bomb.png", "at most 40 million pixels")
     Image.fromarray(np.zeros((8000, 8000), np.uint8)).save(bomb)
+    Image.fromarray(np.zeros((16, 600_000), np.uint8)).save(
+        make("wide.png", "at most 20000 pixels long")
+    )
     whole = folder / "whole.png"
     Image.fromarray(some_grey(300, 300)).save(whole)
     raw = whole.read_bytes()
@@ -127,7 +130,7 @@ def hostile(folder):
     sur = sur_file(folder / "map.sur", np.random.default_rng(1).normal(size=(30, 30)), 1.0)
     head = bytearray(sur.read_bytes())
     head[108:120] = struct.pack("<iiI", 100_000, 100_000, 100_000 * 100_000 % 2**32)
-    make("huge.sur", "", bytes(head))
+    make("huge.sur", "undamaged", bytes(head))
     packed = zipfile.ZipFile(
         make("bomb.x3p", "of at most 90 MB unpacked"), "w", zipfile.ZIP_DEFLATED
     )

@@ -102,6 +102,14 @@ def test_a_search_that_begins_on_a_coarser_mesh_ends_where_one_without_does(monk
     assert near.at_size.error.critical_pressure > 0.0
 
 
+def test_a_size_beyond_the_range_of_the_material_is_none():
+    """The coarser mesh reaches the limit within the range, the finer one just beyond it."""
+    ureter = sp.Ureter(wall_ratio=1.5)
+    found = sp.critical_size(ureter, "26.38 kPa", method=sp.Method(accuracy="fast"))
+    assert found.outcome is sp.Outcome.BEYOND_RANGE
+    assert found.size_ratio is None
+
+
 def test_where_the_largest_stone_has_no_answer_a_smaller_one_bounds_the_search():
     """ξ up to 1.3 with answers below 1.2 only; the limit is crossed where the excess changes sign."""
     case = sp.Case(sp.Stone(size_ratio=1.3), THIN)

@@ -17,6 +17,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from page import Check, Section
 
+from stonepass.imaging.baseline import fit_baseline
 from stonepass.imaging.friction import surface_friction
 from stonepass.imaging.paths import StraightPath
 from stonepass.imaging.picture import Area, Picture
@@ -33,6 +34,8 @@ EXACT = 0.5 / (1.0 - 0.38 * 0.12)
 # Largest relative error of the friction coefficient for each noise; where it comes from is said on
 # the page.
 BOUNDS = dict(zip(NOISE, (0.005, 0.02, 0.05, 0.10), strict=True))
+ORDERS, SHARES = (8, 16, 32), (0.25, 0.5, 0.75, 0.9, 1.0, 1.2)
+FOLLOWED, LARGEST_RATIO = 0.75, 0.05
 TRIED = 20_000
 SEED = 20250
 LARGEST_TIME, LARGEST_MEMORY = 5.0, 500.0  # s, MB
@@ -41,6 +44,8 @@ LARGEST_TIME, LARGEST_MEMORY = 5.0, 500.0  # s, MB
 def section() -> Section:
     sys.path.insert(0, str(ROOT / "tests"))
     errors = known_answers()
+    waves = followed()
+    apart = max(abs(r - 1.0) for (_, s), found in waves.items() if s <= FOLLOWED for r in found)
     fuzzed = fuzz()
     refused = hostile_files()
     by_noise = {noise: largest(errors, 3, noise) for noise in NOISE}
@@ -70,6 +75,12 @@ def section() -> Section:
         tables=[
             ("Largest error of μ, relative, over the noise:",
              ("", *(f"{noise:.0%}" for noise in NOISE)), rows),
+            ("Slope of a baseline over that of a wave, median and largest of 24 phases, by the "
+             "wave's frequency over the highest that the baseline follows (a wave is no sum of "
+             "its terms):",
+             ("order", *(f"{share:g}" for share in SHARES)),
+             [[str(order), *(f"{np.median(waves[order, s]):.2f}, {max(waves[order, s]):.2f}"
+                             for s in SHARES)] for order in ORDERS]),
             (f"{TRIED} damaged files (bytes changed or left out, some cut short), seed {SEED}:",
              ("kind", "read", "refused in one sentence", "anything else"),
              [[kind, *(str(fuzzed[kind, how]) for how in ("read", "refused")),
@@ -83,6 +94,8 @@ def section() -> Section:
             *(Check(f"μ of known slopes within {BOUNDS[noise]:.1%} at noise {noise:.0%}",
                     f"{error:.2%} at most", error <= BOUNDS[noise])
               for noise, error in by_noise.items()),
+            Check(f"waves of up to {FOLLOWED:g} of the highest frequency have their slope within "
+                  f"{LARGEST_RATIO:.0%}", f"{apart:.1%} at most", apart <= LARGEST_RATIO),
             Check("a damaged file is read or refused in one sentence, whatever the damage",
                   f"{sum(fuzzed.values())} tried, {odd} ended otherwise",
                   odd == 0 and sum(fuzzed.values()) == TRIED),
@@ -135,6 +148,20 @@ def surface(distance, heights, pixel, angle, bits, noise, generator):
     values = grey.astype(np.uint8 if bits == 8 else np.uint16)
     picture = Picture(values, (pixel * MICRO, pixel * MICRO), full, Area(0, 0, columns, rows))
     return picture, [StraightPath(*((end - low) / pixel).ravel()) for end in ends]
+
+
+def followed() -> dict[tuple[int, float], list[float]]:
+    """Steepest slope of a baseline over that of a sine, by order and frequency."""
+    distance = np.linspace(0.0, LENGTH, 2001)
+    found = {}
+    for order, share in product(ORDERS, SHARES):
+        number = np.pi * order * share / LENGTH
+        phases = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+        found[order, share] = [
+            fit_baseline(distance, np.sin(number * distance + phase), order).steepest / number
+            for phase in phases
+        ]
+    return found
 
 
 def largest(errors, which, value, noise=None):

@@ -37,7 +37,9 @@ class BadInput(StonepassError, ValueError):
         if len(shown) > 80:
             shown = shown[:77] + "..."
         tail = f"; {self.remedy}" if self.remedy else ""
-        return f"{self.argument} is {shown or 'empty'}, but must be {self.allowed}{tail}."
+        told = f"{self.argument} is {shown or 'empty'}, but must be {self.allowed}{tail}."
+        # What a file says may hold the control characters of a terminal.
+        return "".join(each if each.isprintable() else "?" for each in told)
 
 
 class UnstableLaw(BadInput):

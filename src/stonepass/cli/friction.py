@@ -31,7 +31,9 @@ def command(
     crystal: Annotated[
         str | None,
         typer.Option(
-            "--crystal", metavar="LENGTH", help="Edge of the cubic crystals; relief is √3 of it."
+            "--crystal",
+            metavar="LENGTH",
+            help="Edge of the cubic crystals; relief is sqrt(3) of it.",
         ),
     ] = None,
     paths: Annotated[
@@ -93,23 +95,26 @@ def command(
         from stonepass.report.style import save
 
         save(friction_figure(found), figure)
+    name = image.name.encode(errors="replace").decode()
     if json:
-        print_json(friction_record(found, image.name))
+        print_json(friction_record(found, name))
     else:
-        show(friction_table(found, image.name), DISCLAIMER)
+        show(friction_table(found, name), DISCLAIMER)
         warn(found.warnings)
     return 0
 
 
 def _relief(relief: str | None, crystal: str | None) -> Length | None:
-    from stonepass.errors import BadInput
-    from stonepass.imaging.friction import CRYSTAL_DIAGONAL
+    from stonepass.errors import BadInput, require
+    from stonepass.imaging.friction import CRYSTAL_DIAGONAL, RELIEF
     from stonepass.units import Length, length
 
     if relief is not None and crystal is not None:
         raise BadInput("combination of --relief and --crystal", "ambiguous", "one of the two")
     if crystal is not None:
-        return Length(CRYSTAL_DIAGONAL * length(crystal, "--crystal"))
+        edge = length(crystal, "--crystal")
+        require(RELIEF[0] < edge <= RELIEF[1] / 2, "--crystal", crystal, "1 nm to 5 mm")
+        return Length(CRYSTAL_DIAGONAL * edge)
     return None if relief is None else length(relief, "--relief")
 
 
@@ -128,6 +133,7 @@ def _area(text: str) -> list[int]:
     from stonepass.errors import BadInput
 
     parts = text.split(",")
-    if len(parts) != 4 or not all(part.strip().isdecimal() for part in parts):
+    whole = all(part.strip().isdecimal() and len(part) < 9 for part in parts)
+    if len(parts) != 4 or not whole:
         raise BadInput("--area", text, "four whole numbers LEFT,TOP,RIGHT,BOTTOM in pixels")
     return [int(part) for part in parts]

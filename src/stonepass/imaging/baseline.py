@@ -49,7 +49,13 @@ class Baseline:
         Nearer to them the slope is several times less certain, as that of every fit is, and waves
         that the baseline cannot follow come out too steep.
         """
-        return self.slopes()[1].max()
+        return float(self.slopes()[1].max())
+
+    @property
+    def at_edge(self) -> bool:
+        """Whether it is steepest where slopes cease to be looked at."""
+        steep = int(np.argmax(self.slopes()[1]))
+        return steep in (0, PER_HALF_WAVE * max(self.order, 2))
 
     def slopes(self) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
         """Distances from the start in m where slopes are looked at, and |dz/dx| there."""

@@ -10,6 +10,8 @@ from typing import Any
 
 __all__ = ["main"]
 
+LONGEST = 500  # characters
+
 
 def main() -> int:
     """Read what stdin asks for, and write the picture, or why not, to stdout."""
@@ -25,7 +27,8 @@ def main() -> int:
         picture = read_picture(path)
     except BadInput as problem:
         value = problem.value if isinstance(problem.value, str) else repr(problem.value)
-        _tell({"refused": [problem.argument, value, problem.allowed, problem.remedy]})
+        told = (problem.argument, value, problem.allowed, problem.remedy)
+        _tell({"refused": [text[:LONGEST] for text in told]})
         return 0
     _tell(
         {
@@ -34,6 +37,7 @@ def main() -> int:
             "pixel": picture.pixel,
             "full_scale": picture.full_scale,
             "area": astuple(picture.area),
+            "pixel_source": picture.pixel_source,
             "notes": picture.notes,
         }
     )

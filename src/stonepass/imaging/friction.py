@@ -7,9 +7,11 @@ from it a richer baseline, whose largest slope is k₁; μ_f = tan(arctan k₀ +
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import sqrt
+from numbers import Integral
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Num
@@ -22,6 +24,7 @@ from stonepass.units import Length, length
 
 __all__ = [
     "CRYSTAL_DIAGONAL",
+    "RELIEF",
     "Roughness",
     "Spread",
     "SurfaceFriction",
@@ -34,20 +37,25 @@ RELIEF = (1e-9, 1e-2)  # m
 ORDER = (1, 200)
 RICHER = 2  # order of the deviation's baseline over that of the first
 SAMPLES = 4  # least number of samples for each term of a baseline
+ROWS = 512  # looked at together
 LEVELS = 16  # least number of grey levels of a picture that is not flat
-SATURATED = 0.25  # of the pixels at one end of the grey scale, at which heights are cut off
-TELL_SATURATED = 0.05  # more than the tops and bottoms of a smooth surface take
+SATURATED = 0.25  # of the pixels at the ends of the greys, at which heights are cut off
+TELL_SATURATED = 0.1  # more than the tops and bottoms of a smooth surface take
+GAP = 0.1  # of the greys, empty beside the brightest or darkest: what writing leaves
+PLAIN_ROWS = 0.01  # of the rows, of one grey or two: a bar, or a part that is missing
 SMOOTHED = 5  # pixels along each side, over which grey is averaged before its range is taken
 PERCENTILES = (0.1, 99.9)
+FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # of the first order, both together
 SCALINGS = ("smoothed range", "range", "percentiles")
 LARGEST = 2.0  # μ_f that a case takes
 
 
 @dataclass(frozen=True)
 class Roughness:
-    """Roughness of the single profiles less their mean lines, averaged over the paths (ISO 21920).
+    """Roughness of the single profiles less their mean lines, averaged over the paths.
 
-    `Ra` and `Rq` are in m; `RdeltaQ` is the root mean square of dz/dx, seven-point differences.
+    `Ra` and `Rq` are in m; `RdeltaQ` is the root mean square of dz/dx, seven-point differences. No
+    filter sets waviness apart, so these are Pa, Pq and PΔq of ISO 21920.
     """
 
     Ra: float
@@ -186,26 +194,31 @@ def surface_friction(
         baselines, or slopes with k₀ k₁ ≥ 1.
     """
     scale = _relief(picture, relief)
-    second = RICHER * baseline_order if deviation_order is None else deviation_order
-    _check_orders(baseline_order, second)
-    warnings = list(_check_grey(picture))
-    chosen = evenly_spaced(picture, paths) if isinstance(paths, int) else list(paths)
+    first_order, second_order = _orders(baseline_order, deviation_order)
+    warnings = _look_at(picture)
+    chosen = _chosen(picture, paths)
     sampled = profiles_along(picture, chosen)
     samples = len(sampled.distance)
     require(
-        second <= _most(samples),
+        second_order <= _most(samples),
         "order of the deviation's baseline",
-        second,
+        second_order,
         f"at most {_most(samples)} for paths of {samples} pixels",
         "choose longer paths or a smaller order",
     )
-    heights = _heights(picture, sampled.values, scale)
-    first, rest, friction = _fit(sampled.distance, heights.mean(axis=0), baseline_order, second)
-    spread = _spread(picture, sampled, heights, scale, baseline_order, second)
+    ranges = [] if scale is None else _grey_ranges(picture)
+    heights = _heights(sampled.values, scale, ranges[0][1] if ranges else (0.0, 1.0))
+    first, rest, friction = _fit(sampled.distance, heights.mean(axis=0), first_order, second_order)
+    spread = _spread(sampled, heights, scale, ranges, (first_order, second_order))
     if len(chosen) == 1:
         warnings.append("one path alone: how the friction varies over the surface is not known")
     if spread.sd is None:
         warnings.append("for some of the choices the slopes are too steep: no spread is given")
+    if len(spread.orders) < len(FACTORS):
+        warnings.append("the paths are too short for some of the orders that the spread is over")
+    if any(part.at_edge for part in (first, rest)):
+        warnings.append("a baseline is steepest where it ceases to be looked at, near the ends of "
+                        "the paths: it may be steeper still; choose longer paths")  # fmt: skip
     if friction > LARGEST:
         warnings.append(f"the friction coefficient lies above {LARGEST:g}, which no case takes")
     return SurfaceFriction(
@@ -223,6 +236,15 @@ def surface_friction(
     )
 
 
+def _chosen(picture: Picture, paths: Any) -> list[StraightPath]:
+    if isinstance(paths, Integral) and not isinstance(paths, bool):
+        return evenly_spaced(picture, int(paths))
+    listed = list(paths) if isinstance(paths, Iterable) else [paths]
+    for each in listed:
+        require(isinstance(each, StraightPath), "paths", each, "a whole number, or paths")
+    return listed
+
+
 def _relief(picture: Picture, relief: str | Length | None) -> float | None:
     if picture.has_heights:
         if relief is not None:
@@ -236,64 +258,83 @@ def _relief(picture: Picture, relief: str | Length | None) -> float | None:
     return float(scale)
 
 
-def _check_orders(first: int, second: int) -> None:
+def _orders(first: int, second: int | None) -> tuple[int, int]:
     low, high = ORDER
+    found: list[int] = []
     for name, order in (("baseline", first), ("deviation's baseline", second)):
-        whole = isinstance(order, int) and not isinstance(order, bool)
+        if order is None:
+            found.append(min(RICHER * found[0], high))
+            continue
+        whole = isinstance(order, Integral) and not isinstance(order, bool)
         allowed = f"a whole number from {low} to {high}"
         require(whole and low <= order <= high, f"order of the {name}", order, allowed)
+        found.append(int(order))
     why = "in the same basis the deviation has no slope"
-    require(second > first, "order of the deviation's baseline", second,
-            f"larger than that of the first, {first}", why)  # fmt: skip
+    require(found[1] > found[0], "order of the deviation's baseline", found[1],
+            f"larger than that of the first, {found[0]}", why)  # fmt: skip
+    return found[0], found[1]
 
 
-def _check_grey(picture: Picture) -> list[str]:
-    """Refuse a picture without relief, or cut off at an end of the grey scale; warn of some."""
+def _look_at(picture: Picture) -> list[str]:
+    """Refuse what is flat or cut off; warn of what looks like no surface."""
     values = picture.surface
     if picture.has_heights:
         known = values[np.isfinite(values)]
         flat = known.size == 0 or not float(np.ptp(known)) > 0.0
         require(not flat, "height map", "flat or empty", "of a rough surface")
         return []
-    low, high = int(values.min()), int(values.max())
+    counts = np.zeros(picture.full_scale + 1, int)
+    for start in range(0, len(values), ROWS):  # each number becomes eight bytes here
+        counts += np.bincount(values[start : start + ROWS].ravel(), minlength=len(counts))
+    greys = np.flatnonzero(counts)
+    low, high = int(greys[0]), int(greys[-1])
     shown = f"flat, with greys from {low} to {high}"
     require(high - low >= LEVELS, "picture", shown, f"of at least {LEVELS} grey levels")
-    ends = max(float(np.mean(values == end)) for end in (0, picture.full_scale))
+    ends = float(counts[low] + counts[high]) / values.size
     allowed = f"less than {SATURATED:.0%} of it"
-    require(ends < SATURATED, "black or white", f"{ends:.0%} of the picture", allowed,
+    require(ends < SATURATED, "darkest or brightest grey", f"{ends:.0%} of the picture", allowed,
             "take one that is not saturated")  # fmt: skip
+    told = []
     if ends > TELL_SATURATED:
-        return [f"{ends:.0%} of the pixels are black or white, where heights are cut off"]
-    return []
+        told.append(f"{ends:.0%} of the pixels have the darkest or brightest grey, where heights "
+                    "are cut off")  # fmt: skip
+    gaps = np.diff(greys) > GAP * (high - low)
+    if gaps[0] or gaps[-1]:
+        told.append("no grey lies near the darkest or brightest: a scale bar or writing sets the "
+                    "scale of heights; cut it off with --area")  # fmt: skip
+    plain = float(np.mean(np.ptp(values, axis=1) <= 1))
+    if plain > PLAIN_ROWS:
+        told.append(f"{plain:.0%} of the rows have one grey: a data bar, or a part that is "
+                    "missing; cut it off with --area")  # fmt: skip
+    return told
 
 
-def _grey_range(picture: Picture, how: str) -> tuple[float, float]:
-    """Greys of height nought and of the whole relief (`SCALINGS`).
+def _grey_ranges(picture: Picture) -> list[tuple[str, tuple[float, float]]]:
+    """Greys of height nought and of the whole relief, by each of `SCALINGS`.
 
     Single pixels reach further than the surface does, by their noise; their mean over a few does so
     less.
     """
-    values: Num[np.ndarray, "rows columns"] = picture.surface
-    if how == "percentiles":
-        low, high = np.percentile(values, PERCENTILES)
-        return float(low), float(high)
-    if how == "smoothed range":
-        from scipy.ndimage import uniform_filter
+    from scipy.ndimage import uniform_filter
 
-        values = uniform_filter(values, SMOOTHED, np.float32)
-    return float(values.min()), float(values.max())
+    values: Num[np.ndarray, "rows columns"] = picture.surface
+    smoothed = uniform_filter(values, SMOOTHED, np.float32)
+    low, high = np.percentile(values, PERCENTILES)
+    ends = (
+        (float(smoothed.min()), float(smoothed.max())),
+        (float(values.min()), float(values.max())),
+        (float(low), float(high)),
+    )
+    return list(zip(SCALINGS, ends, strict=True))
 
 
 def _heights(
-    picture: Picture,
-    values: Float[np.ndarray, "paths n"],
-    relief: float | None,
-    how: str = SCALINGS[0],
+    values: Float[np.ndarray, "paths n"], relief: float | None, greys: tuple[float, float]
 ) -> Float[np.ndarray, "paths n"]:
     if relief is None:
         return values
-    low, high = _grey_range(picture, how)
-    require(high > low, "picture", f"flat in its {how}", "of a rough surface")
+    low, high = greys
+    require(high > low, "picture", "flat", "of a rough surface")
     return relief * (values - low) / (high - low)
 
 
@@ -306,14 +347,14 @@ def _fit(
 
 
 def _spread(
-    picture: Picture,
     sampled: Profiles,
     heights: Float[np.ndarray, "paths n"],
     relief: float | None,
-    first: int,
-    second: int,
+    ranges: Sequence[tuple[str, tuple[float, float]]],
+    orders: tuple[int, int],
 ) -> Spread:
-    distance, mean = sampled.distance, heights.mean(axis=0)
+    distance, count = sampled.distance, len(heights)
+    first, second = orders
 
     def friction(profile: Float[np.ndarray, " n"], order: int = first, rest: int = second) -> float:
         """μ_f by other choices; NaN where it does not exist."""
@@ -322,22 +363,19 @@ def _spread(
         except BadInput:
             return np.nan
 
-    def scaled(how: str) -> float:
-        """μ_f by another scaling; NaN where it does not exist."""
-        try:
-            return friction(_heights(picture, sampled.values, relief, how).mean(axis=0))
-        except BadInput:
-            return np.nan
-
-    count = len(heights)
-    without = [np.delete(heights, k, axis=0).mean(axis=0) for k in range(count if count > 1 else 0)]
-    orders = []
-    for order in dict.fromkeys(round(first * factor) for factor in (0.5, 0.75, 1.0, 1.25, 1.5)):
+    total, raw = heights.sum(axis=0), sampled.values.mean(axis=0)[None]
+    without = [(total - row) / (count - 1) for row in heights] if count > 1 else []
+    by_order = []
+    for order in dict.fromkeys(round(first * factor) for factor in FACTORS):
         rest = round(order * second / first)
         if ORDER[0] <= order < rest <= min(_most(len(distance)), ORDER[1]):
-            orders.append((order, friction(mean, order, rest)))
-    scalings = [] if relief is None else [(how, scaled(how)) for how in SCALINGS]
-    return Spread(tuple(map(friction, without)), tuple(orders), tuple(scalings))
+            by_order.append((order, friction(total / count, order, rest)))
+    by_scale = []
+    for how, greys in ranges:
+        flat = not greys[1] > greys[0]
+        scaled = np.nan if flat else friction(_heights(raw, relief, greys)[0])
+        by_scale.append((how, scaled))
+    return Spread(tuple(map(friction, without)), tuple(by_order), tuple(by_scale))
 
 
 def _most(samples: int) -> int:

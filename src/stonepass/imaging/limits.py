@@ -12,7 +12,7 @@ __all__ = ["MEMORY", "SECONDS", "check_file", "check_size", "check_unpacked", "t
 FILE = 200_000_000  # bytes
 PIXELS = 40_000_000
 DECODED = 90_000_000  # bytes, of all samples of all pixels
-SMALLEST = 16  # pixels along each side
+SIDE = (16, 20_000)  # pixels
 SECONDS = 2.0  # a file may take to be read
 MEMORY = 420_000_000  # bytes of data, of the process that reads it
 
@@ -34,8 +34,13 @@ def check_size(name: str, shape: Sequence[int], sample_bytes: int) -> None:
     for each in shape[2:]:
         samples *= int(each)
     what = f"{name} of {columns} × {rows} pixels"
-    if min(rows, columns) < SMALLEST:
-        raise BadInput("image", what, f"at least {SMALLEST} × {SMALLEST}")
+    low, high = SIDE
+    if min(rows, columns) < low:
+        raise BadInput("image", what, f"at least {low} × {low}")
+    if rows * columns <= PIXELS and max(rows, columns) > high:
+        raise BadInput(
+            "image", what, f"at most {high} pixels long", "cut out the part that matters"
+        )
     if rows * columns > PIXELS or rows * columns * samples * sample_bytes > DECODED:
         raise too_large(what)
 

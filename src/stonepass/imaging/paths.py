@@ -14,7 +14,7 @@ from stonepass.imaging.picture import Picture
 
 __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path"]
 
-COUNT = (1, 1000)
+COUNT = (1, 100)
 UNEVEN = 0.01  # of the shortest length, by which paths may differ in silence
 
 
@@ -66,13 +66,13 @@ def read_path(text: str) -> StraightPath:
 
 
 def evenly_spaced(picture: Picture, count: int) -> list[StraightPath]:
-    """Horizontal paths across the whole area, as many pixels apart as from its edges."""
+    """Horizontal paths across the whole area, along rows evenly spaced."""
     low, high = COUNT
     area = picture.area
     height = area.bottom - area.top
     high = min(high, height)
     require(low <= count <= high, "paths", count, f"a whole number from {low} to {high}")
-    rows = [area.top - 0.5 + height * (k + 0.5) / count for k in range(count)]
+    rows = [area.top + round(height * (k + 0.5) / count - 0.5) for k in range(count)]
     return [StraightPath(area.left, row, area.right - 1.0, row) for row in rows]
 
 
@@ -92,12 +92,14 @@ def profiles_along(picture: Picture, paths: Sequence[StraightPath]) -> Profiles:
     pixel = picture.pixel
     if pixel is None:
         raise BadInput("pixel size", "missing", "given as --pixel", "the file does not say it")
-    require(len(paths) > 0, "paths", 0, "at least one")
+    low, high = COUNT
+    require(low <= len(paths) <= high, "paths", len(paths), f"{low} to {high} of them")
     for path in paths:
         _check(picture, path)
     lengths = [path.length(pixel) for path in paths]
     shortest = min(lengths)
-    count = 1 + max(2, math.floor(shortest / min(pixel)))
+    across = min(math.hypot(path.x1 - path.x0, path.y1 - path.y0) for path in paths)
+    count = 1 + math.floor(across + 1e-9)
     distance = np.linspace(0.0, shortest, count)
     rows = []
     for path, length in zip(paths, lengths, strict=True):

@@ -9,9 +9,11 @@ from jaxtyping import Num
 
 from stonepass.errors import BadInput, require
 
-__all__ = ["Area", "Picture"]
+__all__ = ["PIXEL", "Area", "Picture", "possible_pixel"]
 
 PIXEL = (1e-11, 1e-3)  # m
+OBLONG = 10.0  # largest ratio of a pixel's sides
+FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}
 
 
 @dataclass(frozen=True)
@@ -38,15 +40,40 @@ class Picture:
         Largest grey value that the file could hold, 255 or 65535; 0 for heights.
     area : Area
         What belongs to the surface; the data bar under a micrograph does not.
+    pixel_source : str
+        Who says how large a pixel is.
     notes : tuple of str
-        What was found in the file and how it was read.
+        What was left out, and how the file was read.
+
+    Raises
+    ------
+    BadInput
+        An area that is not within the picture or smaller than 2 × 2 pixels, or a pixel that is not
+        from 1e-11 to 1e-3 m and at most ten times as long as wide.
     """
 
     values: Num[np.ndarray, "rows columns"]
     pixel: tuple[float, float] | None
     full_scale: int
     area: Area
+    pixel_source: str = ""
     notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        rows, columns = self.values.shape
+        kind = self.values.dtype.name
+        require(
+            FULL_SCALES.get(kind) == self.full_scale, "picture", kind, "of 8 or 16 bit, or heights"
+        )
+        area = self.area
+        across = 0 <= area.left <= area.right - 2 <= columns - 2
+        down = 0 <= area.top <= area.bottom - 2 <= rows - 2
+        shown = f"{area.left}, {area.top}, {area.right}, {area.bottom}"
+        allowed = f"left, top, right, bottom within 0, 0, {columns}, {rows}"
+        require(across and down, "area", shown, allowed)
+        if self.pixel is not None and not possible_pixel(self.pixel):
+            shown = " × ".join(f"{side:g} m" for side in self.pixel)
+            raise BadInput("pixel", shown, "1e-11 m to 1e-3 m, and not oblong by more than ten")
 
     @property
     def has_heights(self) -> bool:
@@ -61,20 +88,14 @@ class Picture:
 
     def with_pixel(self, size: float) -> Picture:
         """Return the picture with square pixels of `size` in m, whatever the file says."""
-        low, high = PIXEL
-        require(low <= size <= high, "pixel", f"{size:g} m", f"from {low:g} m to {high:g} m")
-        return replace(self, pixel=(float(size), float(size)))
+        return replace(self, pixel=(float(size), float(size)), pixel_source="as given")
 
     def with_area(self, left: int, top: int, right: int, bottom: int) -> Picture:
-        """Return the picture cut to an area, in pixels of the whole picture.
-
-        Raises
-        ------
-        BadInput
-            Where it reaches out of the picture or holds fewer than 2 × 2 pixels.
-        """
-        rows, columns = self.values.shape
-        if not (0 <= left <= right - 2 <= columns - 2 and 0 <= top <= bottom - 2 <= rows - 2):
-            allowed = f"left, top, right, bottom within 0, 0, {columns}, {rows}"
-            raise BadInput("area", f"{left}, {top}, {right}, {bottom}", allowed)
+        """Return the picture cut to an area, in pixels of the whole picture."""
         return replace(self, area=Area(left, top, right, bottom))
+
+
+def possible_pixel(pixel: tuple[float, float]) -> bool:
+    """Whether a pixel may have these sides in m."""
+    low, high = PIXEL
+    return all(low <= side <= high for side in pixel) and max(pixel) <= OBLONG * min(pixel)

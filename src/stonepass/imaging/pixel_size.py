@@ -29,6 +29,11 @@ Scan = tuple[tuple[float, float], int]
 
 def zeiss_scan(tags: Mapping[str, Any], columns: int) -> Scan | None:
     """Read the tags that tifffile gives as ``sem_metadata``."""
+    stored = tags.get("dp_image_store")  # the resolution that the picture was stored with
+    if isinstance(stored, tuple) and len(stored) >= 2:
+        width = re.match(r"\s*(\d{1,6})\s*\*", str(stored[1]))
+        if width and int(width.group(1)) != columns:
+            return None  # it was made larger or smaller since
     names = ["ap_image_pixel_size", *(["ap_pixel_size"] if columns == SCREEN_WIDTH else [])]
     for name in names:
         entry = tags.get(name)
@@ -39,28 +44,30 @@ def zeiss_scan(tags: Mapping[str, Any], columns: int) -> Scan | None:
     return None
 
 
-def fei_scan(tags: Mapping[str, Any], rows: int) -> Scan | None:
-    """Read the tags that tifffile gives as ``fei_metadata``."""
+def fei_scan(tags: Mapping[str, Any], shape: tuple[int, int]) -> Scan | None:
+    """Read the tags that tifffile gives as ``fei_metadata``, of a picture of rows and columns."""
     scan, image = (tags.get(name) for name in ("Scan", "Image"))
-    if not isinstance(scan, Mapping):
+    if not isinstance(scan, Mapping) or not isinstance(image, Mapping):
         return None
     pixel = _pair(scan.get("PixelWidth"), scan.get("PixelHeight"))
-    if pixel is None:
+    across, down = image.get("ResolutionX"), image.get("ResolutionY")
+    rows, columns = shape
+    # Of another size than it was scanned with, its pixels are of another size too.
+    if pixel is None or across != columns or not isinstance(down, int) or not 0 < down <= rows:
         return None
-    scanned = image.get("ResolutionY") if isinstance(image, Mapping) else None
-    bar = rows - scanned if isinstance(scanned, int) and 0 < scanned <= rows else 0
-    return pixel, bar
+    return pixel, rows - down
 
 
 def tescan_scan(text: str) -> Scan | None:
     """Read the lines ``PixelSizeX=…``, ``PixelSizeY=…`` and ``ImageStripSize=…``."""
     found = {
         name: match.group(1)
-        for name in ("PixelSizeX", "PixelSizeY", "ImageStripSize")
-        if (match := re.search(rf"^\s*{name}\s*=\s*([-+.\deE]{{1,40}})\s*$", text, re.MULTILINE))
+        for name in ("PixelSizeX", "PixelSizeY", "ImageStripSize", "ViewFieldsCountX")
+        if (match := re.search(rf"^{name}[ \t]*=[ \t]*([-+.\deE]{{1,40}})[ \t]*\r?$", text, re.M))
     }
     pixel = _pair(found.get("PixelSizeX"), found.get("PixelSizeY"))
-    if pixel is None:
+    side_by_side = found.get("ViewFieldsCountX", "1") != "1"  # pictures of several detectors
+    if pixel is None or side_by_side:
         return None
     strip = found.get("ImageStripSize", "0")
     return pixel, int(strip) if strip.isdecimal() else 0

@@ -19,8 +19,8 @@ import numpy as np
 from jaxtyping import Num
 
 from stonepass.errors import BadInput, StonepassError
-from stonepass.imaging.limits import check_file, check_size, check_unpacked, too_large
-from stonepass.imaging.picture import PIXEL, Area, Picture
+from stonepass.imaging.limits import SIDE, check_file, check_size, check_unpacked, too_large
+from stonepass.imaging.picture import Area, Picture, possible_pixel
 from stonepass.imaging.pixel_size import (
     TESCAN_TAG,
     Scan,
@@ -46,6 +46,8 @@ TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 PNG, JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
 COLOURED = 2  # grey levels of 255 by which channels may differ in a grey picture
 ROWS = 512  # compared at a time
+ORIENTATION = 274  # tag of TIFF and EXIF
+PLAIN = (1, 8, 32946)  # compressions of TIFF that need no codec: none, and deflate
 INSTALL = "pip install 'stonepass[imaging]'"
 
 
@@ -83,7 +85,8 @@ def read_picture(path: Path) -> Picture:
         raise BadInput("image", path.name, "readable in the memory it may take") from problem
     except Exception as problem:  # a decoder may raise anything at all over a damaged file
         said = " ".join(f"{type(problem).__name__}: {problem}".split())[:120]
-        raise BadInput("image", path.name, f"undamaged ({said})") from problem
+        allowed = f"undamaged and of a kind that can be read ({said})"
+        raise BadInput("image", path.name, allowed) from problem
 
 
 def load_libraries(path: Path) -> None:
@@ -97,13 +100,14 @@ def load_libraries(path: Path) -> None:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Decoders warn and log about files that they then refuse, or read all the same."""
+    before = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             yield
     finally:
-        logging.disable(logging.NOTSET)
+        logging.disable(before)
 
 
 def _library(name: str) -> Any:
@@ -120,22 +124,36 @@ def _tiff(path: Path) -> Picture:
         page = file.pages[0]
         shape = (page.imagelength, page.imagewidth, page.samplesperpixel)
         bits = page.bitspersample
-        _check_bits(path, bits, int(page.sampleformat or 1) == 1)
+        if bits not in (8, 16) or int(page.sampleformat or 1) != 1:
+            unsigned = int(page.sampleformat or 1) == 1
+            shown = f"{path.name} of {bits}{'' if unsigned else ' signed or floating'} bits"
+            raise BadInput("image", shown, "of 8 or 16 bits a sample")
         check_size(path.name, shape, bits // 8)
-        scan, kind = _scan_of_tiff(file, page, path)
-        several = len(file.pages) > 1
-        compressed = int(page.compression) not in (1, 8, 32946)  # those that need no codec
-        simple = page.shape in (shape, shape[:2]) and int(page.photometric) in (0, 1, 2, 3)
-        values = page.asarray() if simple and not compressed else None
-        if values is not None and int(page.photometric) == 3:
-            values = np.moveaxis(np.asarray(page.colormap)[:, values], 0, -1) >> 8
-            values = values.astype(np.uint8)
-        if values is not None and int(page.photometric) == 0:  # white is zero
+        tag = page.tags.get(ORIENTATION)
+        _check_upright(path, 1 if tag is None else tag.value)
+        scan, source = _scan_of_tiff(file, page, path)
+        notes = ["the first of several pages is taken"] if len(file.pages) > 1 else []
+        kind = int(page.photometric)
+        plain = int(page.compression) in PLAIN and kind in (0, 1, 2, 3) and page.imagedepth == 1
+        values = page.asarray() if plain else _decoded(path)
+        if plain and values.ndim == 3 and int(page.planarconfig) == 2:
+            values = np.moveaxis(values, 0, -1)
+        if plain and kind == 3:
+            values = (np.moveaxis(np.asarray(page.colormap)[:, values], 0, -1) >> 8).astype(
+                np.uint8
+            )
+        if plain and kind == 0:  # white is zero
             values = np.iinfo(values.dtype).max - values
-    if values is None:
-        values = _decoded(path)
-    notes = ["the first of several pages is taken"] if several else []
-    return _grey(path, values, scan, kind, notes)
+    if kind != 3 and values.dtype.itemsize * 8 != bits:
+        shown = f"{path.name}, whose {bits} bits are read as {values.dtype.itemsize * 8}"
+        raise BadInput("image", shown, "saved without compression, as grey")
+    return _grey(path, values, scan, source, notes)
+
+
+def _check_upright(path: Path, orientation: Any) -> None:
+    if orientation not in (0, 1):
+        shown = f"{path.name}, stored turned or mirrored (orientation {orientation})"
+        raise BadInput("image", shown, "stored upright", "turn it and save it again")
 
 
 def _scan_of_tiff(file: Any, page: Any, path: Path) -> tuple[Scan | None, str]:
@@ -143,7 +161,7 @@ def _scan_of_tiff(file: Any, page: Any, path: Path) -> tuple[Scan | None, str]:
     if file.sem_metadata:
         return zeiss_scan(file.sem_metadata, page.imagewidth), "Zeiss tag"
     if file.fei_metadata:
-        return fei_scan(file.fei_metadata, page.imagelength), "FEI tag"
+        return fei_scan(file.fei_metadata, (page.imagelength, page.imagewidth)), "FEI tag"
     tag = page.tags.get(TESCAN_TAG)
     if tag is not None:
         raw = tag.value
@@ -159,6 +177,11 @@ def _scan_beside(path: Path) -> tuple[Scan | None, str]:
 
 def _plain(path: Path) -> Picture:
     """PNG and JPEG."""
+    with path.open("rb") as file:
+        head = file.read(26)
+    # Pillow cuts 16 bits of colour or with alpha to 8.
+    if head.startswith(PNG) and len(head) == 26 and head[24] == 16 and head[25] != 0:
+        raise BadInput("image", f"{path.name} of 16 bits in colour or with alpha", "grey")
     return _grey(path, _decoded(path), *_scan_beside(path), [])
 
 
@@ -171,28 +194,24 @@ def _decoded(path: Path) -> Num[np.ndarray, "..."]:
     except Image.DecompressionBombError as problem:
         raise too_large(path.name) from problem
     with opened as image:
+        _check_upright(path, image.getexif().get(ORIENTATION, 1))
         if image.mode == "P":
             check_size(path.name, (image.height, image.width, 3), 1)
             return np.asarray(image.convert("RGB"))
-        deep = image.mode.startswith("I;16") or image.mode == "I"
-        if not deep and image.mode not in ("L", "LA", "RGB", "RGBA"):
+        deep = image.mode.startswith("I;16")
+        if not deep and image.mode not in ("I", "L", "LA", "RGB", "RGBA"):
             raise BadInput("image", f"{path.name} of mode {image.mode}", "grey, of 8 or 16 bit")
         samples = len(image.getbands())
-        check_size(path.name, (image.height, image.width, samples), 4 if deep else 1)
+        width = 2 if deep else 4 if image.mode == "I" else 1
+        check_size(path.name, (image.height, image.width, samples), width)
         return np.asarray(image)
-
-
-def _check_bits(path: Path, bits: Any, unsigned: bool) -> None:
-    if bits not in (8, 16) or not unsigned:
-        kind = "" if unsigned else " signed or floating"
-        raise BadInput("image", f"{path.name} of {bits}{kind} bits", "of 8 or 16 bits a sample")
 
 
 def _grey(
     path: Path,
     values: Num[np.ndarray, "..."],
     scan: Scan | None,
-    kind: str,
+    source: str,
     notes: list[str],
 ) -> Picture:
     """One channel of grey; an equal one for each colour counts as one."""
@@ -204,27 +223,26 @@ def _grey(
         values = values.astype(np.uint16)
     full = int(np.iinfo(values.dtype).max)
     if values.ndim == 3:
+        if values.shape[2] in (2, 4):
+            notes.append("the last channel, alpha, is left out")
         colours = values[..., :3] if values.shape[2] >= 3 else values[..., :1]
         for start in range(0, len(colours), ROWS):
             some = colours[start : start + ROWS].astype(np.int32)
             if np.ptp(some, axis=2).max() > COLOURED * (full // 255):
                 raise BadInput("image", f"{path.name} in colour", "grey")
         values = colours[..., 0]
+    values = np.ascontiguousarray(values, values.dtype.newbyteorder("="))
     rows, columns = values.shape
-    bar = 0
-    pixel = None
-    if scan is not None:
-        pixel, bar = scan
-        notes.append(f"pixel size of the {kind}")
-        if not all(PIXEL[0] <= each <= PIXEL[1] for each in pixel):
-            raise BadInput(f"pixel size of the {kind}", f"{pixel[0]:g} m", "1e-11 m to 1e-3 m",
-                           "give --pixel")  # fmt: skip
-        if 0 < bar < rows - 2:
-            notes.append(f"the lowest {bar} rows are the data bar and left out")
-        else:
-            bar = 0
+    pixel, bar = (None, 0) if scan is None else scan
+    if pixel is not None and not possible_pixel(pixel):
+        notes.append(f"pixel size of the {source} is impossible and not taken")
+        pixel, bar = None, 0
+    if 0 < bar < rows - SIDE[0]:
+        notes.append(f"the lowest {bar} rows are the data bar and left out")
+    else:
+        bar = 0
     area = Area(0, 0, columns, rows - bar)
-    return Picture(np.ascontiguousarray(values), pixel, full, area, tuple(notes))
+    return Picture(values, pixel, full, area, "" if pixel is None else source, tuple(notes))
 
 
 def _heights(path: Path) -> Picture:
@@ -247,8 +265,5 @@ def _heights(path: Path) -> Picture:
     metre = float(length(f"1 {unit}", "unit of the height map"))
     values = np.ma.filled(heights.astype(float), np.nan).T * metre
     pixel = (float(sizes[0]) * metre / columns, float(sizes[1]) * metre / rows)
-    if not all(PIXEL[0] <= each <= PIXEL[1] for each in pixel):
-        shown = f"{pixel[0]:g} m × {pixel[1]:g} m"
-        raise BadInput("pixel of the height map", shown, f"{PIXEL[0]:g} m to {PIXEL[1]:g} m")
-    notes = [f"heights of {path.suffix.lower()[1:]}"]
-    return Picture(np.ascontiguousarray(values), pixel, 0, Area(0, 0, columns, rows), tuple(notes))
+    area = Area(0, 0, columns, rows)
+    return Picture(np.ascontiguousarray(values), pixel, 0, area, "height map")

@@ -10,12 +10,13 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from stonepass.errors import BadInput
-from stonepass.imaging.limits import DECODED, MEMORY, PIXELS, SECONDS, check_file
+from stonepass.imaging.limits import DECODED, MEMORY, SECONDS, SIDE, check_file
 from stonepass.imaging.picture import Area, Picture
 
 __all__ = ["read_untrusted"]
@@ -35,7 +36,7 @@ def read_untrusted(path: Path, seconds: float = SECONDS, memory: int = MEMORY) -
     seconds : float
         It may take, once the process and its libraries have started.
     memory : int
-        Bytes of data it may use; not enforced on Windows.
+        Bytes of data it may use; enforced on Linux.
 
     Raises
     ------
@@ -53,25 +54,29 @@ def read_untrusted(path: Path, seconds: float = SECONDS, memory: int = MEMORY) -
     ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
-        with suppress(BrokenPipeError):  # then its end says why
-            process.stdin.write(asked.encode() + b"\n")
-            process.stdin.close()
-        with _clock(process, START):
-            process.stdout.readline()  # its libraries are loaded
-        with _clock(process, seconds) as late:
-            header = process.stdout.readline(LONGEST_HEADER)
-            body = process.stdout.read(LARGEST_BODY)
-            code = process.wait()
+        try:
+            with suppress(BrokenPipeError):  # then its end says why
+                process.stdin.write(asked.encode() + b"\n")
+                process.stdin.close()
+            with _clock(process, START):
+                process.stdout.readline(LONGEST_HEADER)  # its libraries are loaded
+            with _clock(process, seconds) as late:
+                header = process.stdout.readline(LONGEST_HEADER)
+                body = process.stdout.read(LARGEST_BODY)
+                process.stdout.close()
+                code = process.wait()
+        finally:
+            process.kill()
     if late.is_set():
         raise BadInput("image", path.name, f"readable in {seconds:g} s")
-    if code != 0 or not header.endswith(b"\n"):
+    allowed = f"readable within {memory // 1_000_000} MB and {seconds:g} s"
+    if code != 0:
         how = f"signal {-code}" if code < 0 else f"exit {code}"
-        allowed = f"readable within {memory // 1_000_000} MB and {seconds:g} s"
         raise BadInput("image", path.name, f"{allowed} (its reader ended with {how})")
-    told = json.loads(header)
-    if "refused" in told:
-        raise BadInput(*told["refused"])
-    return _picture(told, body)
+    try:
+        return _picture(header, body)
+    except (ValidationError, RecursionError) as problem:
+        raise BadInput("image", path.name, f"{allowed} (its reader made no sense)") from problem
 
 
 @contextmanager
@@ -100,13 +105,33 @@ def _environment() -> dict[str, str]:
     }
 
 
-def _picture(told: dict[str, Any], body: bytes) -> Picture:
-    rows, columns = (int(each) for each in told["shape"])
-    size = TYPES[told["type"]]
-    assert rows * columns <= PIXELS, "as the child was told"
-    assert len(body) == rows * columns * size, "as the child says"
-    values = np.frombuffer(body, np.dtype(told["type"])).reshape(rows, columns)
-    pixel = None if told["pixel"] is None else (float(told["pixel"][0]), float(told["pixel"][1]))
-    area = Area(*(int(each) for each in told["area"]))
-    notes = tuple(str(note) for note in told["notes"])
-    return Picture(values, pixel, int(told["full_scale"]), area, notes)
+def _picture(header: bytes, body: bytes) -> Picture:
+    """What the child tells of, believed only as far as it fits together."""
+    told = _Told.model_validate_json(header)
+    if told.refused is not None:
+        raise BadInput(*told.refused)
+    rows, columns = told.shape
+    if len(body) != rows * columns * TYPES[told.type]:
+        raise BadInput("image", f"{len(body)} bytes", f"{rows} × {columns} numbers")
+    values = np.frombuffer(body, np.dtype(told.type)).reshape(rows, columns)
+    return Picture(
+        values, told.pixel, told.full_scale, Area(*told.area), told.pixel_source, told.notes
+    )
+
+
+Side = Annotated[int, Field(ge=0, le=SIDE[1])]
+Text = Annotated[str, Field(max_length=500)]
+
+
+class _Told(BaseModel):
+    """The line that the child writes before the numbers; `Picture` checks the rest."""
+
+    model_config = ConfigDict(extra="forbid")
+    refused: tuple[Text, Text, Text, Text] | None = None
+    shape: tuple[Side, Side] = (0, 0)
+    type: Literal["uint8", "uint16", "float64"] = "uint8"
+    pixel: tuple[float, float] | None = None
+    full_scale: int = 255
+    area: tuple[Side, Side, Side, Side] = (0, 0, 0, 0)
+    pixel_source: Text = ""
+    notes: Annotated[tuple[Text, ...], Field(max_length=10)] = ()

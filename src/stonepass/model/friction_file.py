@@ -27,14 +27,17 @@ def read_friction(path: Path) -> float:
     if path.stat().st_size > LARGEST_FILE:
         raise BadInput("friction file", str(path), f"smaller than {LARGEST_FILE // 1_000_000} MB")
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
+        document = json.loads(path.read_bytes())
     except (ValueError, RecursionError) as problem:
         raise BadInput("friction file", str(path), f"valid JSON ({problem})") from problem
     if not isinstance(document, dict) or KEY not in document:
         allowed = "as 'stonepass friction IMAGE --json' writes it"
         raise BadInput(f"in {path.name}, '{KEY}'", "missing", allowed)
     value = document[KEY]
-    number = not isinstance(value, bool) and isinstance(value, int | float)
-    if not number or not math.isfinite(value):
+    try:
+        number = math.nan if isinstance(value, bool | str) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number):
         raise BadInput(f"in {path.name}, '{KEY}'", value, "a number")
-    return float(value)
+    return number

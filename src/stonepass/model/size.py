@@ -224,13 +224,15 @@ class _Search:
             first = coarse.bracketed()
         except (_Unanswered, _BeyondRange):
             return None
-        if first is None or first.slope is None:
+        if first is None or first.slope is None or self.lumen is None:
             return None
         last, slope, before = first.size_ratio, first.slope, self.answer(first.size_ratio).pressure
         for _ in range(SECANTS):
             if before is None or not abs(before - self.limit) < slope * FARTHEST:
                 return None
             size_ratio = last - (before - self.limit) / slope
+            if not self.lumen * (1.0 + SMALLEST_OVERSIZE) < size_ratio <= self.case.size_ratio:
+                return None  # bracketed() says on which side of the range it lies
             step = abs(size_ratio - last)
             solved = self.whole_answer if step < CLOSE else self.answer
             pressure = solved(size_ratio).pressure

@@ -47,6 +47,7 @@ def friction_record(found: SurfaceFriction, image: str) -> dict[str, Any]:
             "relief_scaling": {how: _number(mu) for how, mu in spread.relief},
         },
         "image": image,
+        "pixel_source": found.picture.pixel_source,
         "notes": list(found.picture.notes),
         "warnings": list(found.warnings),
         "version": stonepass.__version__,
@@ -81,7 +82,7 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
         ("friction by RMS slope", f"{rough.RdeltaQ:.3f}", "of single profiles, pixel by pixel"),
         ("Ra, Rq", f"{rough.Ra * MICRO:.3g}, {rough.Rq * MICRO:.3g} µm", "of single profiles"),
         ("relief", "its own" if found.relief is None else f"{found.relief * MICRO:.4g} µm", ""),
-        ("pixel", pixel, "; ".join(found.picture.notes)),
+        ("pixel", pixel, "; ".join((found.picture.pixel_source, *found.picture.notes))),
         ("paths", f"{len(found.paths)}", f"of {found.distance[-1] * MICRO:.4g} µm"),
     ]  # fmt: skip
     if spread.paths:

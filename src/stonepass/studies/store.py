@@ -158,6 +158,7 @@ def _solver() -> str:
     root = Path(__file__).parents[1]
     for path in sorted(each for name in SOLVER for each in (root / name).glob("*.py")):
         digest.update(path.name.encode() + path.read_bytes())
+    digest.update((root / "studies" / "plain.py").read_bytes())
     for library in LIBRARIES:
         digest.update(metadata.version(library).encode())
     return digest.hexdigest()

@@ -18,11 +18,23 @@ ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted((ROOT / "examples").iterdir())
 
 
-PICTURES = {
-    "known_slopes.png": ["--pixel", "0.5um", "--relief", "24.8um"],
-    "crystals.tif": ["--crystal", "20um"],
-    "crystals.x3p": [],
-}
+# How the examples that are data are used.
+COMMANDS = {
+    "known_slopes.png": ["friction", "{}", "--pixel", "0.5um", "--relief", "24.8um"],
+    "crystals.tif": ["friction", "{}", "--crystal", "20um"],
+    "crystals.x3p": ["friction", "{}"],
+    "egg.csv": ["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", "{}"],
+    "latex_tensile.csv": [
+        "fit", "tensile", "{}", "--law", "neo-hookean", "--width", "10mm", "--thickness", "1.2mm"
+    ],
+    "ureter_tensile.csv": [
+        "fit", "tensile", "{}", "--law", "fung", "--fix", "G=12kPa", "--fix", "a1122=0.1856"
+    ],
+    "ureter_inflation.csv": [
+        "fit", "inflation", "{}", "--law", "fung", "--inner", "3.5mm", "--outer", "4.55mm",
+        "--fix", "G=12kPa", "--fix", "a2222=0.8892", "--fix", "a1122=0.1856",
+    ],
+}  # fmt: skip
 
 
 def test_there_are_examples():
@@ -31,12 +43,10 @@ def test_there_are_examples():
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_runs(path, capsys, tmp_path, monkeypatch):
-    if path.name in PICTURES:
-        assert run(["friction", str(path), *PICTURES[path.name]]) == 0
+    if path.name in COMMANDS:
+        assert run([part.format(path) for part in COMMANDS[path.name]]) == 0
     elif path.suffix == ".toml" and "[stone]" in path.read_text():
         assert run(["pressure", str(path)]) == 0
-    elif path.suffix == ".csv":
-        assert run(["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", str(path)]) == 0
     elif path.suffix == ".toml" or "def energy" in path.read_text():
         law = str(path) if path.suffix == ".toml" else f"{path}:energy"
         assert run(["material", "check", law]) == 0

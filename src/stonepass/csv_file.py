@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -22,10 +23,12 @@ def read_columns(
     required: Sequence[str],
     optional: Sequence[str] = (),
     bounds: Mapping[str, tuple[float, float]] | None = None,
+    words: Mapping[str, Sequence[str]] | None = None,
 ) -> dict[str, Float[np.ndarray, " rows"]]:
     """Read columns of numbers by the names in the first row, in any order.
 
-    `bounds` has the least and the largest number allowed in a column.
+    `bounds` has the least and the largest number allowed in a column, `words` the words allowed in
+    one that has no numbers; a word is returned as its place among them.
 
     Empty lines and those that begin with ``#`` are left out; rows count as an editor's lines do.
 
@@ -34,8 +37,8 @@ def read_columns(
     BadInput
         Naming the file, and row and column where one is at fault: a missing file, one larger than
         10 MB or not of text, a column that is missing, unknown (with the nearest known one) or
-        there twice, a row of another length, a cell that is no finite number or out of bounds, no
-        rows at all.
+        there twice, a row of another length or the same as an earlier one, a cell that is no finite
+        number or out of bounds or none of the words, no rows at all.
     """
     rows = _rows(path)
     if not rows:
@@ -44,9 +47,9 @@ def read_columns(
     _check_header(path, header, required, optional)
     if len(rows) == 1:
         raise BadInput("file", str(path), "a table with at least one row under its header")
-    values = np.array(
-        [_numbers(path, line, header, cells, bounds or {}) for line, cells in rows[1:]]
-    )
+    _check_repeated(path, rows[1:])
+    cells = _Cells(path, header, bounds or {}, words or {})
+    values = np.array([cells.numbers(line, row) for line, row in rows[1:]])
     return {name: values[:, k] for k, name in enumerate(header)}
 
 
@@ -84,27 +87,44 @@ def _check_header(
             raise BadInput(f"in {path.name}, column '{name}'", "missing", "given")
 
 
-def _numbers(
-    path: Path,
-    line: int,
-    header: list[str],
-    cells: list[str],
-    bounds: Mapping[str, tuple[float, float]],
-) -> list[float]:
-    if len(cells) != len(header):
-        raise BadInput(
-            f"in {path.name}, row {line}", f"{len(cells)} cells", f"{len(header)}, as in the header"
-        )
-    found = []
-    for name, cell in zip(header, cells, strict=True):
+def _check_repeated(path: Path, rows: Sequence[tuple[int, list[str]]]) -> None:
+    first: dict[tuple[str, ...], int] = {}
+    for line, cells in rows:
+        same = first.setdefault(tuple(cell.strip() for cell in cells), line)
+        if same != line:
+            raise BadInput(f"in {path.name}, row {line}", f"the same as row {same}",
+                           "there once", "leave one of them out")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """What the cells of a table may say."""
+
+    path: Path
+    header: list[str]
+    bounds: Mapping[str, tuple[float, float]]
+    words: Mapping[str, Sequence[str]]
+
+    def numbers(self, line: int, cells: list[str]) -> list[float]:
+        """The numbers of one row."""
+        if len(cells) != len(self.header):
+            allowed = f"{len(self.header)}, as in the header"
+            raise BadInput(f"in {self.path.name}, row {line}", f"{len(cells)} cells", allowed)
+        return [self._number(line, *pair) for pair in zip(self.header, cells, strict=True)]
+
+    def _number(self, line: int, name: str, cell: str) -> float:
+        where = f"in {self.path.name}, row {line}, column '{name}'"
+        if name in self.words:
+            known = list(self.words[name])
+            if cell.strip() not in known:
+                refuse_unknown(where, cell.strip(), known)
+            return float(known.index(cell.strip()))
         try:
             value = float(cell)
         except ValueError:
             value = math.nan
-        low, high = bounds.get(name, (-math.inf, math.inf))
+        low, high = self.bounds.get(name, (-math.inf, math.inf))
         if not (math.isfinite(value) and low <= value <= high):
-            within = f" from {low:g} to {high:g}" if name in bounds else ""
-            where = f"in {path.name}, row {line}, column '{name}'"
+            within = f" from {low:g} to {high:g}" if name in self.bounds else ""
             raise BadInput(where, cell, f"a number{within}")
-        found.append(value)
-    return found
+        return value

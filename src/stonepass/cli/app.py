@@ -10,6 +10,7 @@ import stonepass
 from stonepass.cli import (
     closures,
     curve,
+    fit,
     friction,
     headline,
     material,
@@ -55,4 +56,5 @@ app.command("closures")(closures.command)
 app.command("friction")(friction.command)
 app.command("headline")(headline.command)
 app.command("paper")(paper.command)
+app.add_typer(fit.app, name="fit")
 app.add_typer(material.app, name="material")

@@ -12,20 +12,20 @@ from typing import Any
 
 import autograd.numpy as anp
 import numpy as np
+import tomli_w
 from pydantic import BaseModel, ConfigDict, Field
 
 from stonepass.errors import BadInput, refuse_unknown
-from stonepass.materials.fung import Fung
-from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.known_laws import KNOWN_LAWS, name_of_law
 from stonepass.materials.protocol import NAMESPACE, Law, Material
 from stonepass.toml_file import read_toml
-from stonepass.units import pressure
+from stonepass.units import format_pressure, pressure
 
-__all__ = ["UserLaw", "load_material", "looks_like_file"]
+__all__ = ["UserLaw", "load_material", "looks_like_file", "write_law"]
 
 # Stretches (circumferential, axial) on which a user's function is tried before any solve.
 _TRIAL = tuple((t, z) for t in (0.9, 1.0, 1.1, 1.3) for z in (0.95, 1.0, 1.05))
-_LAWS = ("neo-hookean", "fung")
+_CONSTANTS = tuple(dict.fromkeys(n for law in KNOWN_LAWS.values() for n in law.constants))
 
 
 @dataclass(frozen=True)
@@ -66,6 +66,9 @@ class _Constants(BaseModel):
     name: str | None = None
     test: str = "not stated"
     C10: str | None = None
+    C01: str | None = None
+    C20: str | None = None
+    C30: str | None = None
     C: str | None = None
     a1111: float | None = None
     a2222: float | None = None
@@ -182,34 +185,40 @@ def _from_toml(path: Path, text: str) -> Material:
 
 
 def _known_law(constants: _Constants, file: str) -> Law:
-    wanted = {
-        "neo-hookean": ("C10",),
-        "fung": ("C", "a1111", "a2222", "a1122"),
+    if constants.law not in KNOWN_LAWS:
+        refuse_unknown(f"law in {file}", constants.law, list(KNOWN_LAWS))
+    known = KNOWN_LAWS[constants.law]
+    given = {name: getattr(constants, name) for name in _CONSTANTS}
+    values: dict[str, float] = dict(known.optional)
+    for name in known.constants:
+        if given[name] is not None:
+            values[name] = float(
+                given[name] if name in known.numbers else pressure(given[name], name)
+            )
+        elif name not in values:
+            raise BadInput(f"'{name}' in {file}", "missing", f"given for law '{constants.law}'")
+    for name, value in given.items():
+        if value is not None and name not in known.constants:
+            raise BadInput(f"'{name}' in {file}", "given", f"absent for law '{constants.law}'")
+    return known.make(**values)
+
+
+def write_law(material: Material, path: Path) -> None:
+    """Write a material of a known law so that `load_material` gives it back."""
+    law = KNOWN_LAWS[name_of_law(material.law)]
+    shown = {name: getattr(material.law, name) for name in law.constants}
+    document = {
+        "law": name_of_law(material.law),
+        **{
+            name: value if name in law.numbers else format_pressure(value)
+            for name, value in shown.items()
+        },
+        "name": material.name,
+        "source": material.source,
+        "test": material.test,
+        "strain_range": list(material.strain_range),
     }
-    if constants.law not in wanted:
-        refuse_unknown(f"law in {file}", constants.law, list(_LAWS))
-    given = constants.model_dump(include={"C10", "C", "a1111", "a2222", "a1122", "G"})
-    for key in wanted[constants.law]:
-        if given[key] is None:
-            raise BadInput(f"'{key}' in {file}", "missing", f"given for law '{constants.law}'")
-    stray = [
-        key
-        for key, value in given.items()
-        if value is not None and key not in (*wanted[constants.law], "G")
-    ]
-    if constants.law == "neo-hookean" and constants.G is not None:
-        stray.append("G")
-    if stray:
-        raise BadInput(f"'{stray[0]}' in {file}", "given", f"absent for law '{constants.law}'")
-    if constants.law == "neo-hookean":
-        return NeoHookean(C10=float(pressure(constants.C10, "C10")))
-    assert constants.a1111 is not None
-    assert constants.a2222 is not None
-    assert constants.a1122 is not None
-    return Fung(
-        C=float(pressure(constants.C, "C")),
-        a1111=constants.a1111,
-        a2222=constants.a2222,
-        a1122=constants.a1122,
-        G=0.0 if constants.G is None else float(pressure(constants.G, "G")),
-    )
+    try:
+        path.write_text(tomli_w.dumps(document), encoding="utf-8")
+    except OSError as problem:
+        raise BadInput("law file", str(path), f"writable ({problem.strerror})") from problem

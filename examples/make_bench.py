@@ -1,0 +1,56 @@
+"""Make the bench data of the examples: strips and a tube of known laws, measured with noise.
+
+    python examples/make_bench.py [FOLDER]
+
+writes ``latex_tensile.csv`` (C10 0.1465 MPa), ``ureter_tensile.csv`` and ``ureter_inflation.csv``
+(the catalogue's ureter), each with noise of 1 % on every point.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from stonepass.materials.catalogue import material
+from stonepass.materials.uniaxial import AXES, nominal_stress
+from stonepass.model.far_field import inflation
+
+SEED = 2022
+NOISE = 0.01
+
+
+def write(path, header, rows):
+    lines = [
+        header,
+        *(",".join(f"{x:.6g}" if isinstance(x, float) else x for x in r) for r in rows),
+    ]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def main():
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
+    generator = np.random.default_rng(SEED)
+
+    def measured(values):
+        return values * (1.0 + NOISE * generator.normal(size=len(values)))
+
+    latex, ureter = material("latex").law, material("ureter").law
+    stretch = np.linspace(1.04, 1.6, 15)
+    force = measured(nominal_stress(latex, stretch, AXES[1])) * 10e-3 * 1.2e-3  # 10 mm × 1.2 mm
+    write(folder / "latex_tensile.csv", "stretch,force_N", zip(stretch, force, strict=True))
+    rows = []
+    for axis in AXES:
+        stretch = np.linspace(1.03, 1.36, 12)
+        stress = measured(nominal_stress(ureter, stretch, axis)) / 1e3
+        rows += [(x, y, axis) for x, y in zip(stretch, stress, strict=True)]
+    write(folder / "ureter_tensile.csv", "stretch,nominal_stress_kPa,axis", rows)
+    ratio = np.linspace(1.02, 1.3, 15)
+    pressure = measured(inflation(ratio, 1.3, ureter)) / 1e3
+    diameter = 3.5 * ratio
+    write(folder / "ureter_inflation.csv", "pressure_kPa,inner_diameter_mm",
+          zip(pressure, diameter, strict=True))  # fmt: skip
+    print(f"written into {folder}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,143 @@
+"""``stonepass fit``: constants of a law from a bench's data."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stonepass.cli.options import Json
+
+if TYPE_CHECKING:
+    from stonepass.laboratory.fit import Data
+
+__all__ = ["app"]
+
+app = typer.Typer(help="Fit the constants of a law to bench data.", rich_markup_mode=None)
+
+File = Annotated[Path, typer.Argument(metavar="DATA.csv")]
+Law = Annotated[str, typer.Option("--law", help="neo-hookean, mooney-rivlin, yeoh or fung.")]
+Fix = Annotated[
+    list[str] | None,
+    typer.Option("--fix", metavar="NAME=VALUE", help="A constant that is known, e.g. G=12kPa."),
+]
+Out = Annotated[
+    Path | None, typer.Option("--out", metavar="LAW.toml", help="Write the law, for --material.")
+]
+Drawn = Annotated[
+    Path | None,
+    typer.Option("--figure", metavar="OUT.svg", help="Draw data, law and residuals."),
+]
+
+
+@app.command("tensile")
+def tensile(
+    data: File,
+    law: Law,
+    width: Annotated[
+        str | None, typer.Option("--width", metavar="LENGTH", help="Of the strip, for force_N.")
+    ] = None,
+    thickness: Annotated[
+        str | None, typer.Option("--thickness", metavar="LENGTH", help="Of the strip.")
+    ] = None,
+    fix: Fix = None,
+    out: Out = None,
+    figure: Drawn = None,
+    json: Json = False,
+) -> int:
+    """Fit to strips in tension: stretch, nominal_stress_kPa or force_N[, axis]."""
+    from stonepass.laboratory.bench import read_tension
+    from stonepass.units import length
+
+    sides = [
+        None if side is None else length(side, name)
+        for name, side in (("--width", width), ("--thickness", thickness))
+    ]
+    return _fit(read_tension(data, *sides), law, fix, out, figure, json, data.stem)
+
+
+@app.command("inflation")
+def inflation(
+    data: File,
+    law: Law,
+    inner: Annotated[
+        str, typer.Option("--inner", metavar="LENGTH", help="Inner diameter of the tube at rest.")
+    ],
+    outer: Annotated[
+        str, typer.Option("--outer", metavar="LENGTH", help="Outer diameter of the tube at rest.")
+    ],
+    fix: Fix = None,
+    out: Out = None,
+    figure: Drawn = None,
+    json: Json = False,
+) -> int:
+    """Fit to a tube under pressure: pressure_kPa, inner_ or outer_diameter_mm[, axial_stretch]."""
+    from stonepass.laboratory.bench import read_inflation
+    from stonepass.model.case import Ureter
+
+    tube = Ureter(inner, outer)
+    return _fit(read_inflation(data, tube), law, fix, out, figure, json, data.stem)
+
+
+def _fit(
+    data: Data,
+    law: str,
+    fix: list[str] | None,
+    out: Path | None,
+    figure: Path | None,
+    json: bool,
+    name: str,
+) -> int:
+    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
+    from stonepass.laboratory.fit import fit_law
+    from stonepass.report.fit_report import fit_record, fit_table
+    from stonepass.report.record import DISCLAIMER
+
+    writable(out, (".toml",))
+    writable(figure, FIGURES)
+    with working("fitting"):
+        found = fit_law(data, law, _given(law, fix or []), name)
+    if figure is not None:
+        from stonepass.report.fit_figure import fit_figure
+        from stonepass.report.style import save
+
+        save(fit_figure(found), figure)
+    if json:
+        print_json(fit_record(found))
+    else:
+        show(fit_table(found), DISCLAIMER)
+        warn(found.warnings)
+    if found.unstable:
+        if out is not None:
+            warn([f"{out} is not written, since the law is not stable"])
+        return 1
+    if out is not None:
+        from stonepass.materials.user_law import write_law
+
+        write_law(found.material, out)
+    return 0
+
+
+def _given(law: str, fix: list[str]) -> dict[str, float]:
+    from stonepass.errors import BadInput, refuse_unknown
+    from stonepass.materials.known_laws import KNOWN_LAWS
+    from stonepass.units import pressure
+
+    if law not in KNOWN_LAWS:
+        refuse_unknown("--law", law, list(KNOWN_LAWS))
+    found: dict[str, float] = {}
+    for text in fix:
+        name, separator, value = (part.strip() for part in text.partition("="))
+        if not separator:
+            raise BadInput("--fix", text, "written NAME=VALUE")
+        if name not in KNOWN_LAWS[law].constants:
+            refuse_unknown(f"--fix, constant of law '{law}'", name, list(KNOWN_LAWS[law].constants))
+        if name in KNOWN_LAWS[law].moduli:
+            found[name] = float(pressure(value, f"--fix {name}"))
+            continue
+        try:
+            found[name] = float(value)
+        except ValueError as problem:
+            raise BadInput(f"--fix {name}", value, "a number") from problem
+    return found

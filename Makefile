@@ -12,7 +12,7 @@ run: $(VENV)/.run ## compute the paper's headline: table here, figure in headlin
 	$(BIN)/stonepass headline
 
 test: $(VENV)/.dev ## run the tests
-	$(BIN)/pytest -n auto
+	$(BIN)/pytest -n auto --dist worksteal
 
 lint: $(VENV)/.dev ## format, lint, types, layers
 	$(BIN)/ruff format --check .

@@ -16,7 +16,7 @@ from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_ca
 from stonepass.paper.jobs import Job, PressureJob, Results
 from stonepass.paper.section import Asked, Claim, Picture, Section, Table
 from stonepass.report.revolve import revolved_figure, write_vtu
-from stonepass.report.section import draw_section
+from stonepass.report.section import draw_section, element_rim
 from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy
 
@@ -265,9 +265,7 @@ def _lines(
     colour: str,
 ) -> None:
     """Outlines of the elements."""
-    count = round(np.sqrt(wall.r.shape[1]))
-    rim = np.arange(count**2).reshape(count, count)
-    path = np.r_[rim[0], rim[1:, -1], rim[-1, -2::-1], rim[-2::-1, 0]]
+    path = element_rim(wall.r.shape[1])
     gap = np.full((len(r), 1), np.nan)
     x, y = (np.concatenate([values[:, path], gap], axis=1).ravel() for values in (z, r))
     axes.plot(side * x, half * y, color=colour, linewidth=0.5)

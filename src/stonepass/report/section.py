@@ -14,7 +14,7 @@ from stonepass.fe.readout import Field
 from stonepass.model.case import Case
 from stonepass.report.stone import draw_stone
 
-__all__ = ["draw_section"]
+__all__ = ["draw_section", "element_rim"]
 
 
 def draw_section(
@@ -30,7 +30,7 @@ def draw_section(
     images = [(side, half) for side in sides for half in (1.0, -1.0)]  # above and below the axis
     x = np.concatenate([side * z for side, _ in images])
     y = np.concatenate([half * r for _, half in images])
-    triangles, rim = _pieces(x.shape[1])
+    triangles, rim = _triangles(x.shape[1]), element_rim(x.shape[1])
     corners = (np.arange(len(x))[:, None, None] * x.shape[1] + triangles).reshape(-1, 3)
     # One mesh of all elements, since each artist costs; neighbours share no corner, so that a
     # jump of the stress between them stays one.
@@ -56,11 +56,19 @@ def draw_section(
     bar.outline.set_visible(False)
 
 
-def _pieces(points: int) -> tuple[Int[np.ndarray, "triangles 3"], Int[np.ndarray, " rim"]]:
-    """Triangles of the square grid of an element's points, and its rim in order."""
-    grid = np.arange(points).reshape(round(np.sqrt(points)), -1)
+def element_rim(points: int) -> Int[np.ndarray, " rim"]:
+    """Which of an element's points lie on its rim, in order and closed."""
+    grid = _grid(points)
+    return np.r_[grid[0], grid[1:, -1], grid[-1, -2::-1], grid[-2::-1, 0]]
+
+
+def _triangles(points: int) -> Int[np.ndarray, "triangles 3"]:
+    """Triangles between an element's points."""
+    grid = _grid(points)
     a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-    triangles = np.concatenate(
-        [np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))]
-    )
-    return triangles, np.r_[grid[0], grid[1:, -1], grid[-1, -2::-1], grid[-2::-1, 0]]
+    return np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
+
+
+def _grid(points: int) -> Int[np.ndarray, "n n"]:
+    """Numbers of an element's points, in their square."""
+    return np.arange(points).reshape(round(np.sqrt(points)), -1)

@@ -13,9 +13,9 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load
 from stonepass.model.points import Point
 from stonepass.paper.inputs import LATEX_WALLS, WATER, latex_case
-from stonepass.paper.jobs import Job, PressureJob, Results
 from stonepass.paper.section import Asked, Claim, Picture, Section, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.studies.jobs import Job, PressureJob, Results
 
 __all__ = ["Fig6"]
 

@@ -15,9 +15,9 @@ from stonepass.errors import Outcome
 from stonepass.model.case import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, LIMIT, PASSING, PUBLISHED, ureter_case
-from stonepass.paper.jobs import Job, PressureJob, Results, SizeJob
 from stonepass.paper.section import Asked, Claim, Picture, Section, Table, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.studies.jobs import Job, PressureJob, Results, SizeJob
 from stonepass.units import Pressure
 
 __all__ = ["Fig8"]

@@ -14,9 +14,9 @@ from stonepass.model.case import Case, Method, Stone
 from stonepass.model.critical import solve
 from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.paper.inputs import BEAM, BEAM_SIZE, FRICTION, LIMIT, ureter_case
-from stonepass.paper.jobs import Job, PressureJob, Results
 from stonepass.paper.section import Asked, Claim, Picture, Section, Table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.studies.jobs import Job, PressureJob, Results
 from stonepass.units import Pressure
 
 __all__ = ["Fig9"]

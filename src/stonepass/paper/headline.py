@@ -11,7 +11,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, LIMIT, PUBLISHED, ureter_case
-from stonepass.paper.jobs import Job, PressureJob, SizeJob, run_jobs
+from stonepass.studies.jobs import Job, PressureJob, SizeJob, run_jobs
 
 __all__ = ["Wall", "headline"]
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from stonepass.imaging.friction import friction_of_slopes
 from stonepass.paper.inputs import SLOPES
-from stonepass.paper.jobs import Job, Results
 from stonepass.paper.section import Asked, Claim, Section
+from stonepass.studies.jobs import Job, Results
 
 __all__ = ["Eq18"]
 

@@ -12,7 +12,6 @@ from stonepass.folder import require_writable
 from stonepass.paper.fig6 import Fig6
 from stonepass.paper.fig8 import Fig8
 from stonepass.paper.fig9 import Fig9
-from stonepass.paper.jobs import Job, Results, run_jobs
 from stonepass.paper.micrograph import Eq18
 from stonepass.paper.page import write_page
 from stonepass.paper.seated_figures import Fig4, Fig5, Fig7
@@ -20,6 +19,7 @@ from stonepass.paper.section import Asked, Section
 from stonepass.paper.sensitivity import Sensitivity
 from stonepass.report.table import grouped_warnings
 from stonepass.studies.executor import executor
+from stonepass.studies.jobs import Job, Results, run_jobs
 
 __all__ = ["PARTS", "Part", "chosen", "reproduce"]
 

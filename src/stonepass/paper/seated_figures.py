@@ -13,12 +13,12 @@ from stonepass.fe.readout import Field
 from stonepass.model.case import Case
 from stonepass.model.seated import SeatedState
 from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_case
-from stonepass.paper.jobs import Job, PressureJob, Results
 from stonepass.paper.section import Asked, Claim, Picture, Section, Table
 from stonepass.report.revolve import revolved_figure, write_vtu
 from stonepass.report.section import draw_section, element_rim
 from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.studies.jobs import Job, PressureJob, Results
 
 __all__ = ["Fig4", "Fig5", "Fig7"]
 

@@ -12,9 +12,9 @@ from stonepass.materials.protocol import Material
 from stonepass.materials.stability import check
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.paper.inputs import FRICTION, PUBLISHED
-from stonepass.paper.jobs import Job, Results, SizeJob
 from stonepass.paper.section import Asked, Picture, Section, Table
 from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.studies.jobs import Job, Results, SizeJob
 from stonepass.units import Pressure
 
 __all__ = ["Sensitivity"]

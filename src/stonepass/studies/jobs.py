@@ -1,4 +1,4 @@
-"""What the figures need solved: each job once, in a pool, with a store behind it."""
+"""What figures and series need solved: each job once, in a pool, with a store behind it."""
 
 from __future__ import annotations
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import stonepass as sp
+from stonepass import extras
 from stonepass.cli import run
 from stonepass.errors import BadInput
-from stonepass.laboratory import fit as fitting
 from stonepass.laboratory.bench import Inflation, Tension, read_inflation, read_tension
 from stonepass.laboratory.fit import fit_law
 from stonepass.materials.catalogue import material
@@ -167,7 +167,7 @@ def test_too_few_points_and_no_library(monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    monkeypatch.setattr(fitting, "import_module", missing)
+    monkeypatch.setattr(extras, "import_module", missing)
     with pytest.raises(
         BadInput, match=r"library is lmfit, .*pip install 'stonepass\[laboratory\]'"
     ):

@@ -28,9 +28,10 @@ from picture_files import (
 from PIL import Image
 from SurfaceTopography import Topography
 
+from stonepass import extras
 from stonepass.cli import run
 from stonepass.errors import BadInput
-from stonepass.imaging import child, readers
+from stonepass.imaging import child
 from stonepass.imaging.baseline import fit_baseline
 from stonepass.imaging.friction import friction_of_slopes, surface_friction
 from stonepass.imaging.paths import StraightPath, evenly_spaced, profiles_along, read_path
@@ -405,7 +406,7 @@ def test_without_the_extra_it_says_what_to_install(tmp_path, monkeypatch):
         raise ImportError(name)
 
     save_tiff(tmp_path / "a.tif", some_grey())
-    monkeypatch.setattr(readers, "import_module", missing)
+    monkeypatch.setattr(extras, "import_module", missing)
     with pytest.raises(BadInput, match=r"library is tifffile, but must be installed.*pip install"):
         read_picture(tmp_path / "a.tif")
     Image.fromarray(some_grey()).save(tmp_path / "a.png")

@@ -19,6 +19,7 @@ import numpy as np
 from jaxtyping import Num
 
 from stonepass.errors import BadInput, StonepassError
+from stonepass.extras import library
 from stonepass.imaging.limits import SIDE, check_file, check_size, check_unpacked, too_large
 from stonepass.imaging.picture import Area, Picture, possible_pixel
 from stonepass.imaging.pixel_size import (
@@ -48,7 +49,7 @@ COLOURED = 2  # grey levels of 255 by which channels may differ in a grey pictur
 ROWS = 512  # compared at a time
 ORIENTATION = 274  # tag of TIFF and EXIF
 PLAIN = (1, 8, 32946)  # compressions of TIFF that need no codec: none, and deflate
-INSTALL = "pip install 'stonepass[imaging]'"
+READ, EXTRA = "read this file", "imaging"
 
 
 def read_picture(path: Path) -> Picture:
@@ -110,16 +111,8 @@ def _quiet() -> Iterator[None]:
         logging.disable(before)
 
 
-def _library(name: str) -> Any:
-    try:
-        return import_module(name)
-    except ImportError as problem:
-        package = name.split(".")[0]
-        raise BadInput("library", package, "installed to read this file", INSTALL) from problem
-
-
 def _tiff(path: Path) -> Picture:
-    tifffile = _library("tifffile")
+    tifffile = library("tifffile", READ, EXTRA)
     with tifffile.TiffFile(path) as file:
         page = file.pages[0]
         shape = (page.imagelength, page.imagewidth, page.samplesperpixel)
@@ -249,7 +242,7 @@ def _heights(path: Path) -> Picture:
     if zipfile.is_zipfile(path):
         with zipfile.ZipFile(path) as packed:
             check_unpacked(path.name, sum(part.file_size for part in packed.infolist()))
-    reading = _library("SurfaceTopography.IO")
+    reading = library("SurfaceTopography.IO", READ, EXTRA)
     reader = reading.open_topography(str(path), format=HEIGHT_MAPS[path.suffix.lower()])
     with reader:
         channel = reader.default_channel

@@ -7,22 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any, Protocol
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from jaxtyping import Float
 
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
+from stonepass.laboratory.least_squares import correlations, intervals, lmfit
 from stonepass.materials.known_laws import KNOWN_LAWS, KnownLaw
 from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import check
 
 __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
-LEVEL = 0.95
-INSTALL = "pip install 'stonepass[laboratory]'"
 STARTS = (0.1, 1.0, 5.0)  # of the numbers of a law, each tried
 INDISTINCT = 1e-6  # of singular values of the sensitivities, relative
 SHARE = 0.3  # of a constant in what the data cannot tell, for it to be named
@@ -134,7 +131,7 @@ def fit_law(
         An unknown law or constant, fewer points than constants, or constants that the data cannot
         tell from one another, naming them.
     """
-    lmfit = _lmfit()
+    fitting = lmfit()
     if law not in KNOWN_LAWS:
         refuse_unknown("law", law, list(KNOWN_LAWS))
     known, fixed = KNOWN_LAWS[law], dict(given or {})
@@ -159,8 +156,8 @@ def fit_law(
 
     best = None
     for start in STARTS:
-        parameters = _parameters(lmfit, known, fixed, _modulus(data), start)
-        minimizer = lmfit.Minimizer(residuals, parameters)
+        parameters = _parameters(fitting, known, fixed, _modulus(data), start)
+        minimizer = fitting.Minimizer(residuals, parameters)
         with np.errstate(all="ignore"):
             found = minimizer.minimize(method="least_squares")
         if best is None or found.chisqr < best[1].chisqr:
@@ -169,7 +166,7 @@ def fit_law(
     minimizer, result = best
     values = {each: float(value) for each, value in result.params.valuesdict().items()}
     _check_told(residuals, result, free)
-    intervals, warnings = _intervals(lmfit, minimizer, result, free)
+    bounds, warnings = intervals(minimizer, result, free)
     fitted = known.make(**values)
     predicted = data.predicted(fitted)
     off = predicted - data.observed
@@ -190,7 +187,7 @@ def fit_law(
     return FittedLaw(
         material=material,
         constants=tuple(
-            Constant(each, values[each], each in known.moduli, *intervals.get(each, (None, None)),
+            Constant(each, values[each], each in known.moduli, *bounds.get(each, (None, None)),
                      given=each in fixed)
             for each in known.constants
         ),
@@ -198,17 +195,10 @@ def fit_law(
         predicted=predicted,
         rmse=float(np.sqrt(np.mean(off**2))),
         r_squared=1.0 - float(np.sum(off**2) / np.sum((data.observed - data.observed.mean()) ** 2)),
-        correlations=_correlations(result, free),
+        correlations=correlations(result, free),
         unstable=unstable,
         warnings=tuple(warnings),
     )  # fmt: skip
-
-
-def _lmfit() -> Any:
-    try:
-        return import_module("lmfit")
-    except ImportError as problem:
-        raise BadInput("library", "lmfit", "installed to fit constants", INSTALL) from problem
 
 
 def _modulus(data: Data) -> float:
@@ -219,9 +209,9 @@ def _modulus(data: Data) -> float:
 
 
 def _parameters(
-    lmfit: Any, known: KnownLaw, fixed: Mapping[str, float], modulus: float, start: float
+    fitting: Any, known: KnownLaw, fixed: Mapping[str, float], modulus: float, start: float
 ) -> Any:
-    parameters = lmfit.Parameters()
+    parameters = fitting.Parameters()
     for name in known.constants:
         if name in fixed:
             parameters.add(name, fixed[name], vary=False)
@@ -257,56 +247,3 @@ def _check_told(residuals: Any, result: Any, free: list[str]) -> None:
         "such that every constant changes what is predicted",
         f"give one of them, e.g. --fix {named[-1]}=VALUE, or another test",
     )
-
-
-def _intervals(
-    lmfit: Any, minimizer: Any, result: Any, free: list[str]
-) -> tuple[dict[str, tuple[float | None, float | None]], list[str]]:
-    """95 % by profile likelihood; by the curvature at the best fit where a profile fails."""
-    if len(free) == 1:
-        return _by_curvature(result, free)
-    try:
-        with np.errstate(all="ignore"), catch_warnings():
-            simplefilter("error", UserWarning)  # a profile that was not followed to its end
-            profiles = lmfit.conf_interval(
-                minimizer, result, p_names=free, sigmas=[LEVEL], maxiter=40, min_rel_change=1e-3
-            )
-        bounds = {
-            name: tuple(
-                float(value) if np.isfinite(value) else None for _, value in (rows[0], rows[-1])
-            )
-            for name, rows in profiles.items()
-        }
-        open_ended = [name for name, pair in bounds.items() if None in pair]
-        told = [f"the data bound {name} on one side only" for name in open_ended]
-        return bounds, told  # type: ignore[return-value]
-    except (lmfit.minimizer.MinimizerException, ValueError, RuntimeError, UserWarning):
-        found, told = _by_curvature(result, free)
-        how = "intervals are by the curvature at the best fit: its profile could not be found"
-        return found, [*told, how]
-
-
-def _by_curvature(
-    result: Any, free: list[str]
-) -> tuple[dict[str, tuple[float | None, float | None]], list[str]]:
-    """95 % of the t distribution about the best fit."""
-    from scipy.stats import t
-
-    if any(result.params[name].stderr is None for name in free):
-        return {}, ["no interval could be found: the fit is flat about its best constants"]
-    factor = float(t.ppf(0.5 + LEVEL / 2.0, result.nfree))
-    found: dict[str, tuple[float | None, float | None]] = {}
-    for name in free:
-        centre, half = result.params[name].value, factor * result.params[name].stderr
-        found[name] = (float(centre - half), float(centre + half))
-    return found, []
-
-
-def _correlations(result: Any, free: list[str]) -> dict[tuple[str, str], float]:
-    found = {}
-    for k, one in enumerate(free):
-        for other in free[k + 1 :]:
-            known = result.params[one].correl or {}
-            if other in known:
-                found[one, other] = float(known[other])
-    return found

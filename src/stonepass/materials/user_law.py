@@ -205,10 +205,13 @@ def _known_law(constants: _Constants, file: str) -> Law:
 
 def write_law(material: Material, path: Path) -> None:
     """Write a material of a known law so that `load_material` gives it back."""
-    law = KNOWN_LAWS[name_of_law(material.law)]
+    name_of = name_of_law(material.law)
+    if not name_of:
+        raise BadInput("law", material.name, "a known one to be written", ", ".join(KNOWN_LAWS))
+    law = KNOWN_LAWS[name_of]
     shown = {name: getattr(material.law, name) for name in law.constants}
     document = {
-        "law": name_of_law(material.law),
+        "law": name_of,
         **{
             name: value if name in law.numbers else format_pressure(value)
             for name, value in shown.items()

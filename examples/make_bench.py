@@ -3,7 +3,8 @@
     python examples/make_bench.py [FOLDER]
 
 writes ``latex_tensile.csv`` (C10 0.1465 MPa), ``ureter_tensile.csv`` and ``ureter_inflation.csv``
-(the catalogue's ureter), each with noise of 1 % on every point.
+(the catalogue's ureter), each with noise of 1 % on every point, and ``latex_series.csv``: critical
+pressures of spheres in latex tubes at friction 0.475, in air and in water, with noise of 3 %.
 """
 
 import sys
@@ -11,12 +12,19 @@ from pathlib import Path
 
 import numpy as np
 
+import stonepass as sp
 from stonepass.materials.catalogue import material
 from stonepass.materials.uniaxial import AXES, nominal_stress
 from stonepass.model.far_field import inflation
 
 SEED = 2022
-NOISE = 0.01
+NOISE, SERIES_NOISE = 0.01, 0.03
+FAST = sp.Method(accuracy="fast")
+# wall ratio, size ratio, confining pressure in kPa
+SPHERES = (
+    (1.5, 1.1, 0.0), (1.5, 1.2, 0.0), (1.5, 1.3, 0.0), (2.0, 1.1, 0.0), (2.0, 1.2, 0.0),
+    (2.0, 1.3, 0.0), (1.5, 1.1, 5.4), (1.5, 1.2, 5.4), (2.0, 1.2, 5.4), (2.0, 1.3, 5.4),
+)  # fmt: skip
 
 
 def write(path, header, rows):
@@ -49,6 +57,14 @@ def main():
     diameter = 3.5 * ratio
     write(folder / "ureter_inflation.csv", "pressure_kPa,inner_diameter_mm",
           zip(pressure, diameter, strict=True))  # fmt: skip
+    series = []
+    for eta, xi, confining in SPHERES:
+        stone, tube = sp.Stone(size_ratio=xi, friction=0.475), sp.Ureter(None, None, "latex", eta)
+        bath = sp.Load(f"{confining} kPa", "hydrostatic")
+        exact = sp.critical_pressure(stone, tube, bath, FAST).pressure / 1e3
+        found = exact * (1.0 + SERIES_NOISE * generator.normal())
+        series.append((xi, eta, confining, found, SERIES_NOISE * exact))
+    write(folder / "latex_series.csv", "xi,eta,confining_kPa,pressure_kPa,sd_kPa", series)
     print(f"written into {folder}")
 
 

@@ -27,6 +27,9 @@ COMMANDS = {
     "latex_tensile.csv": [
         "fit", "tensile", "{}", "--law", "neo-hookean", "--width", "10mm", "--thickness", "1.2mm"
     ],
+    "latex_series.csv": [
+        "invitro", "{}", "--material", "latex", "--seating", "frictionless", "--workers", "1"
+    ],
     "ureter_tensile.csv": [
         "fit", "tensile", "{}", "--law", "fung", "--fix", "G=12kPa", "--fix", "a1122=0.1856"
     ],
@@ -43,6 +46,7 @@ def test_there_are_examples():
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
 def test_example_runs(path, capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("STONEPASS_CACHE", str(tmp_path))
     if path.name in COMMANDS:
         assert run([part.format(path) for part in COMMANDS[path.name]]) == 0
     elif path.suffix == ".toml" and "[stone]" in path.read_text():

@@ -13,6 +13,7 @@ from stonepass.cli import (
     fit,
     friction,
     headline,
+    invitro,
     material,
     paper,
     pressure,
@@ -54,6 +55,7 @@ app.command("curve")(curve.command)
 app.command("push")(push.command)
 app.command("closures")(closures.command)
 app.command("friction")(friction.command)
+app.command("invitro")(invitro.command)
 app.command("headline")(headline.command)
 app.command("paper")(paper.command)
 app.add_typer(fit.app, name="fit")

@@ -19,8 +19,30 @@ if TYPE_CHECKING:
     from stonepass.model.shape import Shape
     from stonepass.units import Length
 
-__all__ = ["BEAM_OPTIONS", "CLOSURE_OPTIONS", "Json", "Settings", "takes_settings"]
+__all__ = [
+    "BEAM_OPTIONS",
+    "CLOSURE_OPTIONS",
+    "Cache",
+    "Json",
+    "NoCache",
+    "Settings",
+    "Workers",
+    "cache_folder",
+    "takes_settings",
+]
 
+Cache = Annotated[
+    Path | None,
+    typer.Option(
+        "--cache", metavar="DIR", help="Remembered results.  [default: the user's cache folder]"
+    ),
+]
+NoCache = Annotated[
+    bool, typer.Option("--no-cache", help="Solve everything, and remember nothing.")
+]
+Workers = Annotated[
+    int | None, typer.Option("--workers", min=1, help="Processes.  [default: all cores]")
+]
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout, and nothing else.")]
 
 CLOSURE_OPTIONS = ("as_printed", "closure_start", "closure", "series_order", "pairs")
@@ -37,6 +59,15 @@ _METHOD_OPTIONS = (
     "accuracy",
     *BEAM_OPTIONS,
 )
+
+
+def cache_folder(cache: Path | None, no_cache: bool) -> Path | None:
+    """The folder of remembered results that the options name; None for none."""
+    from stonepass.studies.store import default_folder
+
+    if no_cache and cache is not None:
+        raise BadInput("combination of --cache and --no-cache", "ambiguous", "one of the two")
+    return None if no_cache else (cache or default_folder())
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from stonepass.cli.options import Cache, NoCache, Workers, cache_folder
+
 __all__ = ["command"]
 
 
@@ -33,18 +35,9 @@ def command(
             help="Measured pressures for Fig. 6: xi, eta, confining_kPa, pressure_kPa[, sd_kPa].",
         ),
     ] = None,
-    cache: Annotated[
-        Path | None,
-        typer.Option(
-            "--cache", metavar="DIR", help="Remembered results.  [default: the user's cache folder]"
-        ),
-    ] = None,
-    no_cache: Annotated[
-        bool, typer.Option("--no-cache", help="Solve everything, and remember nothing.")
-    ] = False,
-    workers: Annotated[
-        int | None, typer.Option("--workers", min=1, help="Processes.  [default: all cores]")
-    ] = None,
+    cache: Cache = None,
+    no_cache: NoCache = False,
+    workers: Workers = None,
 ) -> int:
     """Reproduce the paper: figures (SVG, PNG), data (CSV), and a page of claims beside ours.
 
@@ -52,20 +45,17 @@ def command(
     claim that can be judged is reproduced, else 1.
     """
     from stonepass.cli.terminal import counting, show, warn
-    from stonepass.errors import BadInput
     from stonepass.model.points import read_points
     from stonepass.paper.claims_table import claims_table
     from stonepass.paper.run import chosen, reproduce
     from stonepass.paper.section import Asked
     from stonepass.report.record import DISCLAIMER
-    from stonepass.studies.store import Store, default_folder
+    from stonepass.studies.store import Store
     from stonepass.units import pressure
 
-    if no_cache and cache is not None:
-        raise BadInput("combination of --cache and --no-cache", "ambiguous", "one of the two")
     names = chosen(parts or [])
     asked = Asked(pressure(limit, "--limit"), () if points is None else read_points(points))
-    folder = None if no_cache else (cache or default_folder())
+    folder = cache_folder(cache, no_cache)
     before = 0 if folder is None else Store(folder).set_aside()
     count = workers or os.cpu_count() or 1
     with counting("solving") as progress:

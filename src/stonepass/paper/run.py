@@ -82,8 +82,6 @@ def reproduce(
     """
     wanted = chosen(names)
     require_writable(folder, "output folder")
-    if store is not None:
-        require_writable(store, "cache folder", "name another one, or none")
     jobs = {name: PARTS[name].jobs(asked) for name in wanted}
     found = run_jobs([job for each in jobs.values() for job in each], store, workers, progress)
     with executor(workers) as pool:

@@ -7,12 +7,13 @@ from concurrent.futures import as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from stonepass.folder import require_writable
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
 from stonepass.model.size import SizeAnswer, critical_size
-from stonepass.studies.executor import executor
+from stonepass.studies.executor import can_travel, executor
 from stonepass.studies.store import Store
 from stonepass.units import Pressure
 
@@ -107,11 +108,16 @@ def run_jobs(
     workers: int = 1,
     progress: Callable[[int, int], None] | None = None,
 ) -> Results:
-    """Run every job once; `progress` is told (done, all) after each."""
+    """Run every job once; `progress` is told (done, all) after each.
+
+    Jobs that cannot be sent to another process (a user's own function) run in this one.
+    """
+    if folder is not None:
+        require_writable(folder, "cache folder", "name another one, or none")
     once = _once(jobs)
     # Long ones first: sizes take several solves.
     queue = sorted(once, key=lambda job: isinstance(job, PressureJob))
-    with executor(workers) as pool:
+    with executor(workers if can_travel(queue) else 1) as pool:
         futures = {job: pool.submit(job.run, folder) for job in queue}
         for done, _ in enumerate(as_completed(futures.values()), start=1):
             if progress is not None:

@@ -1,0 +1,90 @@
+"""``stonepass invitro``: measured critical pressures against the model, and their friction."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
+
+__all__ = ["command"]
+
+
+def command(
+    data: Annotated[
+        Path,
+        typer.Argument(metavar="DATA.csv", help="xi, eta, confining_kPa, pressure_kPa[, sd_kPa]."),
+    ],
+    material: Annotated[
+        str, typer.Option("--material", metavar="NAME|FILE", help="Wall of the tubes.")
+    ],
+    friction: Annotated[
+        float | None,
+        typer.Option("--friction", help="Compare at this friction.  [default: the one that fits]"),
+    ] = None,
+    confinement: Annotated[
+        str, typer.Option("--confinement", help="hydrostatic (a water bath) or dead.")
+    ] = "hydrostatic",
+    model: Annotated[str, typer.Option("--model", help="paper or direct.")] = "paper",
+    seating: Annotated[
+        str, typer.Option("--seating", help="pressed, frictionless or growing.")
+    ] = "pressed",
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="OUT.csv", help="Write points and answers as CSV."),
+    ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", metavar="OUT.svg", help="Draw curves and points (svg, png, pdf)."),
+    ] = None,
+    json: Json = False,
+    cache: Cache = None,
+    no_cache: NoCache = False,
+    workers: Workers = None,
+) -> int:
+    """Compare a series of measured critical pressures with the model, and fit its friction.
+
+    Exit code 0 where every point has an answer.
+    """
+    from stonepass.cli.terminal import FIGURES, counting, print_json, show, warn, writable
+
+    writable(out, (".csv",))
+    writable(figure, FIGURES)
+    from stonepass.laboratory.comparison import Setting, Solver, size_curves
+    from stonepass.laboratory.invitro import fit_friction
+    from stonepass.model.case import Load, Method, Stone, find_material
+    from stonepass.model.points import read_points
+    from stonepass.report.invitro_report import (
+        answers_warnings,
+        invitro_record,
+        invitro_table,
+        write_invitro,
+    )
+    from stonepass.report.record import DISCLAIMER
+
+    if friction is not None:
+        Stone(size_ratio=1.0, friction=friction)  # refused before the work where it is none
+    Load(confinement=confinement)
+    setting = Setting(find_material(material), confinement, Method(model=model, seating=seating))
+    points = read_points(data)
+    with counting("solving") as progress:
+        count = workers or os.cpu_count() or 1
+        solver = Solver(cache_folder(cache, no_cache), count, progress)
+        found = fit_friction(points, setting, friction, solver)
+        curves = [] if figure is None else size_curves(found.comparison, setting, solver)
+    if out is not None:
+        write_invitro(found, out)
+    if figure is not None:
+        from stonepass.report.invitro_figure import invitro_figure
+        from stonepass.report.style import save
+
+        save(invitro_figure(found, curves), figure)
+    if json:
+        print_json(invitro_record(found))
+    else:
+        show(*invitro_table(found), DISCLAIMER)
+        warn([*found.warnings, *answers_warnings(found.comparison)])
+    return 0 if found.comparison.compared == len(points) else 1

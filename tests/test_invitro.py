@@ -1,0 +1,176 @@
+"""In-vitro series: comparison, the friction that fits, and what a series can tell."""
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stonepass.cli import run
+from stonepass.errors import BadInput, Outcome
+from stonepass.laboratory.comparison import Setting, Solver, compare, size_curves
+from stonepass.laboratory.invitro import fit_friction
+from stonepass.materials.catalogue import material
+from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.protocol import Material
+from stonepass.model.answer import Answer
+from stonepass.model.case import Method
+from stonepass.model.points import Point
+from stonepass.report.invitro_figure import invitro_figure
+from stonepass.report.invitro_report import invitro_record
+from stonepass.units import Pressure
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+QUICK = Setting(material("latex"), method=Method(seating="frictionless"))
+DRY = [(1.5, 1.1, 0.0), (1.5, 1.25, 0.0), (2.0, 1.1, 0.0), (2.0, 1.3, 0.0)]
+WET = [(1.5, 1.15, 5e3), (2.0, 1.2, 5e3)]
+
+
+def series(pressures, tubes, sd=None):
+    return [
+        Point(xi, eta, Pressure(confining), Pressure(p), None if sd is None else Pressure(sd))
+        for p, (eta, xi, confining) in zip(pressures, tubes, strict=True)
+    ]
+
+
+@dataclass(frozen=True)
+class MadeUp:
+    """A solver of a formula in place of the finite elements: P = s E (ξ − 1) μ/(0.5 + μ) + P_out."""
+
+    modulus: float = 2e5
+
+    def answers(self, cases, *, error=True):
+        return [self._answer(case) for case in cases]
+
+    def _answer(self, case):
+        mu, over = case.stone.friction, case.size_ratio - 1.0
+        if over <= 0.0:
+            return Answer(case, Outcome.LOOSE, "", pressure=0.0)
+        saturating = mu / (0.5 * case.wall_ratio / 1.5 + mu)
+        pressure = self.modulus * over * saturating + float(case.load.confining_pressure)
+        return Answer(case, Outcome.MOVES, "", pressure=pressure)
+
+
+def made_up(tubes, friction, stiffness=1.0, noise=0.0, seed=0):
+    points = series([1.0] * len(tubes), tubes)
+    solver = MadeUp(2e5 * stiffness)
+    exact = compare(points, friction, QUICK, solver).predicted
+    generator = np.random.default_rng(seed)
+    return series(exact * (1.0 + noise * generator.normal(size=len(tubes))), tubes)
+
+
+def test_statistics_by_hand():
+    """Model 20, 40 kPa beside 18, 44: bias −1, RMSE √((4 + 16)/2), R² 1 − 20/338."""
+    points = series([18e3, 44e3], [(1.5, 1.1, 0.0), (1.5, 1.2, 0.0)])
+    comparison = compare(points, 0.5, QUICK, MadeUp(4e5))
+    np.testing.assert_allclose(comparison.predicted, [20e3, 40e3])
+    assert comparison.bias == pytest.approx(-1e3)
+    assert comparison.rmse == pytest.approx(1e3 * np.sqrt(10.0))
+    assert comparison.r_squared == pytest.approx(1.0 - 20.0 / 338.0)
+
+
+def test_a_point_without_an_answer_is_counted_not_averaged():
+    points = series([18e3, 44e3], [(1.5, 1.1, 0.0), (1.5, 1.2, 0.0)])
+    found = compare(points, 0.5, QUICK, MadeUp(4e5))
+    lost = replace(found.answers[1], outcome=Outcome.BEYOND_CLOSURE, pressure=None)
+    found = replace(found, answers=(found.answers[0], lost))
+    assert (found.compared, found.bias) == (1, pytest.approx(2e3))
+    assert found.without_answer == {"BEYOND_CLOSURE": 1}
+    assert found.r_squared is None
+
+
+def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
+    """A wall of 1.3 times the modulus, dry and under water, against the material's own stiffness."""
+    stiff = Material("stiff", NeoHookean(1.3 * 0.1465e6), "", "", "", (1.0, 1.5))
+    tubes, solver = [*DRY, WET[0]], Solver(tmp_path)
+    blank = series([1.0] * len(tubes), tubes)
+    measured = compare(blank, 0.35, replace(QUICK, material=stiff), solver).predicted
+    found = fit_friction(series(measured, tubes), QUICK, solver=solver)
+    assert found.joint is not None
+    assert found.joint.friction.value == pytest.approx(0.35, rel=4e-3)
+    assert found.joint.stiffness.value == pytest.approx(1.3, rel=4e-3)
+    assert found.joint.correlation < -0.8
+    assert found.friction.value > 0.4  # alone, friction has to make up for the stiffness
+    record = invitro_record(found)
+    assert record["joint"]["stiffness"]["value"] == found.joint.stiffness.value
+    exact = compare(blank, 0.35, QUICK, solver).predicted
+    own = fit_friction(series(exact, tubes), QUICK, solver=solver)
+    assert own.friction.value == pytest.approx(0.35, rel=1e-3)
+    assert own.fitted.rmse < 2e-3 * float(np.mean(own.fitted.measured))
+
+
+def test_friction_intervals_cover_as_often_as_they_say():
+    tubes = [*DRY, *DRY, *WET]
+    covered = 0
+    for seed in range(30):
+        found = fit_friction(made_up(tubes, 0.3, noise=0.05, seed=seed), QUICK, solver=MadeUp())
+        covered += found.friction.low <= 0.3 <= found.friction.high
+    assert 26 <= covered <= 30  # of 28.5 expected
+
+
+def test_one_size_alone_cannot_tell_stiffness_from_friction():
+    """Each friction has a stiffness that fits as well: the interval is open, and that is said."""
+    tubes = [(1.5, 1.2, 0.0)] * 5
+    found = fit_friction(made_up(tubes, 0.3, noise=0.05), QUICK, solver=MadeUp())
+    assert found.friction.low < 0.3 < found.friction.high
+    joint = found.joint
+    assert joint is not None
+    assert None in (joint.friction.low, joint.friction.high)
+    for friction in (0.2, 0.4, 0.8):  # P ∝ s μ/(0.5 + μ) is the same
+        same = (0.3 / 0.8) * (0.5 + friction) / friction
+        assert joint.misfit(np.array(friction), np.array(same)) < joint.level
+    assert any("when stiffness is fitted too" in sentence for sentence in found.warnings)
+
+
+def test_weights_and_what_is_refused():
+    points = made_up(DRY, 0.3)
+    spoilt = [replace(points[0], pressure=Pressure(3.0 * points[0].pressure)), *points[1:]]
+    weighted = [replace(p, sd=Pressure(1e5 if k == 0 else 1e2)) for k, p in enumerate(spoilt)]
+    found = fit_friction(weighted, QUICK, solver=MadeUp())
+    assert found.weighted
+    assert found.friction.value == pytest.approx(0.3, rel=1e-2)
+    assert abs(fit_friction(spoilt, QUICK, solver=MadeUp()).friction.value - 0.3) > 0.02
+    with pytest.raises(BadInput, match=r"sd_kPa is 0\.0, but must be above 0"):
+        fit_friction([replace(p, sd=Pressure(0.0)) for p in points], QUICK, solver=MadeUp())
+    with pytest.raises(BadInput, match="series is 1 points that the model answers"):
+        fit_friction(points[:1], QUICK, solver=MadeUp())
+
+
+def test_no_friction_meets_a_series_far_above_the_wall():
+    points = made_up(DRY, 1.0, stiffness=20.0)
+    found = fit_friction(points, QUICK, solver=MadeUp())
+    assert any("end of its range, 2" in sentence for sentence in found.warnings)
+    assert found.friction.high is None
+
+
+def test_command(tmp_path, capsys):
+    out, figure = tmp_path / "points.csv", tmp_path / "series.svg"
+    data = tmp_path / "series.csv"
+    lines = (EXAMPLES / "latex_series.csv").read_text(encoding="utf-8").splitlines()
+    data.write_text("\n".join(lines[:6]), encoding="utf-8")
+    arguments = ["invitro", str(data), "--material", "latex", "--seating", "frictionless",
+                 "--cache", str(tmp_path), "--workers", "1", "--friction", "0.475"]  # fmt: skip
+    code = run([*arguments, "--json", "--out", str(out), "--figure", str(figure)])
+    record = json.loads(capsys.readouterr().out)
+    assert code == 0
+    assert record["friction"] == 0.475
+    assert record["compared"] == len(record["points"]) == 5
+    low, high = (record["fitted_friction"][name] for name in ("low", "high"))
+    assert low < record["fitted_friction"]["value"] < high
+    assert record["r_squared"] > 0.95
+    assert len(out.read_text().splitlines()) == 6
+    assert "<svg" in figure.read_text()
+    assert run([*arguments, "--material", "latexx"]) == 2
+    assert "did you mean 'latex'" in capsys.readouterr().err
+
+
+def test_figure_shows_every_point_and_curve():
+    points = made_up([*DRY, *WET], 0.3, noise=0.02)
+    found = fit_friction(points, QUICK, solver=MadeUp())
+    curves = size_curves(found.comparison, QUICK, MadeUp())
+    assert [(c.wall_ratio, c.confining_pressure) for c in curves] == [(1.5, 0.0), (2.0, 0.0)]
+    series_axes, region = invitro_figure(found, curves).axes[:2]
+    marks = sum(len(c.lines[0].get_xdata()) for c in series_axes.containers)
+    assert marks == len(points)
+    assert region.get_xlabel() == "friction"

@@ -9,7 +9,7 @@ import pytest
 
 from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
-from stonepass.laboratory.comparison import Setting, Solver, compare, size_curves
+from stonepass.laboratory.comparison import Setting, compare, size_curves
 from stonepass.laboratory.invitro import fit_friction
 from stonepass.materials.catalogue import material
 from stonepass.materials.neo_hookean import NeoHookean
@@ -19,6 +19,7 @@ from stonepass.model.case import Method
 from stonepass.model.points import Point
 from stonepass.report.invitro_figure import invitro_figure
 from stonepass.report.invitro_report import invitro_record
+from stonepass.studies.jobs import Solver
 from stonepass.units import Pressure
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

@@ -53,7 +53,7 @@ def command(
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
-    from stonepass.laboratory.comparison import Setting, Solver, size_curves
+    from stonepass.laboratory.comparison import Setting, size_curves
     from stonepass.laboratory.invitro import fit_friction
     from stonepass.model.case import Load, Method, Stone, find_material
     from stonepass.model.points import read_points
@@ -64,6 +64,7 @@ def command(
         write_invitro,
     )
     from stonepass.report.record import DISCLAIMER
+    from stonepass.studies.jobs import Solver
 
     if friction is not None:
         Stone(size_ratio=1.0, friction=friction)  # refused before the work where it is none

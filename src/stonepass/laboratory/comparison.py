@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
@@ -13,9 +12,9 @@ from stonepass.materials.protocol import Material
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.points import Point
-from stonepass.studies.jobs import PressureJob, run_jobs
+from stonepass.studies.jobs import Solver
 
-__all__ = ["Comparison", "Setting", "SizeCurve", "Solver", "compare", "size_curves"]
+__all__ = ["Comparison", "Setting", "SizeCurve", "compare", "size_curves"]
 
 SIZES = 9  # of a curve
 
@@ -42,21 +41,6 @@ class Setting:
         load = Load(pressure, self.confinement if pressure > 0.0 else "dead")
         ureter = Ureter(wall_ratio=point.wall_ratio, material=self.material)
         return Case(Stone(None, friction, point.size_ratio), ureter, load, self.method)
-
-
-@dataclass(frozen=True)
-class Solver:
-    """Where cases are solved: how many processes, what is remembered, who is told."""
-
-    folder: Path | None = None
-    workers: int = 1
-    progress: Callable[[int, int], None] | None = None
-
-    def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
-        """The answer of every case, each solved once."""
-        jobs = [PressureJob(case, error=error) for case in cases]
-        found = run_jobs(jobs, self.folder, self.workers, self.progress)
-        return [found.answer(case, error=error) for case in cases]
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,12 @@ from jaxtyping import Float
 from scipy.stats import f as f_distribution
 
 from stonepass.errors import BadInput, Outcome, require
-from stonepass.laboratory.comparison import Comparison, Setting, Solver, compare
+from stonepass.laboratory.comparison import Comparison, Setting, compare
 from stonepass.laboratory.least_squares import LEVEL, Interval, correlations, intervals, lmfit
 from stonepass.model.answer import Answer
 from stonepass.model.case import FRICTION, Case
 from stonepass.model.points import Point
+from stonepass.studies.jobs import Solver
 from stonepass.units import Values
 
 __all__ = ["LARGEST", "SMALLEST", "STIFFNESS", "Estimate", "InVitro", "JointFit", "fit_friction"]

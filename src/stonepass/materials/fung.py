@@ -56,7 +56,7 @@ class Fung:
         """Return the fibres alone, as the paper's Eq. 22 has them."""
         return replace(self, G=0.0)
 
-    def inflation_pressure(self, inner_ratio: Values, wall_ratio: float) -> Values:
+    def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
         """Eq. 22 without P_out, corrected, in Pa; the ground matrix adds Eq. 20 with C₁₀ = G/2.
 
         With q = ½ √a1111 ((r_a/R_a)² − 1):  ¼ C √(π a1111) (erfi q − erfi(q/η²)).

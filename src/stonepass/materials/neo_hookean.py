@@ -36,7 +36,7 @@ class NeoHookean:
         """Return itself: there is no fibre part to leave alone."""
         return self
 
-    def inflation_pressure(self, inner_ratio: Values, wall_ratio: float) -> Values:
+    def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
         """Eq. 20 without P_out, in Pa.
 
         With s = (r_a/R_a)² and t = s + η² − 1:  C₁₀ (η²/t − 1/s + ln s − ln(t/η²)).

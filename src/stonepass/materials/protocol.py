@@ -49,7 +49,7 @@ class Law(Protocol):
 class ClosedForm(Protocol):
     """A law whose inflation pressure at unit axial stretch is known in closed form."""
 
-    def inflation_pressure(self, inner_ratio: Values, wall_ratio: float) -> Values:
+    def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
         """Transmural pressure in Pa at r_a/R_a = `inner_ratio`, R_b/R_a = `wall_ratio`."""
         ...
 

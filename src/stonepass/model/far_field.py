@@ -28,13 +28,13 @@ QUADRATURE_POINTS = 48
 SMALLEST_LUMEN = 0.02
 
 
-def urine_pressure(inner_ratio: Values, wall_ratio: float, law: Law, load: Load) -> Values:
+def urine_pressure(inner_ratio: Values, wall_ratio: Values, law: Law, load: Load) -> Values:
     """P_u in Pa that holds a uniform tube at r_a/R_a = `inner_ratio` (Eq. 12)."""
     transmural = inflation(inner_ratio, wall_ratio, law, load.prestretch)
     return transmural + confining_traction(inner_ratio, wall_ratio, load)
 
 
-def confining_traction(inner_ratio: Values, wall_ratio: float, load: Load) -> Values:
+def confining_traction(inner_ratio: Values, wall_ratio: Values, load: Load) -> Values:
     """p_out in Pa on the deformed outer wall.
 
     Dead load keeps the radial resultant: P_out R_b / (λ_z r_b) (Eq. 10); hydrostatic: P_out.
@@ -46,7 +46,7 @@ def confining_traction(inner_ratio: Values, wall_ratio: float, load: Load) -> Va
     return load.confining_pressure * wall_ratio / (load.prestretch * outer)
 
 
-def inflation(inner_ratio: Values, wall_ratio: float, law: Law, axial: float = 1.0) -> Values:
+def inflation(inner_ratio: Values, wall_ratio: Values, law: Law, axial: float = 1.0) -> Values:
     """Transmural pressure in Pa: in closed form where the law has one, else by quadrature."""
     ratio = np.asarray(inner_ratio, dtype=float)
     if axial == 1.0 and isinstance(law, ClosedForm):
@@ -55,19 +55,19 @@ def inflation(inner_ratio: Values, wall_ratio: float, law: Law, axial: float = 1
 
 
 def inflation_by_quadrature(
-    inner_ratio: Values, wall_ratio: float, law: Law, axial: float = 1.0
+    inner_ratio: Values, wall_ratio: Values, law: Law, axial: float = 1.0
 ) -> Values:
     """Transmural pressure in Pa for any law: ∫ w′(λ)/(λ_z λ R) dR over the wall.
 
     λ = r/R with r² = r_a² + (R² − R_a²)/λ_z. The integrand is regular for every law; in ln R it
     is so smooth that `QUADRATURE_POINTS` Gauss points reach rounding error.
     """
-    ratio = np.asarray(inner_ratio, dtype=float)
+    ratio, thickness = np.asarray(inner_ratio, dtype=float), np.log(wall_ratio)
     points, weights = _gauss()
-    R = np.exp(points * np.log(wall_ratio))
+    R = np.exp(points * thickness[..., None])
     stretch = np.sqrt(ratio[..., None] ** 2 + (R**2 - 1.0) / axial) / R
     slope = hoop_energy_slope(law, stretch, axial)
-    integral: Values = (slope / (axial * stretch)) @ weights * np.log(wall_ratio)
+    integral: Values = (slope / (axial * stretch)) @ weights * thickness
     return integral
 
 

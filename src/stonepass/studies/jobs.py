@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +17,7 @@ from stonepass.studies.executor import can_travel, executor
 from stonepass.studies.store import Store
 from stonepass.units import Pressure
 
-__all__ = ["Job", "PressureJob", "Results", "SizeJob", "run_jobs"]
+__all__ = ["Job", "PressureJob", "Results", "SizeJob", "Solver", "run_jobs"]
 
 
 @dataclass(frozen=True)
@@ -143,3 +143,18 @@ def _once(jobs: Iterable[Job]) -> list[Job]:
         for job in listed
         if isinstance(job, SizeJob) or not any(other in listed for other in job.fuller())
     ]
+
+
+@dataclass(frozen=True)
+class Solver:
+    """Where cases are solved: how many processes, what is remembered, who is told."""
+
+    folder: Path | None = None
+    workers: int = 1
+    progress: Callable[[int, int], None] | None = None
+
+    def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
+        """The answer of every case, each solved once."""
+        jobs = [PressureJob(case, error=error) for case in cases]
+        found = run_jobs(jobs, self.folder, self.workers, self.progress)
+        return [found.answer(case, error=error) for case in cases]

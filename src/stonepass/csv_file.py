@@ -6,16 +6,18 @@ import csv
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.errors import BadInput, refuse_unknown
+from stonepass.errors import BadInput, refuse_unknown, require
 
 __all__ = ["read_columns"]
 
 LARGEST_FILE = 10_000_000  # bytes
+MOST_ROWS = 100_000  # empty ones too
 
 
 def read_columns(
@@ -36,7 +38,7 @@ def read_columns(
     ------
     BadInput
         Naming the file, and row and column where one is at fault: a missing file, one larger than
-        10 MB or not of text, a column that is missing, unknown (with the nearest known one) or
+        10 MB, of more than 100 000 rows or not of text, a column that is missing, unknown (with the nearest known one) or
         there twice, a row of another length or the same as an earlier one, a cell that is no finite
         number or out of bounds or none of the words, no rows at all.
     """
@@ -62,9 +64,11 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.reader(file, strict=True)
-            rows = [(reader.line_num, cells) for cells in reader]
+            rows = [(reader.line_num, cells) for cells in islice(reader, MOST_ROWS + 1)]
     except (csv.Error, UnicodeDecodeError, OSError) as problem:
         raise BadInput("file", str(path), f"a CSV file of text ({problem})") from problem
+    require(len(rows) <= MOST_ROWS, f"number of rows of {path.name}", f"more than {MOST_ROWS}",
+            "fewer")  # fmt: skip
     return [
         (line, cells)
         for line, cells in rows

@@ -8,6 +8,7 @@ import typer
 
 import stonepass
 from stonepass.cli import (
+    assess,
     closures,
     curve,
     fit,
@@ -56,6 +57,7 @@ app.command("push")(push.command)
 app.command("closures")(closures.command)
 app.command("friction")(friction.command)
 app.command("invitro")(invitro.command)
+app.command("assess")(assess.command)
 app.command("headline")(headline.command)
 app.command("paper")(paper.command)
 app.add_typer(fit.app, name="fit")

@@ -17,14 +17,16 @@ from stonepass.model.opening import read_pairs
 from stonepass.toml_file import read_toml
 from stonepass.units import Pressure, format_length, format_pressure
 
-__all__ = ["read_case", "write_case"]
+__all__ = ["FileSection", "LoadSection", "MethodSection", "read_case", "write_case"]
 
 
-class _Section(BaseModel):
+class FileSection(BaseModel):
+    """A section of a TOML file: no unknown keys, no conversions."""
+
     model_config = ConfigDict(extra="forbid", strict=True)
 
 
-class _Stone(_Section):
+class _Stone(FileSection):
     diameter: str | None = None
     friction: float = 0.5
     size_ratio: float | None = None
@@ -32,20 +34,24 @@ class _Stone(_Section):
     shape: str | None = None
 
 
-class _Ureter(_Section):
+class _Ureter(FileSection):
     inner_diameter: str | None = None
     outer_diameter: str | None = None
     wall_ratio: float | None = None
     material: str = "ureter"
 
 
-class _Load(_Section):
+class LoadSection(FileSection):
+    """``[load]``, see `Load`."""
+
     confining_pressure: str = "0 kPa"
     confinement: str = "dead"
     prestretch: float = 1.0
 
 
-class _Method(_Section):
+class MethodSection(FileSection):
+    """``[method]``, see `Method`; files are named as seen from the file's folder."""
+
     model: str = "paper"
     seating: str = "pressed"
     seating_friction: float | None = None
@@ -62,12 +68,19 @@ class _Method(_Section):
     longitudinal_modulus: str | None = None
     secant_stretch: float | None = None
 
+    def method(self, folder: Path) -> Method:
+        """Make the method."""
+        given = self.model_dump()
+        if self.pairs is not None:
+            given["pairs"] = read_pairs(folder / self.pairs)
+        return Method(**given)
 
-class _CaseFile(_Section):
+
+class _CaseFile(FileSection):
     stone: _Stone
     ureter: _Ureter
-    load: _Load = _Load()
-    method: _Method = _Method()
+    load: LoadSection = LoadSection()
+    method: MethodSection = MethodSection()
 
 
 def read_case(path: Path) -> Case:
@@ -81,18 +94,15 @@ def read_case(path: Path) -> Case:
     """
     parsed = read_toml(path, _CaseFile)
     stone, ureter = parsed.stone.model_dump(), parsed.ureter.model_dump()
-    method = parsed.method.model_dump()
     try:
         if parsed.stone.shape is not None:
             stone["shape"] = read_shape(path.parent / parsed.stone.shape)
-        if parsed.method.pairs is not None:
-            method["pairs"] = read_pairs(path.parent / parsed.method.pairs)
         ureter["material"] = find_material(parsed.ureter.material, path.parent)
         return Case(
             Stone(**stone),
             Ureter(**ureter),
             Load(**parsed.load.model_dump()),
-            Method(**method),
+            parsed.method.method(path.parent),
         )
     except BadInput as problem:
         raise problem.within(path.name) from problem
@@ -131,7 +141,7 @@ def write_case(case: Case, path: Path) -> None:
             "confinement": load.confinement,
             "prestretch": load.prestretch,
         },
-        "method": {name: _plain(getattr(method, name)) for name in _Method.model_fields}
+        "method": {name: _plain(getattr(method, name)) for name in MethodSection.model_fields}
         | {"pairs": None if pairs is None else _beside(path, pairs.reference)},
     }
     written = {

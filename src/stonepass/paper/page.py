@@ -6,24 +6,14 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-from stonepass.errors import BadInput
 from stonepass.paper.section import Asked, Claim, Section
+from stonepass.report.html import write_html
 from stonepass.report.record import DISCLAIMER, VERSION
 
 __all__ = ["write_page"]
 
 DOI = "10.1016/j.jmbbm.2022.105432"
 _STYLE = """
-:root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, sans-serif; color: #1f2937; max-width: 62rem; margin: 2rem auto;
-  padding: 0 1rem; }
-h1 { font-size: 1.7rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin-top: 2.6rem; }
-p.note, figcaption, footer, details { color: #4b5563; font-size: .9rem; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .88rem; width: 100%; }
-th, td { text-align: left; vertical-align: top; padding: .4rem .6rem;
-  border-bottom: 1px solid #e5e7eb; }
-th { border-bottom: 2px solid #9ca3af; }
 td.mark { white-space: nowrap; font-weight: 600; }
 .yes { color: #00785a; } .no { color: #b54708; } .open { color: #6b7280; }
 figure { margin: 1rem 0; } img { max-width: 100%; height: auto; }
@@ -46,17 +36,7 @@ def write_page(sections: Sequence[Section], asked: Asked, path: Path) -> None:
         if section.pictures or section.files:
             body += _section(section)
     body.append(f"<footer><p>stonepass {VERSION}. {DISCLAIMER}</p></footer>")
-    text = (
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>The paper, reproduced</title><style>{_STYLE}</style></head><body>\n"
-        + "\n".join(body)
-        + "\n</body></html>\n"
-    )
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as problem:
-        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
+    write_html(path, "The paper, reproduced", _STYLE, "\n".join(body))
 
 
 def _table(claims: Sequence[Claim]) -> str:

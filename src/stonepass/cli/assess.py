@@ -1,0 +1,64 @@
+"""``stonepass assess``: one person's stone and ureter, with how well they are known."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
+
+__all__ = ["command"]
+
+
+def command(
+    case_file: Annotated[
+        Path,
+        typer.Argument(
+            metavar="CASE.toml", help="Sizes as value ± uncertainty; see examples/person.toml."
+        ),
+    ],
+    limit: Annotated[
+        str | None,
+        typer.Option("--limit", metavar="PRESSURE", help="Instead of the file's, e.g. 6kPa."),
+    ] = None,
+    json: Json = False,
+    html: Annotated[
+        Path | None,
+        typer.Option("--html", metavar="REPORT.html", help="Write one page that prints on two."),
+    ] = None,
+    cache: Cache = None,
+    no_cache: NoCache = False,
+    workers: Workers = None,
+) -> int:
+    """Assess one person: critical and present pressure as intervals, beside what cohorts saw.
+
+    Measured limits are 2, 4, 6, 8 and 12 kPa; their sources stand in the answer.
+    """
+    from stonepass.cli.terminal import counting, print_json, show, warn, writable
+
+    writable(html, (".html", ".htm"))
+    from stonepass.laboratory.assess import assess
+    from stonepass.laboratory.person import read_person
+    from stonepass.report.assess_report import CAUTION, assess_record, assess_tables
+    from stonepass.report.record import DISCLAIMER
+    from stonepass.studies.jobs import Solver
+
+    person = read_person(case_file)
+    if limit is not None:
+        person = person.with_limit(limit)
+    with counting("solving") as progress:
+        count = workers or os.cpu_count() or 1
+        found = assess(person, Solver(cache_folder(cache, no_cache), count, progress))
+    if html is not None:
+        from stonepass.report.assess_page import write_assessment
+
+        write_assessment(found, html)
+    if json:
+        print_json(assess_record(found))
+    else:
+        show(*assess_tables(found), f"{found.message} {CAUTION}", DISCLAIMER)
+        warn(found.warnings)
+    return 0 if found.outcome.answered else 1

@@ -1,0 +1,167 @@
+"""What happened to stones of a size and place in published cohorts.
+
+Only numbers that were read in the source itself, or in a secondary source that quotes it; `read`
+says which. Cohorts differ in what they call the size, in how long they watched, and in whom they
+left out.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+__all__ = ["COHORTS", "PLACES", "Cohort", "Rate", "Row", "rows_for"]
+
+PLACES = ("proximal", "mid", "distal", "UVJ")
+ITSELF, QUOTED = "itself", "quoted"
+
+
+@dataclass(frozen=True)
+class Rate:
+    """The share of stones of a size that passed.
+
+    `label` is the size class as printed; `low` ≤ size < `high`, in mm, is how it is looked up.
+    `days` is the mean time to pass where the source has it; `passed` is None where it has that
+    alone.
+    """
+
+    label: str
+    low: float
+    high: float
+    passed: float | None
+    days: float | None = None
+    count: int | None = None
+
+
+@dataclass(frozen=True)
+class Cohort:
+    """A published cohort: shares by size, and by place."""
+
+    name: str
+    source: str
+    read: str
+    about: str
+    by_size: tuple[Rate, ...] = ()
+    by_place: tuple[tuple[str, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Row:
+    """One number of a cohort that concerns a stone; `sizes` in mm, None where it is of a place."""
+
+    cohort: Cohort
+    group: str
+    passed: float | None
+    sizes: tuple[float, float] | None = None
+    days: float | None = None
+    count: int | None = None
+
+
+COHORTS = (
+    Cohort(
+        "Jendeberg 2017",
+        "doi 10.1007/s00330-017-4852-6",
+        QUOTED,
+        "CT, width, within 20 weeks",
+        (
+            Rate("0–2 mm", 0.0, 2.5, 0.98),
+            Rate("3 mm", 2.5, 3.5, 0.98),
+            Rate("4 mm", 3.5, 4.5, 0.81),
+            Rate("5 mm", 4.5, 5.5, 0.65),
+            Rate("6 mm", 5.5, 6.5, 0.33),
+            Rate("≥ 6.5 mm", 6.5, math.inf, 0.09),
+        ),
+    ),
+    Cohort(
+        "Coll 2002",
+        "doi 10.2214/ajr.178.1.1780101",
+        ITSELF,
+        "CT, largest axial diameter, 172 stones",
+        (
+            Rate("1 mm", 0.0, 1.5, 0.87),
+            Rate("2–4 mm", 1.5, 4.5, 0.76),
+            Rate("5–7 mm", 4.5, 7.0, 0.60),
+            Rate("7–9 mm", 7.0, 9.0, 0.48),
+            Rate("> 9 mm", 9.0, math.inf, 0.25),
+        ),
+        (("proximal", 0.48), ("mid", 0.60), ("distal", 0.75), ("UVJ", 0.79)),
+    ),
+    Cohort(
+        "Miller & Kane 1999",
+        "J Urol 162:688–691",
+        ITSELF,
+        "75 patients, passed without intervention",
+        (
+            Rate("≤ 2 mm", 0.0, 2.0, 39 / 41, 8.2, 41),
+            Rate("2–4 mm", 2.0, 4.0, 15 / 18, 12.2, 18),
+            Rate("≥ 4 mm", 4.0, math.inf, 8 / 16, 22.1, 16),
+        ),
+    ),
+    Cohort(
+        "Hübner 1993",
+        "Eur Urol 24:172–176",
+        ITSELF,
+        "6 studies before CT, 2704 patients, selected",
+        (Rate("< 4 mm", 0.0, 4.0, 0.38), Rate("> 6 mm", 6.0, math.inf, 0.012)),
+        (("proximal", 0.12), ("mid", 0.22), ("distal", 0.45)),
+    ),
+    Cohort(
+        "Park 2021",
+        "Park et al. 2021, abstract at yonsei.pure.elsevier.com",
+        ITSELF,
+        "833 patients",
+        (Rate("< 5 mm", 0.0, 5.0, 0.756), Rate("5–10 mm", 5.0, 10.0, 0.682)),
+    ),
+    Cohort(
+        "AUA/EAU analysis",
+        "cited in doi 10.29337/j.isjp.2017.09.002",
+        QUOTED,
+        "pooled; 95 % intervals 46–85 and 36–59 %",
+        (Rate("≤ 5 mm", 0.0, 5.0, 0.68), Rate("5–10 mm", 5.0, 10.0, 0.47)),
+    ),
+    Cohort(
+        "Tchey 2011",
+        "doi 10.4111/kju.2011.52.12.847",
+        ITSELF,
+        "656 patients, of whom 86.3 % passed; mean time of those",
+        (
+            Rate("< 2 mm", 0.0, 2.0, None, 6.8),
+            Rate("2–4 mm", 2.0, 4.0, None, 12.6),
+            Rate("4–6 mm", 4.0, 6.0, None, 14.8),
+            Rate("6–8 mm", 6.0, 8.0, None, 21.8),
+        ),
+    ),
+    Cohort(
+        "Ongün 2019",
+        "doi 10.4274/jus.galenos.2018.2335",
+        ITSELF,
+        "245 patients, distal stones up to 10 mm",
+        by_place=(("distal", 0.776),),
+    ),
+    Cohort(
+        "Ahmed 2014",
+        "PMC4561928",
+        ITSELF,
+        "163 patients; 24.0 ± 8.1 days to pass",
+        (Rate("≤ 10 mm", 0.0, 10.0, 0.779, 24.0, 163),),
+    ),
+    Cohort(
+        "Kori Hospital 2019",
+        "doi 10.1007/s00345-018-2461-x",
+        ITSELF,
+        "418 patients, within 4 weeks; 76 % where the wall was thinner than 2.71 mm, 15 % else",
+        (Rate("≤ 10 mm", 0.0, 10.0, 0.483, None, 418),),
+    ),
+)  # fmt: skip
+
+
+def rows_for(low: float, high: float, place: str | None) -> list[Row]:
+    """What cohorts say of stones from `low` to `high` mm, and of stones at `place`."""
+    rows = []
+    for cohort in COHORTS:
+        for rate in cohort.by_size:
+            if rate.low <= high and low < rate.high:
+                sizes = (max(rate.low, low), min(rate.high, high))
+                rows.append(Row(cohort, rate.label, rate.passed, sizes, rate.days, rate.count))
+        rows += [Row(cohort, name, passed) for name, passed in cohort.by_place if name == place]
+    return rows

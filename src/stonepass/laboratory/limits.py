@@ -1,0 +1,63 @@
+"""Pressure limits that were measured or proposed, each with its source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from stonepass.units import Pressure
+
+__all__ = ["LIMITS", "PressureLimit", "limit_told"]
+
+
+@dataclass(frozen=True)
+class PressureLimit:
+    """A pressure in Pa, what it is, and who says so.
+
+    `read` says how the source was read: ``itself``, or ``paper`` where Liu et al. 2022 state it.
+    """
+
+    pressure: Pressure
+    what: str
+    source: str
+    read: str = "itself"
+
+
+_NEPHROSTOMY = "EAU congress 2007, abstract 71"
+LIMITS = (
+    PressureLimit(
+        Pressure(2e3),
+        "measured above a stone: basal 19.5 ± 1.5 cmH₂O (1.9 kPa) in 41 patients with nephrostomy",
+        _NEPHROSTOMY,
+    ),
+    PressureLimit(
+        Pressure(4e3),
+        "peak of an acute obstruction in rabbits, 42 cmH₂O (4.1 kPa) after 3 h",
+        "rabbit ureter in vivo, abstract (scilit 64e68051)",
+    ),
+    PressureLimit(
+        Pressure(6e3),
+        "largest measured above a stone during lithotripsy: 61 cmH₂O (6.0 kPa), 41 patients",
+        _NEPHROSTOMY,
+    ),
+    PressureLimit(
+        Pressure(8e3),
+        "about the mean in the pelvis while stones are treated by ureteroscopy: 54 ± 18 mmHg "
+        "(7.2 ± 2.4 kPa), 12 patients",
+        "doi 10.1186/s40064-015-1114-4",
+    ),
+    PressureLimit(
+        Pressure(12e3),
+        "the limit of the paper, which cites a study of minipigs for it; ink entered veins of pig "
+        "kidneys ex vivo from 90 mmHg (12.0 kPa)",
+        "Liu et al. 2022, doi 10.1016/j.jmbbm.2022.105432; WCET abstract 4800",
+        "paper",
+    ),
+)
+
+
+def limit_told(limit: float) -> str:
+    """What a limit in Pa is: that of the list, or the user's own."""
+    for known in LIMITS:
+        if abs(limit - known.pressure) < 1e-6 * known.pressure:
+            return f"{known.what} ({known.source})"
+    return "a value of your own"

@@ -1,0 +1,132 @@
+"""Numbers that are known only so well: ``"5 mm ± 1 mm"`` and ``"0.05 to 0.5"``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+from scipy.stats import truncnorm, uniform
+
+from stonepass.errors import BadInput, require
+from stonepass.units import format_length, length
+
+__all__ = ["Measured", "measured_length", "measured_number"]
+
+_PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
+_RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
+_UNIT = re.compile(r"[A-Za-zµμ%°][^\s]*$")
+EXAMPLE = {True: "'5 mm ± 1 mm' or '3 mm to 4 mm'", False: "'0.3 ± 0.1' or '0.05 to 0.5'"}
+FARTHEST = 6.0  # standard deviations
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number and how well it is known.
+
+    Attributes
+    ----------
+    value : float
+        The measured value; the middle of a range.
+    sd : float or None
+        Standard deviation of a normal error; 0 for an exact number, None for a range.
+    low, high : float
+        What is possible: the range itself, or bounds that cut the normal distribution off.
+    """
+
+    value: float
+    sd: float | None
+    low: float
+    high: float
+
+    @property
+    def exact(self) -> bool:
+        """Whether nothing about it is uncertain."""
+        return self.sd == 0.0 or self.low == self.high
+
+    @property
+    def distribution(self) -> Any:
+        """As a frozen distribution of `scipy.stats`; not for an exact number."""
+        if self.sd is None:
+            return uniform(self.low, self.high - self.low)
+        ends = [(end - self.value) / self.sd for end in (self.low, self.high)]
+        first, last = np.clip(ends, -FARTHEST, FARTHEST)
+        return truncnorm(first, last, loc=self.value, scale=self.sd)
+
+    def drawn(self, share: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """Quantiles: the numbers below which shares of it lie."""
+        if self.exact:
+            return np.full(len(share), self.value)
+        return np.asarray(self.distribution.ppf(share))
+
+    def told(self, scale: float = 1.0, unit: str = "") -> str:
+        """In words, over `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
+        tail = f" {unit}" if unit else ""
+        if self.exact:
+            return f"{self.value / scale:.4g}{tail}"
+        if self.sd is None:
+            return f"{self.low / scale:.4g} to {self.high / scale:.4g}{tail}"
+        return f"{self.value / scale:.4g} ± {self.sd / scale:.3g}{tail}"
+
+
+def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Measured:
+    """Read a length with its uncertainty; ``±`` is one standard deviation.
+
+    Raises
+    ------
+    BadInput
+        Without an uncertainty or a unit, or out of `bounds` (m).
+    """
+    return _read(text, argument, bounds, lambda part: float(length(part, argument)), lengths=True)
+
+
+def measured_number(text: str, argument: str, bounds: tuple[float, float]) -> Measured:
+    """Read a number without unit and its uncertainty; ``±`` is one standard deviation."""
+
+    def number(part: str) -> float:
+        try:
+            return float(part)
+        except ValueError as problem:
+            raise _unreadable(argument, text, lengths=False) from problem
+
+    return _read(text, argument, bounds, number, lengths=False)
+
+
+def _read(
+    text: str,
+    argument: str,
+    bounds: tuple[float, float],
+    read: Callable[[str], float],
+    *,
+    lengths: bool,
+) -> Measured:
+    stripped = text.strip()
+    spread, span = _PLUS_MINUS.fullmatch(stripped), _RANGE.fullmatch(stripped)
+    found = spread or span
+    if found is None:
+        raise _unreadable(argument, text, lengths=lengths)
+    parts = [part.strip() for part in found.groups()]
+    unit = _UNIT.search(parts[1])
+    if lengths and unit is not None and _UNIT.search(parts[0]) is None:
+        parts[0] += f" {unit[0]}"  # 5 ± 1 mm
+    if spread and parts[1].endswith("%"):
+        raise BadInput(argument, text, "an uncertainty in its own unit", EXAMPLE[lengths])
+    first, second = (read(part) for part in parts)
+    low, high = bounds
+    shown = [format_length(bound) if lengths else f"{bound:g}" for bound in bounds]
+    allowed = f"from {shown[0]} to {shown[1]}"
+    require(low <= first <= high, argument, text, allowed)
+    if spread:
+        require(0.0 <= second <= high, argument, text, "with an uncertainty of 0 or more")
+        return Measured(first, second, low, high)
+    require(first <= second <= high, argument, text, f"a rising range {allowed}")
+    return Measured((first + second) / 2.0, None, first, second)
+
+
+def _unreadable(argument: str, text: str, *, lengths: bool) -> BadInput:
+    what = "a length with its uncertainty" if lengths else "a number with its uncertainty"
+    remedy = f"write it like {EXAMPLE[lengths]}; '± 0' where it is exact"
+    return BadInput(argument, text, what, remedy)

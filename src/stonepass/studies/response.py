@@ -1,0 +1,266 @@
+"""Critical pressure as a smooth function of sizes, wall, friction and load, from some solves.
+
+ln(P_ucr/(μ P_end)) varies little: P_end is the far field at a tube as wide as the stone (where the
+paper's closure ends), and near μ = 0 P_ucr grows with μ. Between the solves it is a cubic
+radial-basis interpolant over √(ξ/ξ_lumen − 1), ln(η − 1), √μ and the load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.interpolate import RBFInterpolator
+from scipy.optimize import elementwise
+from scipy.stats import qmc
+
+from stonepass.errors import Outcome
+from stonepass.model.answer import Answer
+from stonepass.model.case import Case, Load, Stone, Ureter
+from stonepass.model.far_field import (
+    SMALLEST_LUMEN,
+    confining_traction,
+    far_field_law,
+    inflation,
+)
+from stonepass.studies.jobs import Solver
+from stonepass.units import Pressure
+
+__all__ = ["Conditions", "ResponseSurface", "lumen_ratios", "response_surface", "transmural"]
+
+OVERSIZE = (0.005, 0.8)  # of the lumen, over which the surface is built
+SMALLEST_FRICTION = 0.01
+SEED = 7  # of the design
+SCATTERED = {1: 8, 2: 16, 3: 32, 4: 64}  # points beside corners and centres of faces, by dimension
+TAILS = (0.002, 0.998)  # of walls, frictions and loads, between which the surface is built
+NARROW = 1e-9  # a range that counts as one value
+FEWEST = 0.7  # of the solves must have an answer
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Many cases: size ratio ξ, wall ratio η, friction, and a factor on the confining pressure."""
+
+    size_ratio: Float[np.ndarray, " n"]
+    wall_ratio: Float[np.ndarray, " n"]
+    friction: Float[np.ndarray, " n"]
+    load_factor: Float[np.ndarray, " n"]
+
+
+def transmural(
+    case: Case, inner_ratio: Float[np.ndarray, " n"], wall_ratio: Float[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"]:
+    """Pressure in Pa across walls widened to r_a/R_a, by the far field of the case's method."""
+    law = far_field_law(case)
+    return np.asarray(inflation(inner_ratio, wall_ratio, law, case.load.prestretch))
+
+
+def lumen_ratios(
+    case: Case, wall_ratio: Float[np.ndarray, " n"], load_factor: Float[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"]:
+    """r_a/R_a that the load leaves open in many walls; NaN where it closes them."""
+    load, law = case.load, case.ureter.material.law
+    if load.confining_pressure == 0.0 and load.prestretch == 1.0:
+        return np.ones(len(wall_ratio))
+
+    def urine(ratio: np.ndarray, eta: np.ndarray, factor: np.ndarray) -> np.ndarray:
+        across = inflation(ratio, eta, law, load.prestretch)
+        return np.asarray(across + factor * confining_traction(ratio, eta, load))
+
+    widest = 1.2 / np.sqrt(load.prestretch)
+    ends = (np.full(len(wall_ratio), SMALLEST_LUMEN), np.full(len(wall_ratio), widest))
+    found = elementwise.find_root(urine, ends, args=(wall_ratio, load_factor))
+    return np.where(found.success, found.x, np.nan)
+
+
+@dataclass(frozen=True)
+class ResponseSurface:
+    """What was solved, and the interpolant through it.
+
+    Attributes
+    ----------
+    case : Case
+        Material, load, method and shape of all of it.
+    solved : Conditions
+    pressure : array (n)
+        P_ucr in Pa of what was solved; where the closure ended first, its end.
+    tried : int
+        How many cases were solved, those without an answer included.
+    """
+
+    case: Case
+    solved: Conditions
+    pressure: Float[np.ndarray, " n"]
+    tried: int
+
+    def __call__(self, asked: Conditions) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
+        """P_ucr in Pa, and where that is only a lower bound.
+
+        0 for a stone that is no larger than the lumen. Above the sizes that were solved, and where
+        the paper's closure ends first, P_ucr is at least what is returned; where the load closes
+        the lumen, nothing more than 0 is known.
+        """
+        lumen = lumen_ratios(self.case, asked.wall_ratio, asked.load_factor)
+        closed = ~np.isfinite(lumen)
+        lumen = np.where(closed, 1.0, lumen)
+        over = asked.size_ratio / lumen - 1.0
+        top = self._top
+        held = np.clip(over, 0.0, top)
+        at = replace(asked, size_ratio=lumen * (1.0 + np.clip(held, OVERSIZE[0], None)))
+        end = self._end(at)
+        friction = np.maximum(asked.friction, SMALLEST_FRICTION)
+        near = self._coordinates(replace(at, friction=friction))
+        found = np.exp(self._interpolant(near)) * asked.friction * end
+        # Below the smallest size that was solved it falls in proportion to the oversize.
+        found *= np.minimum(held / OVERSIZE[0], 1.0)
+        bound = over > top
+        if self.case.method.model == "paper":
+            bound |= found >= end
+            found = np.minimum(found, end)
+        stuck = (over > 0.0) & ~closed
+        return np.where(stuck, found, 0.0), (bound & stuck) | closed
+
+    @cached_property
+    def errors(self) -> Float[np.ndarray, " n"]:
+        """Relative error at each solved case of the surface through all others."""
+        coordinates, values = self._coordinates(self.solved), self._values
+        off = np.empty(len(values))
+        for k in range(len(values)):
+            others = np.arange(len(values)) != k
+            off[k] = _interpolant(coordinates[others], values[others])(coordinates[k : k + 1])[0]
+        return np.abs(np.expm1(off - values))
+
+    @cached_property
+    def _top(self) -> float:
+        """The largest oversize of the lumen that was solved."""
+        lumen = lumen_ratios(self.case, self.solved.wall_ratio, self.solved.load_factor)
+        return float((self.solved.size_ratio / lumen - 1.0).max())
+
+    @cached_property
+    def _values(self) -> Float[np.ndarray, " n"]:
+        return np.log(self.pressure / (self.solved.friction * self._end(self.solved)))
+
+    def _end(self, at: Conditions) -> Float[np.ndarray, " n"]:
+        """Far field in a tube as wide as the stone."""
+        traction = confining_traction(at.size_ratio, at.wall_ratio, self.case.load)
+        across = transmural(self.case, at.size_ratio, at.wall_ratio)
+        return across + at.load_factor * np.asarray(traction)
+
+    @cached_property
+    def _interpolant(self) -> RBFInterpolator:
+        return _interpolant(self._coordinates(self.solved), self._values)
+
+    def _coordinates(self, at: Conditions) -> Float[np.ndarray, "n d"]:
+        """In units of the solved range and held to it; what does not vary is left out."""
+        low, high = self._range
+        varying = high - low > NARROW
+        scaled = (_raw(self.case, at) - low)[:, varying] / (high - low)[varying]
+        return np.clip(scaled, 0.0, 1.0)
+
+    @cached_property
+    def _range(self) -> tuple[Float[np.ndarray, " d"], Float[np.ndarray, " d"]]:
+        raw = _raw(self.case, self.solved)
+        return raw.min(axis=0), raw.max(axis=0)
+
+
+def response_surface(case: Case, over: Conditions, solver: Solver) -> ResponseSurface | None:
+    """Solve enough of the cases that `over` spans for a surface over all of them.
+
+    Sizes are taken from the lumen up to `OVERSIZE` beyond it, whatever `over` has of them. None
+    where more than three in ten have no answer.
+    """
+    quick = replace(case, method=replace(case.method, accuracy="fast"))
+    design = _design(case, over)
+    cases = [_case(quick, design, k) for k in range(len(design.friction))]
+    answers = solver.answers(cases, error=False)
+    pressures = np.array([_pressure(answer) for answer in answers])
+    known = np.isfinite(pressures) & (pressures > 0.0)
+    if known.mean() < FEWEST:
+        return None
+    solved = Conditions(
+        design.size_ratio[known],
+        design.wall_ratio[known],
+        design.friction[known],
+        design.load_factor[known],
+    )
+    return ResponseSurface(case, solved, pressures[known], len(cases))
+
+
+def _pressure(answer: Answer) -> float:
+    if answer.outcome is Outcome.BEYOND_CLOSURE and answer.closure_end_pressure is not None:
+        return answer.closure_end_pressure
+    return np.nan if answer.pressure is None else answer.pressure
+
+
+def _case(case: Case, at: Conditions, k: int) -> Case:
+    load = Load(
+        Pressure(at.load_factor[k] * case.load.confining_pressure),
+        case.load.confinement,
+        case.load.prestretch,
+    )
+    stone = Stone(None, float(at.friction[k]), float(at.size_ratio[k]), shape=case.stone.shape)
+    ureter = Ureter(material=case.ureter.material, wall_ratio=float(at.wall_ratio[k]))
+    return Case(stone, ureter, load, case.method)
+
+
+def _raw(case: Case, at: Conditions) -> Float[np.ndarray, "n 4"]:
+    lumen = lumen_ratios(case, at.wall_ratio, at.load_factor)
+    over = np.clip(at.size_ratio / lumen - 1.0, 0.0, None)
+    return np.stack(
+        [
+            np.sqrt(over),
+            np.log(at.wall_ratio - 1.0),
+            np.sqrt(at.friction),
+            at.load_factor if case.load.confining_pressure > 0.0 else 0.0 * at.load_factor,
+        ],
+        axis=1,
+    )
+
+
+def _design(case: Case, over: Conditions) -> Conditions:
+    """Corners, centres of faces and scattered points of the box round `over`."""
+    friction = np.maximum(over.friction, SMALLEST_FRICTION)
+    factor = over.load_factor if case.load.confining_pressure > 0.0 else np.ones(1)
+    spans = [
+        np.sqrt(np.array(OVERSIZE)),
+        _span(np.log(over.wall_ratio - 1.0)),
+        _span(np.sqrt(friction)),
+        _span(factor),
+    ]
+    varying = [k for k, span in enumerate(spans) if span[1] - span[0] > NARROW]
+    unit = _unit_points(len(varying))
+    points = np.array([np.full(len(unit), span[0]) for span in spans]).T
+    for column, k in enumerate(varying):
+        points[:, k] = spans[k][0] + unit[:, column] * (spans[k][1] - spans[k][0])
+    wall = 1.0 + np.exp(points[:, 1])
+    lumen = lumen_ratios(case, wall, points[:, 3])
+    known = np.isfinite(lumen)
+    return Conditions(
+        (lumen * (1.0 + points[:, 0] ** 2))[known],
+        wall[known],
+        (points[:, 2] ** 2)[known],
+        points[:, 3][known],
+    )
+
+
+def _span(values: Float[np.ndarray, " n"]) -> Float[np.ndarray, "2"]:
+    return np.quantile(values, TAILS)
+
+
+def _unit_points(dimensions: int) -> Float[np.ndarray, "n d"]:
+    corners = np.array(list(product((0.0, 1.0), repeat=dimensions)))
+    centres = np.full((2 * dimensions, dimensions), 0.5)
+    for k in range(dimensions):
+        centres[2 * k, k], centres[2 * k + 1, k] = 0.0, 1.0
+    engine = qmc.Sobol(dimensions, seed=SEED)
+    scattered = engine.random(SCATTERED[dimensions])
+    return np.unique(np.concatenate([corners, centres, scattered]), axis=0)
+
+
+def _interpolant(
+    coordinates: Float[np.ndarray, "n d"], values: Float[np.ndarray, " n"]
+) -> RBFInterpolator:
+    return RBFInterpolator(coordinates, values, kernel="cubic", degree=1)

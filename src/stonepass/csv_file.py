@@ -38,9 +38,9 @@ def read_columns(
     ------
     BadInput
         Naming the file, and row and column where one is at fault: a missing file, one larger than
-        10 MB, of more than 100 000 rows or not of text, a column that is missing, unknown (with the nearest known one) or
-        there twice, a row of another length or the same as an earlier one, a cell that is no finite
-        number or out of bounds or none of the words, no rows at all.
+        10 MB, of more than 100 000 rows or not of text, a column that is missing, unknown (with the
+        nearest known one) or there twice, a row of another length or the same as an earlier one, a
+        cell that is no finite number or out of bounds or none of the words, no rows at all.
     """
     rows = _rows(path)
     if not rows:

@@ -21,7 +21,7 @@ WIDEST = 10.0  # mm, of the axis
 
 def pressures_figure(found: Assessment) -> Figure:
     """Share of the samples whose P_ucr is below a pressure, with limits and the present P_u."""
-    figure = new_figure(7.2, 3.1)
+    figure = new_figure(7.2, 2.8)
     axes = figure.add_subplot()
     samples, limit = found.samples, found.person.limit
     assert samples is not None
@@ -46,7 +46,7 @@ def pressures_figure(found: Assessment) -> Figure:
                   label="present pressure is above")  # fmt: skip
     axes.set(xlabel="urine pressure (kPa)", ylabel="share of samples (%)", ylim=(0, 101),
              xlim=(0, highest / 1e3))  # fmt: skip
-    axes.legend(fontsize=8, loc="lower right")
+    figure.legend(fontsize=8, loc="outside right upper")
     tidy(axes)
     return figure
 

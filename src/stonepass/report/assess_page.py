@@ -27,7 +27,8 @@ p.band { background: #fef3c7; padding: .4rem .7rem; border-radius: .3rem; font-w
 .card { border: 1px solid #e5e7eb; border-radius: .5rem; padding: .5rem .8rem; }
 .card b { display: block; font-size: 1.35rem; line-height: 1.3; } .card span { color: #4b5563;
   font-size: .85rem; }
-.who { width: 42%; } .off { color: #b54708; font-weight: 600; } .about { color: #4b5563; font-size: .9em; }
+.who { width: 42%; } .off { color: #b54708; font-weight: 600; }
+.about { color: #4b5563; font-size: .9em; }
 ul { padding-left: 1.1rem; margin: .3rem 0; font-size: .88rem; }
 .inputs { columns: 2; column-gap: 2rem; font-size: .88rem; margin: .3rem 0; padding: 0;
   list-style: none; }
@@ -41,7 +42,7 @@ ul { padding-left: 1.1rem; margin: .3rem 0; font-size: .88rem; }
   .cards { grid-template-columns: repeat(5, 1fr); gap: .4rem; } .card { padding: .3rem .5rem; }
   .card b { font-size: 11.5pt; } .card span { font-size: 7.8pt; display: block; line-height: 1.25; }
   .second { break-before: page; } img, table, .card { break-inside: avoid; }
-  img { width: 92%; margin: 0 auto; } .second img { width: 84%; }
+  img { width: 84%; margin: 0 auto; }
 }
 """
 

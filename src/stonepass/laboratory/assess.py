@@ -23,6 +23,7 @@ from stonepass.model.case import WALL_RATIO
 from stonepass.model.far_field import confining_traction
 from stonepass.studies.jobs import Solver
 from stonepass.studies.response import (
+    OVERSIZE,
     Conditions,
     ResponseSurface,
     lumen_ratios,
@@ -43,11 +44,11 @@ __all__ = [
 ]
 
 INTERVAL = (0.05, 0.5, 0.95)
+WIDEST = 1.0 + OVERSIZE[1]  # opening beyond which the present pressure is only known to exceed it
 FEWEST = 100  # samples that are possible
 DRIVERS_SAMPLES = 1024
 SIZES = np.concatenate([np.arange(1.0, 10.01, 0.5)])  # mm, of shares by size
 NOT_OF_RESISTANCE = ("dilated_inner_diameter", "dilated_outer_diameter")
-NO_SURFACE = "too few of the cases that the inputs span have an answer"
 LARGE_ERROR = 0.05
 SMALL_SHARE = 0.005  # not worth a sentence
 FEW_KEPT = 0.5
@@ -88,19 +89,28 @@ class Driver:
 
 @dataclass(frozen=True)
 class Samples:
-    """The possible ways to be: pressures in Pa, and where P_ucr is only a lower bound."""
+    """The possible ways to be: pressures in Pa, and where they are only lower bounds."""
 
     critical: Float[np.ndarray, " n"]
     bound: Bool[np.ndarray, " n"]
     present: Float[np.ndarray, " n"] | None
+    present_bound: Bool[np.ndarray, " n"] | None
     loose: Bool[np.ndarray, " n"]
     size_ratio: Float[np.ndarray, " n"]
     opening: Float[np.ndarray, " n"] | None
 
-    def below(self, pressure: float | Float[np.ndarray, " n"]) -> Share:
+    def below(self, pressure: float) -> Share:
         """The share with P_ucr below a pressure."""
         less = self.critical < pressure
         return Share(float(np.mean(less & ~self.bound)), float(np.mean(less)))
+
+    def below_present(self) -> Share | None:
+        """The share with P_ucr below the present pressure."""
+        if self.present is None or self.present_bound is None:
+            return None
+        less = self.critical < self.present
+        possible = less | self.present_bound
+        return Share(float(np.mean(less & ~self.bound)), float(np.mean(possible)))
 
 
 @dataclass(frozen=True)
@@ -203,12 +213,17 @@ def assess(person: Person, solver: Solver | None = None) -> Assessment:
     at_values = solver.answers([case])[0]
     cohorts = _cohorts(person)
     surface = response_surface(case, _conditions(person, drawn), solver)
-    if surface is None:
-        message = f"{Outcome.NO_SOLUTION.value[:-1]}: {NO_SURFACE}."
-        return Assessment(person, Outcome.NO_SOLUTION, message, at_values, cohorts, kept=kept)
+    if not surface.usable:
+        message = (
+            f"{Outcome.NO_SOLUTION.value[:-1]} for {len(surface.lost.friction)} of "
+            f"{surface.tried} cases that the inputs span, in most of them since: {surface.reason}"
+        )
+        return Assessment(
+            person, Outcome.NO_SOLUTION, message, at_values, cohorts, kept=kept,
+            solves=surface.tried + 1,
+        )  # fmt: skip
     samples = _samples(person, surface, drawn)
     error = float(np.quantile(surface.errors, 0.95))
-    below_present = None if samples.present is None else samples.below(samples.present)
     assessment = Assessment(
         person=person,
         outcome=Outcome.MOVES,
@@ -216,9 +231,9 @@ def assess(person: Person, solver: Solver | None = None) -> Assessment:
         at_values=at_values,
         cohorts=cohorts,
         critical=_range(samples.critical, samples.bound),
-        present=None if samples.present is None else _range(samples.present),
+        present=None if samples.present is None else _range(samples.present, samples.present_bound),
         below_limit=samples.below(person.limit),
-        below_present=below_present,
+        below_present=samples.below_present(),
         loose=float(np.mean(samples.loose)),
         drivers=_drivers(person, surface, samples),
         by_size=_by_size(person, surface, drawn),
@@ -303,16 +318,18 @@ def _critical(
 def _samples(person: Person, surface: ResponseSurface, drawn: Draws) -> Samples:
     critical, bound = _critical(person, surface, drawn)
     at = _conditions(person, drawn)
-    present, opening = None, None
+    present, wide, opening = None, None, None
     if person.dilated:
         opening = drawn["dilated_inner_diameter"] / drawn["inner_diameter"]
-        across = drawn["stiffness"] * transmural(surface.case, opening, at.wall_ratio)
-        outside = np.asarray(confining_traction(opening, at.wall_ratio, person.load))
+        wide = opening > WIDEST
+        held = np.minimum(opening, WIDEST)
+        across = drawn["stiffness"] * transmural(surface.case, held, at.wall_ratio)
+        outside = np.asarray(confining_traction(held, at.wall_ratio, person.load))
         # No lower than what keeps the tube open: a narrower one was not measured, but misread.
         present = np.maximum(across, 0.0) + outside
     lumen = lumen_ratios(surface.case, at.wall_ratio, at.load_factor)
     loose = at.size_ratio <= lumen
-    return Samples(critical, bound, present, loose, at.size_ratio, opening)
+    return Samples(critical, bound, present, wide, loose, at.size_ratio, opening)
 
 
 def _range(values: Float[np.ndarray, " n"], bound: Bool[np.ndarray, " n"] | None = None) -> Range:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float
-from scipy.stats import truncnorm, uniform
+from scipy.stats import lognorm, truncnorm, uniform
 
 from stonepass.errors import BadInput, require
 from stonepass.units import format_length, length
@@ -32,15 +32,18 @@ class Measured:
     value : float
         The measured value; the middle of a range.
     sd : float or None
-        Standard deviation of a normal error; 0 for an exact number, None for a range.
+        Standard deviation of its error; 0 for an exact number, None for a range.
     low, high : float
-        What is possible: the range itself, or bounds that cut the normal distribution off.
+        What is possible: the range itself, or bounds that cut the distribution off.
+    factor : bool
+        Whether it multiplies: then it is lognormal with `value` as its median, else normal.
     """
 
     value: float
     sd: float | None
     low: float
     high: float
+    factor: bool = False
 
     @property
     def exact(self) -> bool:
@@ -52,6 +55,8 @@ class Measured:
         """As a frozen distribution of `scipy.stats`; not for an exact number."""
         if self.sd is None:
             return uniform(self.low, self.high - self.low)
+        if self.factor:
+            return lognorm(np.sqrt(np.log1p((self.sd / self.value) ** 2)), scale=self.value)
         ends = [(end - self.value) / self.sd for end in (self.low, self.high)]
         first, last = np.clip(ends, -FARTHEST, FARTHEST)
         return truncnorm(first, last, loc=self.value, scale=self.sd)
@@ -60,7 +65,7 @@ class Measured:
         """Quantiles: the numbers below which shares of it lie."""
         if self.exact:
             return np.full(len(share), self.value)
-        return np.asarray(self.distribution.ppf(share))
+        return np.clip(self.distribution.ppf(share), self.low, self.high)
 
     def told(self, scale: float = 1.0, unit: str = "") -> str:
         """In words, over `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
@@ -83,8 +88,13 @@ def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Me
     return _read(text, argument, bounds, lambda part: float(length(part, argument)), lengths=True)
 
 
-def measured_number(text: str, argument: str, bounds: tuple[float, float]) -> Measured:
-    """Read a number without unit and its uncertainty; ``±`` is one standard deviation."""
+def measured_number(
+    text: str, argument: str, bounds: tuple[float, float], *, factor: bool = False
+) -> Measured:
+    """Read a number without unit and its uncertainty; ``±`` is one standard deviation.
+
+    With `factor` it is one that multiplies, such as a stiffness (see `Measured`).
+    """
 
     def number(part: str) -> float:
         try:
@@ -92,7 +102,8 @@ def measured_number(text: str, argument: str, bounds: tuple[float, float]) -> Me
         except ValueError as problem:
             raise _unreadable(argument, text, lengths=False) from problem
 
-    return _read(text, argument, bounds, number, lengths=False)
+    found = _read(text, argument, bounds, number, lengths=False)
+    return replace(found, factor=factor)
 
 
 def _read(

@@ -184,7 +184,7 @@ def _person(parsed: _PersonFile, folder: Path) -> Person:
         if text is not None
     }
     measured["friction"] = measured_number(stone.friction, "friction", FRICTION)
-    measured["stiffness"] = measured_number(ureter.stiffness, "stiffness", STIFFNESS)
+    measured["stiffness"] = measured_number(ureter.stiffness, "stiffness", STIFFNESS, factor=True)
     _check(measured)
     if stone.place is not None and stone.place not in PLACES:
         refuse_unknown("place", stone.place, list(PLACES))

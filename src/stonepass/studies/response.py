@@ -7,6 +7,7 @@ radial-basis interpolant over √(ξ/ξ_lumen − 1), ln(η − 1), √μ and th
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -15,6 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.interpolate import RBFInterpolator
 from scipy.optimize import elementwise
+from scipy.spatial import KDTree
 from scipy.stats import qmc
 
 from stonepass.errors import Outcome
@@ -29,7 +31,14 @@ from stonepass.model.far_field import (
 from stonepass.studies.jobs import Solver
 from stonepass.units import Pressure
 
-__all__ = ["Conditions", "ResponseSurface", "lumen_ratios", "response_surface", "transmural"]
+__all__ = [
+    "OVERSIZE",
+    "Conditions",
+    "ResponseSurface",
+    "lumen_ratios",
+    "response_surface",
+    "transmural",
+]
 
 OVERSIZE = (0.005, 0.8)  # of the lumen, over which the surface is built
 SMALLEST_FRICTION = 0.01
@@ -37,7 +46,7 @@ SEED = 7  # of the design
 SCATTERED = {1: 8, 2: 16, 3: 32, 4: 64}  # points beside corners and centres of faces, by dimension
 TAILS = (0.002, 0.998)  # of walls, frictions and loads, between which the surface is built
 NARROW = 1e-9  # a range that counts as one value
-FEWEST = 0.7  # of the solves must have an answer
+FEWEST = 0.5  # of the solves must have an answer
 
 
 @dataclass(frozen=True)
@@ -48,6 +57,15 @@ class Conditions:
     wall_ratio: Float[np.ndarray, " n"]
     friction: Float[np.ndarray, " n"]
     load_factor: Float[np.ndarray, " n"]
+
+    def where(self, chosen: Bool[np.ndarray, " n"]) -> Conditions:
+        """Some of them."""
+        return Conditions(
+            self.size_ratio[chosen],
+            self.wall_ratio[chosen],
+            self.friction[chosen],
+            self.load_factor[chosen],
+        )
 
 
 def transmural(
@@ -87,21 +105,34 @@ class ResponseSurface:
     solved : Conditions
     pressure : array (n)
         P_ucr in Pa of what was solved; where the closure ended first, its end.
-    tried : int
-        How many cases were solved, those without an answer included.
+    lost : Conditions
+        What was tried and has no answer.
+    reason : str
+        What most of those say; empty where there are none.
     """
 
     case: Case
     solved: Conditions
     pressure: Float[np.ndarray, " n"]
-    tried: int
+    lost: Conditions
+    reason: str
+
+    @property
+    def tried(self) -> int:
+        """How many cases were solved, those without an answer included."""
+        return len(self.pressure) + len(self.lost.friction)
+
+    @property
+    def usable(self) -> bool:
+        """Whether enough of them have an answer."""
+        return len(self.pressure) >= FEWEST * self.tried
 
     def __call__(self, asked: Conditions) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
         """P_ucr in Pa, and where that is only a lower bound.
 
         0 for a stone that is no larger than the lumen. Above the sizes that were solved, and where
         the paper's closure ends first, P_ucr is at least what is returned; where the load closes
-        the lumen, nothing more than 0 is known.
+        the lumen, or the nearest case that was tried has no answer, no more than 0 is known.
         """
         lumen = lumen_ratios(self.case, asked.wall_ratio, asked.load_factor)
         closed = ~np.isfinite(lumen)
@@ -120,8 +151,9 @@ class ResponseSurface:
         if self.case.method.model == "paper":
             bound |= found >= end
             found = np.minimum(found, end)
-        stuck = (over > 0.0) & ~closed
-        return np.where(stuck, found, 0.0), (bound & stuck) | closed
+        unknown = closed | ((over > 0.0) & self._lost(near))
+        stuck = (over > 0.0) & ~unknown
+        return np.where(stuck, found, 0.0), (bound & stuck) | unknown
 
     @cached_property
     def errors(self) -> Float[np.ndarray, " n"]:
@@ -132,6 +164,14 @@ class ResponseSurface:
             others = np.arange(len(values)) != k
             off[k] = _interpolant(coordinates[others], values[others])(coordinates[k : k + 1])[0]
         return np.abs(np.expm1(off - values))
+
+    def _lost(self, near: Float[np.ndarray, "n d"]) -> Bool[np.ndarray, " n"]:
+        """Where the nearest case that was tried has no answer."""
+        if len(self.lost.friction) == 0:
+            return np.zeros(len(near), dtype=bool)
+        with_answer, _ = KDTree(self._coordinates(self.solved)).query(near)
+        without, _ = KDTree(self._coordinates(self.lost)).query(near)
+        return without < with_answer
 
     @cached_property
     def _top(self) -> float:
@@ -166,11 +206,10 @@ class ResponseSurface:
         return raw.min(axis=0), raw.max(axis=0)
 
 
-def response_surface(case: Case, over: Conditions, solver: Solver) -> ResponseSurface | None:
+def response_surface(case: Case, over: Conditions, solver: Solver) -> ResponseSurface:
     """Solve enough of the cases that `over` spans for a surface over all of them.
 
-    Sizes are taken from the lumen up to `OVERSIZE` beyond it, whatever `over` has of them. None
-    where more than three in ten have no answer.
+    Sizes are taken from the lumen up to `OVERSIZE` beyond it, whatever `over` has of them.
     """
     quick = replace(case, method=replace(case.method, accuracy="fast"))
     design = _design(case, over)
@@ -178,15 +217,14 @@ def response_surface(case: Case, over: Conditions, solver: Solver) -> ResponseSu
     answers = solver.answers(cases, error=False)
     pressures = np.array([_pressure(answer) for answer in answers])
     known = np.isfinite(pressures) & (pressures > 0.0)
-    if known.mean() < FEWEST:
-        return None
-    solved = Conditions(
-        design.size_ratio[known],
-        design.wall_ratio[known],
-        design.friction[known],
-        design.load_factor[known],
+    reasons = Counter(a.message for a, k in zip(answers, known, strict=True) if not k)
+    return ResponseSurface(
+        case,
+        design.where(known),
+        pressures[known],
+        design.where(~known),
+        reasons.most_common(1)[0][0] if reasons else "",
     )
-    return ResponseSurface(case, solved, pressures[known], len(cases))
 
 
 def _pressure(answer: Answer) -> float:
@@ -237,13 +275,8 @@ def _design(case: Case, over: Conditions) -> Conditions:
         points[:, k] = spans[k][0] + unit[:, column] * (spans[k][1] - spans[k][0])
     wall = 1.0 + np.exp(points[:, 1])
     lumen = lumen_ratios(case, wall, points[:, 3])
-    known = np.isfinite(lumen)
-    return Conditions(
-        (lumen * (1.0 + points[:, 0] ** 2))[known],
-        wall[known],
-        (points[:, 2] ** 2)[known],
-        points[:, 3][known],
-    )
+    size = lumen * (1.0 + points[:, 0] ** 2)
+    return Conditions(size, wall, points[:, 2] ** 2, points[:, 3]).where(np.isfinite(lumen))
 
 
 def _span(values: Float[np.ndarray, " n"]) -> Float[np.ndarray, "2"]:

@@ -50,7 +50,8 @@ def test_example_runs(path, capsys, tmp_path, monkeypatch):
     if path.name in COMMANDS:
         assert run([part.format(path) for part in COMMANDS[path.name]]) == 0
     elif path.suffix == ".toml" and "[stone]" in path.read_text():
-        assert run(["pressure", str(path)]) == 0
+        command = "assess" if "[assessment]" in path.read_text() else "pressure"
+        assert run([command, str(path)]) == 0
     elif path.suffix == ".toml" or "def energy" in path.read_text():
         law = str(path) if path.suffix == ".toml" else f"{path}:energy"
         assert run(["material", "check", law]) == 0

@@ -44,14 +44,14 @@ def command(
     from stonepass.laboratory.person import read_person
     from stonepass.report.assess_report import CAUTION, assess_record, assess_tables
     from stonepass.report.record import DISCLAIMER
-    from stonepass.studies.jobs import Solver
+    from stonepass.studies.jobs import PooledSolver
 
     person = read_person(case_file)
     if limit is not None:
         person = person.with_limit(limit)
     with counting("solving") as progress:
         count = workers or os.cpu_count() or 1
-        found = assess(person, Solver(cache_folder(cache, no_cache), count, progress))
+        found = assess(person, PooledSolver(cache_folder(cache, no_cache), count, progress))
     if html is not None:
         from stonepass.report.assess_page import write_assessment
 

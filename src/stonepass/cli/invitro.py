@@ -64,7 +64,7 @@ def command(
         write_invitro,
     )
     from stonepass.report.record import DISCLAIMER
-    from stonepass.studies.jobs import Solver
+    from stonepass.studies.jobs import PooledSolver
 
     if friction is not None:
         Stone(size_ratio=1.0, friction=friction)  # refused before the work where it is none
@@ -73,7 +73,7 @@ def command(
     points = read_points(data)
     with counting("solving") as progress:
         count = workers or os.cpu_count() or 1
-        solver = Solver(cache_folder(cache, no_cache), count, progress)
+        solver = PooledSolver(cache_folder(cache, no_cache), count, progress)
         found = fit_friction(points, setting, friction, solver)
         curves = [] if figure is None else size_curves(found.comparison, setting, solver)
     if out is not None:

@@ -8,7 +8,7 @@ answer is an interval and a share, never a verdict (model: section 12).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -21,7 +21,7 @@ from stonepass.materials.stability import check
 from stonepass.model.answer import Answer
 from stonepass.model.case import WALL_RATIO
 from stonepass.model.far_field import confining_traction
-from stonepass.studies.jobs import Solver
+from stonepass.studies.jobs import PooledSolver, Solver
 from stonepass.studies.response import (
     OVERSIZE,
     Conditions,
@@ -45,6 +45,7 @@ __all__ = [
 
 INTERVAL = (0.05, 0.5, 0.95)
 WIDEST = 1.0 + OVERSIZE[1]  # opening beyond which the present pressure is only known to exceed it
+MORE_DRAWS = (0, 2, 4, 6)  # powers of two over the samples asked for
 FEWEST = 100  # samples that are possible
 DRIVERS_SAMPLES = 1024
 SIZES = np.concatenate([np.arange(1.0, 10.01, 0.5)])  # mm, of shares by size
@@ -206,13 +207,14 @@ def assess(person: Person, solver: Solver | None = None) -> Assessment:
     BadInput
         An unstable material, or measurements that hardly any wall could have together.
     """
-    solver = solver or Solver()
+    solver = solver or PooledSolver()
     check(person.material)
     case = person.case()
     drawn, kept = _drawn(person)
     at_values = solver.answers([case])[0]
     cohorts = _cohorts(person)
-    surface = response_surface(case, _conditions(person, drawn), solver)
+    under_load = replace(case, load=person.load)  # each sample divides it by its own stiffness
+    surface = response_surface(under_load, _conditions(person, drawn), solver)
     if not surface.usable:
         message = (
             f"{Outcome.NO_SOLUTION.value[:-1]} for {len(surface.lost.friction)} of "
@@ -250,23 +252,18 @@ def _drawn(person: Person) -> tuple[Draws, float]:
     """Draws of every input that a wall could have, and which share of all draws they are.
 
     With both diameters of the dilated segment, draws are kept in proportion to how well the outer
-    one meets the volume of the wall.
+    one meets the volume of the wall. Where few are kept more are drawn.
     """
     names = list(person.measured)
-    engine = qmc.Sobol(len(names) + 1, seed=person.seed)
-    power = int(np.ceil(np.log2(person.samples)))
-    unit = engine.random_base2(power)[: person.samples]
     tiny = np.finfo(float).eps
-    drawn = {
-        name: person.measured[name].drawn(np.clip(unit[:, k], tiny, 1.0 - tiny))
-        for k, name in enumerate(names)
-    }
-    wall = _wall_ratio(drawn)
-    possible = (wall >= WALL_RATIO[0]) & (wall <= WALL_RATIO[1])
-    if "dilated_outer_diameter" in drawn:
-        chance = _agreement(person, drawn)
-        best = float(chance[possible].max(initial=0.0))
-        possible &= unit[:, -1] * max(best, tiny) < chance
+    power = int(np.ceil(np.log2(person.samples)))
+    for more in MORE_DRAWS:
+        engine = qmc.Sobol(len(names) + 1, seed=person.seed)
+        unit = np.clip(engine.random_base2(power + more), tiny, 1.0 - tiny)
+        drawn = {name: person.measured[name].drawn(unit[:, k]) for k, name in enumerate(names)}
+        possible = _possible(person, drawn, unit[:, -1])
+        if possible.sum() >= person.samples:
+            break
     if possible.sum() < FEWEST:
         raise BadInput(
             "diameters",
@@ -274,7 +271,18 @@ def _drawn(person: Person) -> tuple[Draws, float]:
             "such that a wall of constant volume may have them",
             "check them and their uncertainties",
         )
-    return {name: values[possible] for name, values in drawn.items()}, float(possible.mean())
+    kept = {name: values[possible][: person.samples] for name, values in drawn.items()}
+    return kept, float(possible.mean())
+
+
+def _possible(
+    person: Person, drawn: Draws, chance: Float[np.ndarray, " n"]
+) -> Bool[np.ndarray, " n"]:
+    wall = _wall_ratio(drawn)
+    possible = (wall >= WALL_RATIO[0]) & (wall <= WALL_RATIO[1])
+    if "dilated_outer_diameter" in drawn:
+        possible &= chance < _agreement(person, drawn)
+    return possible
 
 
 def _wall_ratio(drawn: Draws) -> Float[np.ndarray, " n"]:
@@ -285,7 +293,10 @@ def _wall_ratio(drawn: Draws) -> Float[np.ndarray, " n"]:
 
 
 def _agreement(person: Person, drawn: Draws) -> Float[np.ndarray, " n"]:
-    """How likely the measured outer diameter of the dilated segment is, by the wall's volume."""
+    """How likely the measured outer diameter of the dilated segment is, by the wall's volume.
+
+    Over the likelihood of a perfect agreement.
+    """
     inner = drawn["inner_diameter"]
     section = (_wall_ratio(drawn) ** 2 - 1.0) * inner**2 / person.load.prestretch
     outer = np.sqrt(drawn["dilated_inner_diameter"] ** 2 + section)
@@ -351,8 +362,8 @@ def _drivers(person: Person, surface: ResponseSurface, samples: Samples) -> tupl
         for name, each in person.measured.items()
         if not each.exact and name not in NOT_OF_RESISTANCE
     ]
-    if not names:
-        return ()
+    if len(names) < 2:
+        return tuple(Driver(INPUTS[name], 1.0) for name in names)
     ordered = np.sort(samples.critical)
     if ordered[0] == ordered[-1]:
         return ()

@@ -23,7 +23,7 @@ from stonepass.laboratory.least_squares import LEVEL, Interval, correlations, in
 from stonepass.model.answer import Answer
 from stonepass.model.case import FRICTION, Case
 from stonepass.model.points import Point
-from stonepass.studies.jobs import Solver
+from stonepass.studies.jobs import PooledSolver, Solver
 from stonepass.units import Values
 
 __all__ = ["LARGEST", "SMALLEST", "STIFFNESS", "Estimate", "InVitro", "JointFit", "fit_friction"]
@@ -124,7 +124,7 @@ def fit_friction(
     BadInput
         Fewer than two points that the model answers, or standard deviations of 0.
     """
-    library, solver = lmfit(), solver or Solver()
+    library, solver = lmfit(), solver or PooledSolver()
     weights, weighted = _weights(points)
     curves, lost = _curves(points, setting, solver)
     kept = [k for k, curve in enumerate(curves) if curve is not None]

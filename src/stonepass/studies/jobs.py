@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol, runtime_checkable
 
 from stonepass.folder import require_writable
 from stonepass.model.accuracy import LEVELS
@@ -17,7 +18,7 @@ from stonepass.studies.executor import can_travel, executor
 from stonepass.studies.store import Store
 from stonepass.units import Pressure
 
-__all__ = ["Job", "PressureJob", "Results", "SizeJob", "Solver", "run_jobs"]
+__all__ = ["Job", "PooledSolver", "PressureJob", "Results", "SizeJob", "Solver", "run_jobs"]
 
 
 @dataclass(frozen=True)
@@ -145,8 +146,16 @@ def _once(jobs: Iterable[Job]) -> list[Job]:
     ]
 
 
+@runtime_checkable
+class Solver(Protocol):
+    """Whoever answers many cases."""
+
+    def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
+        """The answer of every case; without `error` the estimate of it may be left out."""
+
+
 @dataclass(frozen=True)
-class Solver:
+class PooledSolver:
     """Where cases are solved: how many processes, what is remembered, who is told."""
 
     folder: Path | None = None

@@ -1,0 +1,367 @@
+"""A person's assessment: sampling, the response surface, shares, and what is said beside them."""
+
+import json
+import re
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from stonepass.cli import run
+from stonepass.errors import BadInput, Outcome
+from stonepass.laboratory.assess import FEWER, MORE, Share, assess, contradiction
+from stonepass.laboratory.cohorts import COHORTS, rows_for
+from stonepass.laboratory.limits import LIMITS, limit_told
+from stonepass.laboratory.measured import measured_length, measured_number
+from stonepass.laboratory.person import read_person
+from stonepass.model.accuracy import LEVELS
+from stonepass.model.answer import Answer
+from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.critical import solve
+from stonepass.model.far_field import inflation, lumen_ratio
+from stonepass.report.assess_figure import cohorts_figure, drivers_figure, pressures_figure
+from stonepass.report.assess_page import write_assessment
+from stonepass.report.assess_report import assess_record, range_told
+from stonepass.studies.jobs import PooledSolver
+from stonepass.studies.response import Conditions, lumen_ratios, response_surface
+from stonepass.units import Pressure
+
+PERSON = """
+[stone]
+diameter = "{stone}"
+friction = "{friction}"
+place = "distal"
+[ureter]
+inner_diameter = "{inner}"
+wall_thickness = "{wall}"
+stiffness = "{stiffness}"
+{dilated}
+[load]
+confining_pressure = "{confining}"
+[assessment]
+limit = "6 kPa"
+samples = 1024
+"""
+EXACT = {"stone": "4.2 mm ± 0 mm", "friction": "0.3 ± 0", "inner": "3.5 mm ± 0 mm",
+         "wall": "0.7 mm ± 0 mm", "stiffness": "1 ± 0", "dilated": "", "confining": "0 kPa"}  # fmt: skip
+
+
+def person(tmp_path, **given):
+    path = tmp_path / "someone.toml"
+    path.write_text(PERSON.format(**EXACT | given), encoding="utf-8")
+    return read_person(path)
+
+
+@dataclass(frozen=True)
+class MadeUp:
+    """A formula in place of the finite elements: P = E (ξ/lumen − 1) μ/(0.5 + μ) η + P_out."""
+
+    modulus: float = 1e5
+    thinnest: float = 0.0  # walls below it have no answer
+
+    def answers(self, cases, *, error=True):
+        return [self._answer(case) for case in cases]
+
+    def _answer(self, case):
+        mu, outside = case.stone.friction, float(case.load.confining_pressure)
+        lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+        over = case.size_ratio / lumen - 1.0
+        if over <= 0.0:
+            return Answer(case, Outcome.LOOSE, "", pressure=0.0)
+        if case.wall_ratio < self.thinnest:
+            return Answer(case, Outcome.NO_SOLUTION, "The wall buckles.")
+        pressure = self.modulus * over * case.wall_ratio * mu / (0.5 + mu)
+        return Answer(case, Outcome.MOVES, "", pressure=pressure + outside)
+
+
+def test_a_number_with_its_uncertainty():
+    bounds = (1e-5, 1.0)
+    for text in ("5 mm ± 1 mm", "5 ± 1 mm", "5mm +/- 1mm", "0.5 cm +- 1000 um"):
+        found = measured_length(text, "stone", bounds)
+        assert (found.value, found.sd) == (pytest.approx(5e-3), pytest.approx(1e-3)), text
+    span = measured_length("3 to 4 mm", "stone", bounds)
+    assert (span.low, span.high, span.sd) == (3e-3, 4e-3, None)
+    shares = np.array([0.0228, 0.5, 0.9772])
+    np.testing.assert_allclose(found.drawn(shares), [3e-3, 5e-3, 7e-3], rtol=1e-3)
+    np.testing.assert_allclose(span.drawn(shares), 3e-3 + 1e-3 * shares)
+    factor = measured_number("1 ± 0.3", "stiffness", (0.05, 20.0), factor=True)
+    low, middle, high = factor.drawn(shares)  # lognormal: the same factor up and down
+    assert middle == pytest.approx(1.0)
+    assert low * high == pytest.approx(1.0)
+    for text in (
+        "5 mm",
+        "5",
+        "5 ± 1",
+        "five ± 1 mm",
+        "5 mm ± 20 %",
+        "5 mm ± 1 kg",
+        "nan mm ± 1 mm",
+    ):
+        with pytest.raises(BadInput):
+            measured_length(text, "stone", bounds)
+    with pytest.raises(BadInput, match="write it like '5 mm ± 1 mm'"):
+        measured_length("5 mm", "stone", bounds)
+    with pytest.raises(BadInput, match="a rising range"):
+        measured_number("0.5 to 0.1", "friction", (0.0, 2.0))
+
+
+def test_exact_inputs_give_one_number(tmp_path):
+    found = assess(person(tmp_path), MadeUp())
+    exact = 1e5 * 0.2 * 1.4 * 0.3 / 0.8
+    assert found.central == pytest.approx(exact)
+    low, median, high = found.critical.low, found.critical.median, found.critical.high
+    assert low == median == high == pytest.approx(exact, rel=0.02)
+    assert found.drivers == ()
+    assert found.below_limit == Share(0.0, 0.0)
+
+
+def test_shares_are_those_of_a_plain_simulation(tmp_path):
+    """A million draws of the formula itself, without a surface."""
+    someone = person(tmp_path, stone="4.2 mm ± 0.5 mm", friction="0.1 to 0.5",
+                     inner="3.5 mm ± 0.3 mm", wall="0.7 mm ± 0.1 mm", stiffness="1 ± 0.3")  # fmt: skip
+    found = assess(someone, MadeUp(4e4))
+    generator = np.random.default_rng(3)
+    count = 1_000_000
+    inner = generator.normal(3.5, 0.3, count)
+    over = generator.normal(4.2, 0.5, count) / inner - 1.0
+    eta = 1.0 + 2.0 * generator.normal(0.7, 0.1, count) / inner
+    mu = generator.uniform(0.1, 0.5, count)
+    stiffness = np.exp(np.sqrt(np.log1p(0.09)) * generator.normal(size=count))
+    exact = np.maximum(4e4 * over * eta * mu / (0.5 + mu), 0.0) * stiffness
+    assert found.below_limit.low == found.below_limit.high
+    assert found.below_limit.low == pytest.approx(np.mean(exact < 6e3), abs=0.02)
+    assert found.loose == pytest.approx(np.mean(over <= 0.0), abs=0.015)
+    for ours, share in ((found.critical.median, 0.5), (found.critical.high, 0.95)):
+        assert ours == pytest.approx(np.quantile(exact, share), rel=0.06)
+    assert found.drivers[0].name == "stone diameter"
+    assert sum(driver.share for driver in found.drivers) > 0.9
+    again, other = (assess(replace(someone, seed=k), MadeUp(4e4)) for k in (1, 2))
+    assert again.critical == found.critical
+    assert other.critical != found.critical
+    assert other.below_limit.low == pytest.approx(found.below_limit.low, abs=0.03)
+
+
+def test_twice_as_stiff_needs_twice_the_pressure(tmp_path):
+    """Also under a load, by P_ucr(s w, P_out) = s P_ucr(w, P_out/s)."""
+    single = assess(person(tmp_path, confining="1 kPa"), MadeUp())
+    double = assess(person(tmp_path, stiffness="2 ± 0", confining="2 kPa"), MadeUp())
+    assert double.central == pytest.approx(2.0 * single.central)
+    assert double.critical.median == pytest.approx(2.0 * single.critical.median)
+
+
+def test_present_pressure_is_the_far_field(tmp_path):
+    """13.207 kPa at η 1.3 and r_a/R_a 1.2 (Eq. 22, evaluated independently)."""
+    dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0 mm"'
+    found = assess(person(tmp_path, wall="0.525 mm ± 0 mm", dilated=dilated), MadeUp())
+    assert found.present.median == pytest.approx(13.207e3, rel=1e-4)
+    assert found.below_present == Share(1.0, 1.0)
+    narrow = '[dilated]\ninner_diameter = "3 mm ± 0 mm"'
+    found = assess(person(tmp_path, dilated=narrow), MadeUp())
+    assert found.present.high == 0.0
+    assert any("no wider than the ureter" in sentence for sentence in found.warnings)
+    wide = '[dilated]\ninner_diameter = "9 mm ± 0 mm"'
+    found = assess(person(tmp_path, dilated=wide), MadeUp())
+    assert found.present.median is None
+    law = found.person.material.law.without_ground_matrix()
+    assert found.present.at_least == pytest.approx(float(inflation(1.8, 1.4, law)))
+    assert found.below_present == Share(1.0, 1.0)
+
+
+def test_both_dilated_diameters_are_weighed_by_the_walls_volume(tmp_path):
+    """A sharp outer diameter of the dilated segment pins the inner one: r_b² − r_a² stays."""
+    dilated = '[dilated]\ninner_diameter = "4.5 mm ± 1 mm"\nouter_diameter = "5.8 mm ± 0.05 mm"'
+    found = assess(person(tmp_path, dilated=dilated), MadeUp())
+    expected = np.sqrt(5.8**2 - (4.9**2 - 3.5**2)) / 3.5
+    assert np.mean(found.samples.opening) == pytest.approx(expected, rel=0.01)
+    assert np.std(found.samples.opening) < 0.03
+    assert found.kept < 0.2
+    impossible = dilated.replace("5.8", "20")
+    with pytest.raises(BadInput, match="constant volume"):
+        assess(person(tmp_path, dilated=impossible), MadeUp())
+
+
+def test_what_is_not_known_is_a_bound(tmp_path):
+    someone = person(tmp_path, stone="8 mm ± 2 mm", inner="3 mm ± 0.2 mm")
+    found = assess(someone, MadeUp(1e4))
+    assert found.critical.high is None
+    assert found.critical.at_least > 0.0
+    assert found.below_limit.high > found.below_limit.low + 0.1
+    assert "above" in range_told(found.critical)[1]
+    assert any("only a lower bound" in sentence for sentence in found.warnings)
+
+
+def test_thin_walls_without_an_answer_are_not_decided(tmp_path):
+    someone = person(tmp_path, wall="0.7 mm ± 0.2 mm", stone="4.2 mm ± 0.3 mm")
+    found = assess(someone, MadeUp(thinnest=1.12))
+    assert 0.001 < np.mean(found.samples.bound) < 0.2
+    lost = assess(someone, MadeUp(thinnest=9.0))
+    assert lost.outcome is Outcome.NO_SOLUTION
+    assert "The wall buckles." in lost.message
+    record = assess_record(lost)
+    assert record["critical_pressure_kPa"] is None
+    assert record["cohorts"]
+
+
+def test_surface_meets_whole_solves(tmp_path):
+    """Frictionless seating of a ureter; sizes, walls and frictions at random."""
+    ureter = Ureter(wall_ratio=1.5)
+    case = Case(Stone(size_ratio=1.2), ureter, method=Method(seating="frictionless"))
+    generator = np.random.default_rng(5)
+    over = Conditions(
+        generator.uniform(1.02, 1.6, 400),
+        generator.uniform(1.25, 2.2, 400),
+        generator.uniform(0.05, 0.5, 400),
+        np.ones(400),
+    )
+    surface = response_surface(case, over, PooledSolver(tmp_path))
+    assert surface.usable
+    some = over.where(np.arange(400) < 8)
+    found, bound = surface(some)
+    assert not bound.any()
+    exact = [
+        solve(Case(
+            Stone(size_ratio=float(some.size_ratio[k]), friction=float(some.friction[k])),
+            Ureter(wall_ratio=float(some.wall_ratio[k])), method=case.method,
+        ), LEVELS["fast"].resolution).pressure
+        for k in range(8)
+    ]  # fmt: skip
+    errors = np.abs(found / exact - 1.0)
+    assert np.median(errors) < 0.015
+    assert max(errors) < 0.05
+    assert np.median(errors) < 2.0 * np.median(surface.errors) + 0.005
+
+
+def test_lumens_of_many_walls(tmp_path):
+    ureter = Ureter(wall_ratio=1.4)
+    case = Case(Stone(size_ratio=1.2), ureter, Load("1 kPa", "hydrostatic", prestretch=1.1))
+    walls, factors = np.array([1.3, 1.4, 2.0]), np.array([0.5, 1.0, 2.0])
+    expected = [
+        lumen_ratio(eta, ureter.material.law, Load(Pressure(1e3 * f), "hydrostatic", 1.1))
+        for eta, f in zip(walls, factors, strict=True)
+    ]
+    np.testing.assert_allclose(lumen_ratios(case, walls, factors), expected, rtol=1e-9)
+    assert np.isnan(lumen_ratios(case, np.array([1.05]), np.array([1e9]))).all()
+
+
+def test_cohorts_count_right():
+    """Miller & Kane: 62 of 75 passed, whatever the class."""
+    miller = next(cohort for cohort in COHORTS if cohort.name.startswith("Miller"))
+    assert sum(rate.passed * rate.count for rate in miller.by_size) == pytest.approx(62)
+    assert sum(rate.count for rate in miller.by_size) == 75
+    rows = rows_for(4.6, 5.4, "UVJ")
+    found = {(row.cohort.name, row.group): row.passed for row in rows}
+    assert found["Jendeberg 2017", "5 mm"] == 0.65
+    assert found["Coll 2002", "5–7 mm"] == 0.60
+    assert found["Coll 2002", "UVJ"] == 0.79
+    assert ("Hübner 1993", "< 4 mm") not in found
+    assert all(cohort.source and cohort.read in ("itself", "quoted") for cohort in COHORTS)
+    assert [limit.pressure for limit in LIMITS] == [2e3, 4e3, 6e3, 8e3, 12e3]
+    assert "61 cmH₂O" in limit_told(6e3)
+    assert limit_told(7e3) == "a value of your own"
+
+
+def test_contradictions_are_told(tmp_path):
+    assert contradiction(0.65, Share(0.1, 0.2)) == MORE
+    assert contradiction(0.1, Share(0.5, 0.9)) == FEWER
+    assert contradiction(0.65, Share(0.3, 0.9)) == "near the model"
+    found = assess(person(tmp_path, stone="4.2 mm ± 0.3 mm"), MadeUp(1e6))
+    comparisons = {row["comparison"] for row in assess_record(found)["cohorts"]}
+    assert MORE in comparisons
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"stone": "4.2 mm"}, r"someone.toml, stone diameter is 4.2 mm, .*with its uncertainty"),
+        ({"stone": "4.2 ± 1"}, r"stone diameter is 4.2, but must be a length with its unit"),
+        ({"friction": "3 ± 1"}, r"friction is 3 ± 1, but must be from 0 to 2"),
+        ({"inner": "0.3 mm ± 0 mm"}, r"stone diameter over inner diameter is 14"),
+        ({"confining": "500 kPa"}, r"confining pressure"),
+        ({"dilated": '[dilatd]\ninner_diameter = "5 mm ± 0 mm"'}, r"did you mean 'dilated'"),
+        ({"dilated": '[dilated]\nouter_diameter = "5 mm ± 0 mm"'}, r"inner_diameter' is missing"),
+    ],
+)  # fmt: skip
+def test_a_bad_file_is_refused_in_a_sentence(tmp_path, given, message):
+    with pytest.raises(BadInput, match=message) as refused:
+        person(tmp_path, **given)
+    assert "someone.toml" in str(refused.value)
+
+
+def test_the_wall_is_given_once(tmp_path):
+    text = PERSON.format(**EXACT)
+    path = tmp_path / "someone.toml"
+    for line in ("", 'wall_thickness = "0.7 mm ± 0 mm"\nouter_diameter = "5 mm ± 0 mm"'):
+        path.write_text(re.sub("wall_thickness.*", line, text), encoding="utf-8")
+        with pytest.raises(BadInput, match="wall of the ureter is"):
+            read_person(path)
+    path.write_text(text.replace('"distal"', '"distl"'), encoding="utf-8")
+    with pytest.raises(BadInput, match="did you mean 'distal'"):
+        read_person(path)
+
+
+def test_what_the_file_leaves_open_is_assumed_aloud(tmp_path):
+    text = re.sub("(friction|stiffness).*\n", "", PERSON.format(**EXACT))
+    path = tmp_path / "someone.toml"
+    path.write_text(text, encoding="utf-8")
+    someone = read_person(path)
+    assert len(someone.assumed) == 2
+    assert (someone.measured["friction"].low, someone.measured["friction"].high) == (0.05, 0.5)
+    assert set(someone.assumed) <= set(assess(someone, MadeUp()).warnings)
+
+
+def test_page_needs_nothing_beside_it_and_gives_no_verdict(tmp_path):
+    dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0.5 mm"'
+    someone = person(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5", dilated=dilated)
+    found = assess(someone, MadeUp())
+    write_assessment(found, tmp_path / "page.html")
+    text = (tmp_path / "page.html").read_text(encoding="utf-8")
+    sources = re.findall(r'(?:src|href)="([^"]{0,30})', text)
+    assert len(sources) == 3
+    assert all(source.startswith("data:image/svg+xml;base64,") for source in sources)
+    assert "url(" not in text
+    assert "<script" not in text
+    assert text.count("Research use only. Not a medical device.") == 2
+    words = re.sub("<[^>]+>", " ", text).lower()
+    for verdict in ("will not pass", "will pass", "should", "recommend", "treatment"):
+        assert verdict not in words
+    for sentence in found.warnings:
+        assert sentence.split("'")[0] in text
+    assert "6 kPa" in text
+    assert "Jendeberg 2017" in text
+
+
+def test_figures_show_what_was_found(tmp_path):
+    someone = person(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5")
+    found = assess(someone, MadeUp())
+    curve = pressures_figure(found).axes[0].lines[0]
+    at_limit = np.interp(6.0, curve.get_xdata(), curve.get_ydata())
+    assert at_limit == pytest.approx(100.0 * found.below_limit.low, abs=1.0)
+    names = [text.get_text() for text in drivers_figure(found).axes[0].get_yticklabels()]
+    assert names == [driver.name for driver in found.drivers][::-1]
+    labels = {text.get_text() for text in cohorts_figure(found).legends[0].get_texts()}
+    assert {"this stone", "model: moves below the limit", "passed: Coll 2002"} <= labels
+
+
+def test_command(tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("STONEPASS_CACHE", str(tmp_path))
+    path = tmp_path / "someone.toml"
+    given = {"stone": "4.2 mm ± 0.5 mm", "confining": "0 kPa"}
+    text = PERSON.format(**EXACT | given) + '[method]\nseating = "frictionless"\n'
+    path.write_text(text, encoding="utf-8")
+    page = tmp_path / "report.html"
+    arguments = ["assess", str(path), "--workers", "1"]
+    assert run([*arguments, "--json", "--html", str(page), "--limit", "12 kPa"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["inputs"]["limit_kPa"] == 12.0
+    assert record["disclaimer"] in page.read_text(encoding="utf-8")
+    values = record["critical_pressure_kPa"]
+    assert values["low"] < values["median"] < values["high"]
+    assert values["median"] == pytest.approx(record["critical_pressure_at_values_kPa"], rel=0.1)
+    assert run(arguments) == 0
+    shown = capsys.readouterr().out
+    assert "Research use only" in shown
+    tables = [line for line in shown.splitlines() if not line.startswith(("In ", "Research"))]
+    assert max(len(line) for line in tables) <= 80
+    assert run([*arguments, "--limit", "6"]) == 2
+    assert "limit is 6, but must be a pressure with its unit" in capsys.readouterr().err
+    assert run([*arguments, "--html", "a.pdf"]) == 2

@@ -4,6 +4,8 @@ The doors (units, case, case_file, user_law) are left out: they refuse wrong typ
 one sentence, and that is what their tests look at.
 """
 
+from pathlib import Path
+
 import pytest
 from jaxtyping import install_import_hook
 
@@ -38,3 +40,28 @@ def solved(monkeypatch):
 
         monkeypatch.setattr(type(AFRESH), name, staticmethod(called))
     return found
+
+
+@pytest.fixture
+def undocumented():
+    """A function that lists the keys of a record which the glossary does not name."""
+    glossary = Path(__file__).parents[1] / "docs" / "glossary.md"
+    text = glossary.read_text(encoding="utf-8")
+
+    def missing(record):
+        found = []
+        if isinstance(record, list):
+            return [key for each in record for key in missing(each)]
+        if isinstance(record, dict):
+            for key, value in record.items():
+                found += [] if f"`{key}`" in text else [key]
+                # Their keys are names of inputs, constants, outcomes.
+                if key not in ("drivers", "without_answer", "law_constants", "correlations"):
+                    found += missing(
+                        list(value.values())
+                        if key == "measured" and isinstance(value, dict)
+                        else value
+                    )
+        return found
+
+    return missing

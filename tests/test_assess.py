@@ -342,6 +342,14 @@ def test_figures_show_what_was_found(tmp_path):
     assert {"this stone", "model: moves below the limit", "passed: Coll 2002"} <= labels
 
 
+def test_json_keys_are_in_the_glossary(tmp_path, undocumented):
+    dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0.5 mm"'
+    record = assess_record(assess(person(tmp_path, dilated=dilated), MadeUp()))
+    assert len(record) > 15
+    assert undocumented({"no_such_key": [{"nor_this": 1}]}) == ["no_such_key", "nor_this"]
+    assert undocumented(record) == []
+
+
 def test_command(tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("STONEPASS_CACHE", str(tmp_path))
     path = tmp_path / "someone.toml"

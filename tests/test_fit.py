@@ -22,6 +22,7 @@ from stonepass.materials.user_law import load_material, write_law
 from stonepass.materials.yeoh import Yeoh
 from stonepass.model.far_field import inflation, inflation_by_quadrature
 from stonepass.report.fit_figure import fit_figure
+from stonepass.report.fit_report import fit_record
 from stonepass.units import length
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -292,3 +293,9 @@ def test_what_is_in_the_figure():
     assert {line.get_label() for line in left.lines} >= set(AXES)
     drawn = np.concatenate([line.get_ydata() for line in right.lines[:2]])
     np.testing.assert_allclose(np.sort(drawn), np.sort(found.residuals / 1e3))
+
+
+def test_json_keys_are_in_the_glossary(undocumented):
+    record = fit_record(fit_law(tension(RUBBER, noise=0.01), "mooney-rivlin"))
+    assert len(record["constants"]) == 2
+    assert undocumented(record) == []

@@ -145,6 +145,12 @@ def test_no_friction_meets_a_series_far_above_the_wall():
     assert found.friction.high is None
 
 
+def test_json_keys_are_in_the_glossary(undocumented):
+    record = invitro_record(fit_friction(made_up(DRY, 0.3, noise=0.02), QUICK, solver=MadeUp()))
+    assert record["joint"] is not None
+    assert undocumented(record) == []
+
+
 def test_command(tmp_path, capsys):
     out, figure = tmp_path / "points.csv", tmp_path / "series.svg"
     data = tmp_path / "series.csv"

@@ -296,6 +296,6 @@ def test_what_is_in_the_figure():
 
 
 def test_json_keys_are_in_the_glossary(undocumented):
-    record = fit_record(fit_law(tension(RUBBER, noise=0.01), "mooney-rivlin"))
+    record = fit_record(fit_law(tension(RUBBER, noise=0.01), "mooney-rivlin"), {"file": "a.csv"})
     assert len(record["constants"]) == 2
     assert undocumented(record) == []

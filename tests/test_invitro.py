@@ -93,7 +93,7 @@ def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
     assert found.joint.stiffness.value == pytest.approx(1.3, rel=4e-3)
     assert found.joint.correlation < -0.8
     assert found.friction.value > 0.4  # alone, friction has to make up for the stiffness
-    record = invitro_record(found)
+    record = invitro_record(found, "a.csv")
     assert record["joint"]["stiffness"]["value"] == found.joint.stiffness.value
     exact = compare(blank, 0.35, QUICK, solver).predicted
     own = fit_friction(series(exact, tubes), QUICK, solver=solver)
@@ -104,10 +104,10 @@ def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
 def test_friction_intervals_cover_as_often_as_they_say():
     tubes = [*DRY, *DRY, *WET]
     covered = 0
-    for seed in range(30):
+    for seed in range(20):
         found = fit_friction(made_up(tubes, 0.3, noise=0.05, seed=seed), QUICK, solver=MadeUp())
         covered += found.friction.low <= 0.3 <= found.friction.high
-    assert 26 <= covered <= 30  # of 28.5 expected
+    assert 17 <= covered <= 20  # of 19 expected
 
 
 def test_one_size_alone_cannot_tell_stiffness_from_friction():
@@ -146,7 +146,9 @@ def test_no_friction_meets_a_series_far_above_the_wall():
 
 
 def test_json_keys_are_in_the_glossary(undocumented):
-    record = invitro_record(fit_friction(made_up(DRY, 0.3, noise=0.02), QUICK, solver=MadeUp()))
+    record = invitro_record(
+        fit_friction(made_up(DRY, 0.3, noise=0.02), QUICK, solver=MadeUp()), "a.csv"
+    )
     assert record["joint"] is not None
     assert undocumented(record) == []
 

@@ -57,7 +57,7 @@ def command(
 
         write_assessment(found, html)
     if json:
-        print_json(assess_record(found))
+        print_json(assess_record(found, case_file.name))
     else:
         show(*assess_tables(found), f"{found.message} {CAUTION}", DISCLAIMER)
         warn(found.warnings)

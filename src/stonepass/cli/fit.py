@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -54,7 +54,8 @@ def tensile(
         None if side is None else length(side, name)
         for name, side in (("--width", width), ("--thickness", thickness))
     ]
-    return _fit(read_tension(data, *sides), law, fix, out, figure, json, data.stem)
+    inputs = {"file": data.name, "width_m": sides[0], "thickness_m": sides[1]}
+    return _fit(read_tension(data, *sides), law, fix, out, figure, json, inputs)
 
 
 @app.command("inflation")
@@ -77,7 +78,12 @@ def inflation(
     from stonepass.model.case import Ureter
 
     tube = Ureter(inner, outer)
-    return _fit(read_inflation(data, tube), law, fix, out, figure, json, data.stem)
+    inputs = {
+        "file": data.name,
+        "inner_diameter_m": tube.inner_diameter,
+        "outer_diameter_m": tube.outer_diameter,
+    }
+    return _fit(read_inflation(data, tube), law, fix, out, figure, json, inputs)
 
 
 def _fit(
@@ -87,7 +93,7 @@ def _fit(
     out: Path | None,
     figure: Path | None,
     json: bool,
-    name: str,
+    inputs: dict[str, Any],
 ) -> int:
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
     from stonepass.laboratory.fit import fit_law
@@ -97,14 +103,14 @@ def _fit(
     writable(out, (".toml",))
     writable(figure, FIGURES)
     with working("fitting"):
-        found = fit_law(data, law, _given(law, fix or []), name)
+        found = fit_law(data, law, _given(law, fix or []), Path(inputs["file"]).stem)
     if figure is not None:
         from stonepass.report.fit_figure import fit_figure
         from stonepass.report.style import save
 
         save(fit_figure(found), figure)
     if json:
-        print_json(fit_record(found))
+        print_json(fit_record(found, inputs))
     else:
         show(fit_table(found), DISCLAIMER)
         warn(found.warnings)

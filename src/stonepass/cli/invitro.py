@@ -84,7 +84,7 @@ def command(
 
         save(invitro_figure(found, curves), figure)
     if json:
-        print_json(invitro_record(found))
+        print_json(invitro_record(found, data.name))
     else:
         show(*invitro_table(found), DISCLAIMER)
         warn([*found.warnings, *answers_warnings(found.comparison)])

@@ -22,8 +22,8 @@ CAUTION = (
 LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
 
 
-def assess_record(found: Assessment) -> dict[str, Any]:
-    """All of it as a JSON-ready record."""
+def assess_record(found: Assessment, file: str) -> dict[str, Any]:
+    """All of it as a JSON-ready record; `file` is where the person stands."""
     person = found.person
     return {
         "outcome": found.outcome.name,
@@ -55,6 +55,7 @@ def assess_record(found: Assessment) -> dict[str, Any]:
             for row in found.cohorts
         ],
         "inputs": {
+            "file": file,
             "measured": {
                 name: {
                     "value": each.value,

@@ -18,9 +18,10 @@ __all__ = ["fit_record", "fit_table"]
 CLOSE = 0.95  # correlation of two estimates that trade off
 
 
-def fit_record(found: FittedLaw) -> dict[str, Any]:
-    """All of it as a JSON-ready record; moduli in Pa."""
+def fit_record(found: FittedLaw, inputs: dict[str, Any]) -> dict[str, Any]:
+    """All of it as a JSON-ready record, moduli in Pa; `inputs` says what was asked."""
     return {
+        "inputs": inputs | {"data": _data(found)},
         "law": name_of_law(found.material.law),
         "constants": [
             {
@@ -45,6 +46,21 @@ def fit_record(found: FittedLaw) -> dict[str, Any]:
         "version": stonepass.__version__,
         "disclaimer": DISCLAIMER,
     }
+
+
+def _data(found: FittedLaw) -> list[dict[str, Any]]:
+    """The points that were fitted, with what the law says of them."""
+    data = found.data
+    rows = zip(data.abscissa, data.observed, found.predicted, data.groups, strict=True)
+    return [
+        {
+            "stretch": float(stretch),
+            "observed_kPa": float(observed) / 1e3,
+            "predicted_kPa": float(predicted) / 1e3,
+            "group": group,
+        }
+        for stretch, observed, predicted, group in rows
+    ]
 
 
 def fit_table(found: FittedLaw) -> Table:

@@ -22,8 +22,8 @@ _COLUMNS = ("size_ratio", "wall_ratio", "confining_kPa", "measured_kPa", "sd_kPa
             "critical_pressure_kPa", "critical_pressure_error_kPa")  # fmt: skip
 
 
-def invitro_record(found: InVitro) -> dict[str, Any]:
-    """All of it as a JSON-ready record."""
+def invitro_record(found: InVitro, file: str) -> dict[str, Any]:
+    """All of it as a JSON-ready record; `file` is where the points stand."""
     joint = found.joint
     return {
         "friction": found.comparison.friction,
@@ -40,6 +40,7 @@ def invitro_record(found: InVitro) -> dict[str, Any]:
         "weighted": found.weighted,
         "points": [dict(zip(_COLUMNS, row, strict=True)) for row in _rows(found.comparison)],
         "inputs": {
+            "file": file,
             "material": found.setting.material.name,
             "confinement": found.setting.confinement,
             "model": found.setting.method.model,

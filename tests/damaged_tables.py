@@ -5,9 +5,12 @@
 
 import dataclasses
 import json
+import math
 import re
+import signal
 import warnings
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from random import Random
 from typing import Any, NamedTuple
@@ -28,6 +31,7 @@ from stonepass.units import length
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 LONGEST_SENTENCE = 600
+LONGEST_TIME = 5.0  # s of CPU
 
 
 def example(name: str) -> str:
@@ -200,13 +204,11 @@ KINDS: dict[str, Kind] = {
 def outcome(kind: str, data: bytes, folder: Path) -> str:
     """Read a file of these bytes: "read" or "refused"; `AssertionError` for anything else."""
     told = KINDS[kind]
-    for name, text in BESIDE.items():
-        if not (folder / name).exists():
-            (folder / name).write_text(text, encoding="utf-8")
+    beside(folder)
     path = folder / told.file
     path.write_bytes(data)
     try:
-        with warnings.catch_warnings():
+        with limited(LONGEST_TIME), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # as the command does
             found = told.read(path)
     except BadInput as refused:
@@ -219,6 +221,13 @@ def outcome(kind: str, data: bytes, folder: Path) -> str:
     odd = [number for number in numbers if not np.isfinite(number).all()]
     assert not odd, f"{kind}: read {odd[0]}"
     return "read"
+
+
+def beside(folder: Path) -> None:
+    """Put there what the files name."""
+    for name, text in BESIDE.items():
+        if not (folder / name).exists():
+            (folder / name).write_text(text, encoding="utf-8")
 
 
 def check_sentence(kind: str, refused: BadInput, file: str) -> None:
@@ -235,10 +244,34 @@ def check_sentence(kind: str, refused: BadInput, file: str) -> None:
     assert "must be" in told, f"{shown} does not say what was expected"
 
 
+@contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Stop what needs more CPU time; `TimeoutError`, also where it was caught on the way."""
+
+    late = TimeoutError(f"more than {seconds:g} s")
+    seen = []
+
+    def stop(*_: Any) -> None:
+        seen.append(late)
+        raise late
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+    if seen:
+        raise late
+
+
 def floats(found: Any) -> Iterator[Any]:
-    """Every float and every array of them in what was read."""
+    """Every number and every array of them in what was read; a whole one beyond 64 bit is none."""
     if isinstance(found, float | np.ndarray):
         yield found
+    elif isinstance(found, int) and not isinstance(found, bool):
+        yield float(found) if abs(found) < 2**63 else math.inf
     elif dataclasses.is_dataclass(found):
         for field in dataclasses.fields(found):
             yield from floats(getattr(found, field.name))

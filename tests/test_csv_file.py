@@ -50,7 +50,7 @@ def test_columns_come_by_name(tmp_path, text):
         ("a,b\n1,2,5\n", "in data.csv, row 2 is 3 cells"),
         (b"\xff\xfe\x00a", "but must be a CSV file of text"),
         (b"a,b\n1,\x002\n", "in data.csv, row 2, column 'b'"),
-        ('a,b\n"1,2\n', "but must be a CSV file of text"),
+        ('a,b\n"1,2\n', "but must be a row of a CSV file"),
     ],
 )
 def test_what_is_wrong_is_said_with_its_place(tmp_path, text, sentence):

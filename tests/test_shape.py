@@ -158,8 +158,8 @@ def test_stones_with_flat_sides_are_convex_stones(points, length, near):
     [
         (lambda z, r: (z[:5], r[:5]), "5 points, but must be at least 9 points"),
         (lambda z, r: (z, r[1:]), "but must be two columns"),
-        (lambda z, r: (z[1:], r[1:]), "begun and ended on the axis"),
-        (lambda z, r: (z[:-1], r[:-1]), "the last point is not there"),
+        (lambda z, r: (z[1:], r[1:]), "on the axis"),
+        (lambda z, r: (z[:-1], r[:-1]), "being the last point"),
         (lambda z, r: (z, -r), "but must be zero or positive"),
         (lambda z, r: (z * np.nan, r), "but must be finite"),
         (lambda z, r: (z[::-1], r[::-1]), "in order from the upstream pole"),

@@ -123,7 +123,7 @@ def test_constants_from_a_file(tmp_path):
     [
         (GOOD.replace("fung", "fungg"), "did you mean 'fung'"),
         (GOOD.replace("a1111", "a111"), "did you mean 'a1111'"),
-        (GOOD.replace('C = "0.4 MPa"\n', ""), "'C' in law.toml is missing"),
+        (GOOD.replace('C = "0.4 MPa"\n', ""), "in law.toml, 'C' is missing"),
         (GOOD.replace('source = "x"\n', ""), "in law.toml, 'source' is missing"),
         (GOOD.replace('"0.4 MPa"', "0.4"), "in law.toml, 'C' is 0.4"),
         (GOOD.replace("0.4 MPa", "0.4 mm"), "must be a pressure"),

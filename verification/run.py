@@ -32,6 +32,7 @@ ON_ALL_CORES = (
     "shapes",
     "paper",
     "micrograph",
+    "tables",
     "laboratory",
 )
 SECTIONS = (*SIDE_BY_SIDE, *ON_ALL_CORES)

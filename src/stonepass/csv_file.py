@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -13,11 +15,27 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.errors import BadInput, refuse_unknown, require
+from stonepass.text_file import read_text
 
-__all__ = ["read_columns"]
+__all__ = ["Columns", "read_columns"]
 
 LARGEST_FILE = 10_000_000  # bytes
 MOST_ROWS = 100_000  # empty ones too
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
+
+
+class Columns(dict[str, Float[np.ndarray, " rows"]]):
+    """Columns by name; `lines` has the line of the file that each row stands in."""
+
+    def __init__(
+        self, lines: tuple[int, ...], columns: Mapping[str, Float[np.ndarray, " rows"]]
+    ) -> None:
+        super().__init__(columns)
+        self.lines = lines
+
+    def place(self, row: int, column: str) -> str:
+        """Where a cell stands, in words."""
+        return f"row {self.lines[row]}, column '{column}'"
 
 
 def read_columns(
@@ -26,7 +44,7 @@ def read_columns(
     optional: Sequence[str] = (),
     bounds: Mapping[str, tuple[float, float]] | None = None,
     words: Mapping[str, Sequence[str]] | None = None,
-) -> dict[str, Float[np.ndarray, " rows"]]:
+) -> Columns:
     """Read columns of numbers by the names in the first row, in any order.
 
     `bounds` has the least and the largest number allowed in a column, `words` the words allowed in
@@ -44,29 +62,27 @@ def read_columns(
     """
     rows = _rows(path)
     if not rows:
-        raise BadInput("file", str(path), f"a table with the columns {', '.join(required)}")
+        raise BadInput("file", path, f"a table with the columns {', '.join(required)}")
     header = [name.strip() for name in rows[0][1]]
     _check_header(path, header, required, optional)
     if len(rows) == 1:
-        raise BadInput("file", str(path), "a table with at least one row under its header")
-    _check_repeated(path, rows[1:])
+        raise BadInput("file", path, "a table with at least one row under its header")
     cells = _Cells(path, header, bounds or {}, words or {})
-    values = np.array([cells.numbers(line, row) for line, row in rows[1:]])
-    return {name: values[:, k] for k, name in enumerate(header)}
+    values = [cells.numbers(line, row) for line, row in rows[1:]]
+    lines = tuple(line for line, _ in rows[1:])
+    _check_repeated(path, lines, values)
+    return Columns(lines, dict(zip(header, np.array(values).T, strict=True)))
 
 
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line number and cells of every row that says something."""
-    if not path.is_file():
-        raise BadInput("file", str(path), "a file that exists", "check the path")
-    if path.stat().st_size > LARGEST_FILE:
-        raise BadInput("file", str(path), f"smaller than {LARGEST_FILE // 1_000_000} MB")
+    text = read_text(path, LARGEST_FILE, "a CSV file of text")
+    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file, strict=True)
-            rows = [(reader.line_num, cells) for cells in islice(reader, MOST_ROWS + 1)]
-    except (csv.Error, UnicodeDecodeError, OSError) as problem:
-        raise BadInput("file", str(path), f"a CSV file of text ({problem})") from problem
+        rows = [(reader.line_num, cells) for cells in islice(reader, MOST_ROWS + 1)]
+    except csv.Error as problem:
+        where = f"in {path.name}, row {reader.line_num}"
+        raise BadInput(where, str(problem), "a row of a CSV file") from problem
     require(len(rows) <= MOST_ROWS, f"number of rows of {path.name}", f"more than {MOST_ROWS}",
             "fewer")  # fmt: skip
     return [
@@ -91,10 +107,10 @@ def _check_header(
             raise BadInput(f"in {path.name}, column '{name}'", "missing", "given")
 
 
-def _check_repeated(path: Path, rows: Sequence[tuple[int, list[str]]]) -> None:
-    first: dict[tuple[str, ...], int] = {}
-    for line, cells in rows:
-        same = first.setdefault(tuple(cell.strip() for cell in cells), line)
+def _check_repeated(path: Path, lines: Sequence[int], rows: Sequence[Sequence[float]]) -> None:
+    first: dict[tuple[float, ...], int] = {}
+    for line, numbers in zip(lines, rows, strict=True):
+        same = first.setdefault(tuple(numbers), line)
         if same != line:
             raise BadInput(f"in {path.name}, row {line}", f"the same as row {same}",
                            "there once", "leave one of them out")  # fmt: skip
@@ -123,10 +139,7 @@ class _Cells:
             if cell.strip() not in known:
                 refuse_unknown(where, cell.strip(), known)
             return float(known.index(cell.strip()))
-        try:
-            value = float(cell)
-        except ValueError:
-            value = math.nan
+        value = float(cell) if _NUMBER.fullmatch(cell) else math.nan
         low, high = self.bounds.get(name, (-math.inf, math.inf))
         if not (math.isfinite(value) and low <= value <= high):
             within = f" from {low:g} to {high:g}" if name in self.bounds else ""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import enum
+import reprlib
 from difflib import get_close_matches
+from pathlib import PurePath
 from typing import Any, NoReturn, Self
 
 __all__ = [
@@ -14,6 +16,11 @@ __all__ = [
     "refuse_unknown",
     "require",
 ]
+
+
+LONGEST, LONGEST_ALLOWED = 80, 300  # characters of a value, and of what is allowed
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 200
 
 
 class StonepassError(Exception):
@@ -32,14 +39,31 @@ class BadInput(StonepassError, ValueError):
         return type(self)(f"in {file}, {self.argument}", self.value, self.allowed, self.remedy)
 
     def __str__(self) -> str:
-        shown = self.value if isinstance(self.value, str) else repr(self.value)
-        shown = " ".join(shown.split())
-        if len(shown) > 80:
-            shown = shown[:77] + "..."
         tail = f"; {self.remedy}" if self.remedy else ""
-        told = f"{self.argument} is {shown or 'empty'}, but must be {self.allowed}{tail}."
-        # What a file says may hold the control characters of a terminal.
-        return "".join(each if each.isprintable() else "?" for each in told)
+        allowed = _cut(self.allowed, LONGEST_ALLOWED)
+        return _clean(f"{self.argument} is {_shown(self.value)}, but must be {allowed}{tail}.")
+
+
+def _shown(value: Any) -> str:
+    """Value in a sentence; what a file says may be nested or long beyond what can be written."""
+    if isinstance(value, PurePath):  # its end says more than its beginning
+        text = str(value)
+        return text if len(text) <= LONGEST else "..." + text[3 - LONGEST :]
+    if not isinstance(value, str):
+        try:
+            value = _SHORT.repr(value)
+        except (ValueError, RecursionError):
+            value = f"a {type(value).__name__} too long to show"
+    return _cut(" ".join(value.split()), LONGEST) or "empty"
+
+
+def _cut(text: str, longest: int) -> str:
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def _clean(sentence: str) -> str:
+    """Without the control characters of a terminal, which a file may hold."""
+    return "".join(each if each.isprintable() else "?" for each in sentence)
 
 
 class UnstableLaw(BadInput):
@@ -47,7 +71,8 @@ class UnstableLaw(BadInput):
 
     def __str__(self) -> str:
         tail = f"; {self.remedy}" if self.remedy else ""
-        return f"{self.argument} '{self.value}' is not stable: {self.allowed}{tail}."
+        name = _shown(self.value)
+        return _clean(f"{self.argument} '{name}' is not stable: {self.allowed}{tail}.")
 
 
 class Outcome(enum.Enum):

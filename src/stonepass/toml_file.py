@@ -9,10 +9,11 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from stonepass.errors import BadInput, refuse_unknown
+from stonepass.text_file import read_text
 
 __all__ = ["read_toml"]
 
-LARGEST_FILE = 1_000_000  # bytes
+LARGEST_FILE, LONGEST_LINE = 100_000, 1000  # bytes, characters
 
 Schema = TypeVar("Schema", bound=BaseModel)
 
@@ -36,14 +37,15 @@ def read_toml(path: Path, schema: type[Schema]) -> Schema:
         Naming the file and the key: missing or broken file, a key that is unknown (with the
         nearest known one), missing or of the wrong type.
     """
-    if not path.is_file():
-        raise BadInput("file", str(path), "a file that exists", "check the path")
-    if path.stat().st_size > LARGEST_FILE:
-        raise BadInput("file", str(path), "smaller than 1 MB")
+    text = read_text(path, LARGEST_FILE, "valid TOML")
+    longest = max(map(len, text.splitlines()), default=0)
+    if longest > LONGEST_LINE:  # a key of many parts takes minutes to read
+        shown = f"a line of {longest} characters"
+        raise BadInput(f"in {path.name}, the longest line", shown, f"at most {LONGEST_LINE}")
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as problem:
-        raise BadInput("file", str(path), f"valid TOML ({problem})") from problem
+        raw = tomllib.loads(text)
+    except (ValueError, RecursionError) as problem:  # integers of 5000 digits are a ValueError too
+        raise BadInput("file", path, f"valid TOML ({problem})") from problem
     _refuse_stray_keys(raw, schema, path.name, "")
     try:
         return schema.model_validate(raw)

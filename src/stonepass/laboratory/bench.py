@@ -195,7 +195,9 @@ def read_inflation(path: Path, ureter: Ureter) -> Inflation:
     if given == ["outer_diameter_mm"]:
         squared = ratio**2 - (ureter.wall_ratio**2 - 1.0) / axial
         if not np.all(squared > 0.0):
-            raise BadInput(f"in {path.name}, outer_diameter_mm", float(ratio.min() * inner * 1e3),
-                           "such that the wall has room inside it")  # fmt: skip
+            at = int(np.argmin(squared > 0.0))
+            place = f"in {path.name}, {columns.place(at, given[0])}"
+            shown = f"{columns[given[0]][at]:g}"
+            raise BadInput(place, shown, "such that the wall has room inside it")
         ratio = np.sqrt(squared)
     return Inflation(ratio, 1e3 * columns["pressure_kPa"], ureter.wall_ratio, axial)

@@ -20,6 +20,7 @@ _PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
 _UNIT = re.compile(r"[A-Za-zµμ%°][^\s]*$")
 EXAMPLE = {True: "'5 mm ± 1 mm' or '3 mm to 4 mm'", False: "'0.3 ± 0.1' or '0.05 to 0.5'"}
+LONGEST = 100  # characters
 FARTHEST = 6.0  # standard deviations
 
 
@@ -114,6 +115,8 @@ def _read(
     *,
     lengths: bool,
 ) -> Measured:
+    if len(text) > LONGEST:  # the patterns take long over long ones
+        raise _unreadable(argument, text, lengths=lengths)
     stripped = text.strip()
     spread, span = _PLUS_MINUS.fullmatch(stripped), _RANGE.fullmatch(stripped)
     found = spread or span

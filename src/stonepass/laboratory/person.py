@@ -32,6 +32,7 @@ __all__ = ["INPUTS", "Person", "read_person"]
 STIFFNESS = (0.05, 20.0)
 LIMIT = (100.0, 1e5)  # Pa
 SAMPLES = (256, 65_536)
+LARGEST_SEED = 2**32
 # What nobody measures in a person, and what stands in where the file is silent.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
 WHY_FRICTION = (
@@ -191,7 +192,8 @@ def _person(parsed: _PersonFile, folder: Path) -> Person:
     low, high = SAMPLES
     count = parsed.assessment.samples
     require(low <= count <= high, "samples", count, f"a whole number from {low} to {high}")
-    require(parsed.assessment.seed >= 0, "seed", parsed.assessment.seed, "0 or more")
+    seed = parsed.assessment.seed
+    require(0 <= seed < LARGEST_SEED, "seed", seed, f"from 0 to {LARGEST_SEED - 1}")
     assumed = [
         why
         for why, section, key in (
@@ -209,7 +211,7 @@ def _person(parsed: _PersonFile, folder: Path) -> Person:
         load=Load(**parsed.load.model_dump()),
         method=parsed.method.method(folder),
         samples=count,
-        seed=parsed.assessment.seed,
+        seed=seed,
         assumed=tuple(assumed),
     )
     person.case()  # refuses what the measured values themselves cannot be

@@ -18,6 +18,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.materials.known_laws import KNOWN_LAWS, name_of_law
 from stonepass.materials.protocol import NAMESPACE, Law, Material
+from stonepass.text_file import existing
 from stonepass.toml_file import read_toml
 from stonepass.units import format_pressure, pressure
 
@@ -102,9 +103,7 @@ def load_material(text: str, folder: Path | None = None) -> Material:
 
 def _existing(text: str, folder: Path | None) -> Path:
     path = Path(text) if folder is None else folder / text
-    if not path.is_file():
-        raise BadInput("material", text, "a file that exists", "check the path")
-    return path
+    return existing(path, "material")
 
 
 def _from_python(path: Path, name: str, text: str) -> Material:
@@ -173,20 +172,23 @@ def _try_out(law: UserLaw) -> None:
 
 def _from_toml(path: Path, text: str) -> Material:
     constants = read_toml(path, _Constants)
-    return Material(
-        name=constants.name or text,
-        law=_known_law(constants, path.name),
-        source=constants.source,
-        test=constants.test,
-        verified="a user's constants: not verified",
-        strain_range=constants.strain_range,
-        reference=text,
-    )
+    try:
+        return Material(
+            name=constants.name or text,
+            law=_known_law(constants),
+            source=constants.source,
+            test=constants.test,
+            verified="a user's constants: not verified",
+            strain_range=constants.strain_range,
+            reference=text,
+        )
+    except BadInput as problem:
+        raise problem.within(path.name) from problem
 
 
-def _known_law(constants: _Constants, file: str) -> Law:
+def _known_law(constants: _Constants) -> Law:
     if constants.law not in KNOWN_LAWS:
-        refuse_unknown(f"law in {file}", constants.law, list(KNOWN_LAWS))
+        refuse_unknown("law", constants.law, list(KNOWN_LAWS))
     known = KNOWN_LAWS[constants.law]
     given = {name: getattr(constants, name) for name in _CONSTANTS}
     values: dict[str, float] = dict(known.optional)
@@ -196,10 +198,10 @@ def _known_law(constants: _Constants, file: str) -> Law:
                 given[name] if name in known.numbers else pressure(given[name], name)
             )
         elif name not in values:
-            raise BadInput(f"'{name}' in {file}", "missing", f"given for law '{constants.law}'")
+            raise BadInput(f"'{name}'", "missing", f"given for law '{constants.law}'")
     for name, value in given.items():
         if value is not None and name not in known.constants:
-            raise BadInput(f"'{name}' in {file}", "given", f"absent for law '{constants.law}'")
+            raise BadInput(f"'{name}'", "given", f"absent for law '{constants.law}'")
     return known.make(**values)
 
 

@@ -126,7 +126,7 @@ class Ureter:
                 f"larger than the inner diameter, {inner_diameter}",
             )
             ratio = outer / inner
-            if wall_ratio is not None and abs(wall_ratio - ratio) > 1e-9 * ratio:
+            if wall_ratio is not None and not abs(wall_ratio - ratio) <= 1e-9 * ratio:
                 raise BadInput("wall_ratio", wall_ratio, f"left out beside diameters ({ratio:.6g})")
         elif outer is not None:
             raise BadInput("inner diameter", "missing", "given with the outer one", _BY_RATIO)

@@ -6,7 +6,9 @@ import json
 import math
 from pathlib import Path
 
-from stonepass.errors import BadInput
+from stonepass.errors import BadInput, require
+from stonepass.model.case import FRICTION
+from stonepass.text_file import read_text
 
 __all__ = ["read_friction"]
 
@@ -20,16 +22,13 @@ def read_friction(path: Path) -> float:
     Raises
     ------
     BadInput
-        No such file, one that is too large or no JSON object, or no finite number under that key.
+        No such file, one that is too large or no JSON object, or none that friction can be.
     """
-    if not path.is_file():
-        raise BadInput("friction file", str(path), "a file that exists", "check the path")
-    if path.stat().st_size > LARGEST_FILE:
-        raise BadInput("friction file", str(path), f"smaller than {LARGEST_FILE // 1_000_000} MB")
+    text = read_text(path, LARGEST_FILE, "valid JSON", "friction file")
     try:
-        document = json.loads(path.read_bytes())
+        document = json.loads(text)
     except (ValueError, RecursionError) as problem:
-        raise BadInput("friction file", str(path), f"valid JSON ({problem})") from problem
+        raise BadInput("friction file", path, f"valid JSON ({problem})") from problem
     if not isinstance(document, dict) or KEY not in document:
         allowed = "as 'stonepass friction IMAGE --json' writes it"
         raise BadInput(f"in {path.name}, '{KEY}'", "missing", allowed)
@@ -38,6 +37,7 @@ def read_friction(path: Path) -> float:
         number = math.nan if isinstance(value, bool | str) else float(value)
     except (TypeError, ValueError, OverflowError):
         number = math.nan
-    if not math.isfinite(number):
-        raise BadInput(f"in {path.name}, '{KEY}'", value, "a number")
+    low, high = FRICTION
+    require(low <= number <= high, f"in {path.name}, '{KEY}'", value,
+            f"a number from {low:g} to {high:g}")  # fmt: skip
     return number

@@ -18,7 +18,8 @@ from stonepass.model.shape import ASPECT, Shape
 
 __all__ = ["read_shape", "shape_through"]
 
-FEWEST_POINTS = 9
+FEWEST_POINTS, MOST_POINTS = 9, 2000
+FAR = 1e9  # in the unit of the points
 MOST_TERMS = 24
 NOTHING = 1e-12  # last terms of a series that say nothing
 EXACT = 1e-7  # of the radius: nearer to the points no series need come
@@ -49,7 +50,10 @@ def shape_through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " poin
         Where the points are no meridian, or no smooth convex shape comes within 5 % of the
         radius of all of them.
     """
-    z, rho = _meridian(z, rho)
+    return _through(*_meridian(z, rho, lambda k, name: f"point {k + 1}, {name}"))
+
+
+def _through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"]) -> Shape:
     mirrored = _fit(z, rho, symmetric=True)
     found = mirrored
     if mirrored is None or mirrored.deviation > MIRRORED:
@@ -76,32 +80,37 @@ def read_shape(path: Path) -> Shape:
     BadInput
         Naming the file, and row and column where one is at fault.
     """
-    columns = read_columns(path, ("z", "rho"))
+    columns = read_columns(path, ("z", "rho"), bounds={"z": (-FAR, FAR), "rho": (0.0, FAR)})
     try:
-        found = shape_through(columns["z"], columns["rho"])
+        found = _through(*_meridian(columns["z"], columns["rho"], columns.place))
     except BadInput as problem:
         raise problem.within(path.name) from problem
     return replace(found, reference=str(path))
 
 
-def _meridian(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"]) -> Points:
-    """Refuse what is no meridian from pole to pole."""
+def _meridian(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    place: Callable[[int, str], str],
+) -> Points:
+    """Refuse what is no meridian from pole to pole; `place` says where a number stands."""
     z, rho = np.asarray(z, dtype=float), np.asarray(rho, dtype=float)
     name = "shape of the stone"
     require(z.ndim == 1 and z.shape == rho.shape, name, f"{z.shape} and {rho.shape}", "two columns")
-    require(len(z) >= FEWEST_POINTS, name, f"{len(z)} points", f"at least {FEWEST_POINTS} points")
+    require(FEWEST_POINTS <= len(z) <= MOST_POINTS, name, f"{len(z)} points",
+            f"at least {FEWEST_POINTS} points and at most {MOST_POINTS}")  # fmt: skip
     require(bool(np.isfinite([z, rho]).all()), name, "a number that is not finite", "finite")
     least, most = float(rho.min()), float(rho.max())
     require(least >= 0.0 and most > 0.0, name, f"rho = {least:g}", "zero or positive")
-    for which, end in (("first", rho[0]), ("last", rho[-1])):
-        allowed = f"begun and ended on the axis (rho = 0); the {which} point is not there"
-        require(end <= ON_AXIS * most, name, f"rho = {end:g}", allowed)
+    for which, at in (("first", 0), ("last", len(rho) - 1)):
+        allowed = f"on the axis (rho = 0), being the {which} point"
+        require(rho[at] <= ON_AXIS * most, place(at, "rho"), f"{rho[at]:g}", allowed)
     falls = np.flatnonzero(np.diff(z) < 0.0)
     if falls.size:
         at = int(falls[0])
         raise BadInput(
-            name,
-            f"z = {z[at + 1]:g} after {z[at]:g}",
+            place(at + 1, "z"),
+            f"{z[at + 1]:g} after {z[at]:g}",
             "in order from the upstream pole to the downstream one, z never falling",
         )
     low, high = ASPECT

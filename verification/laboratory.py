@@ -37,7 +37,7 @@ from stonepass.units import Pressure
 ROOT = Path(__file__).parents[1]
 SEED = 20260
 CORES = os.cpu_count() or 1
-SERIES = 60  # noisy series a law
+SERIES = 40  # noisy series a law
 NOISE = 0.01
 COVERED = 0.90  # of intervals that say 95 %
 LAWS = {
@@ -58,7 +58,7 @@ SURFACES = {
     "ureter, 1 kPa outside": ("ureter", Load("1 kPa"), (1.3, 2.5)),
     "latex": ("latex", Load(), (1.3, 2.5)),
 }
-CONDITIONS = 60
+CONDITIONS = 40
 MEDIAN, TAIL = 0.015, 0.06  # of the surface's relative errors: median, and 95 in 100
 
 

@@ -172,9 +172,9 @@ def test_both_dilated_diameters_are_weighed_by_the_walls_volume(tmp_path):
     dilated = '[dilated]\ninner_diameter = "4.5 mm ± 1 mm"\nouter_diameter = "5.8 mm ± 0.05 mm"'
     found = assess(person(tmp_path, dilated=dilated), MadeUp())
     expected = np.sqrt(5.8**2 - (4.9**2 - 3.5**2)) / 3.5
-    assert np.mean(found.samples.opening) == pytest.approx(expected, rel=0.01)
-    assert np.std(found.samples.opening) < 0.03
-    assert found.kept < 0.2
+    assert np.mean(found.at_present.opening) == pytest.approx(expected, rel=0.01)
+    assert np.std(found.at_present.opening) < 0.03
+    assert found.possible == 1.0
     impossible = dilated.replace("5.8", "20")
     with pytest.raises(BadInput, match="constant volume"):
         assess(person(tmp_path, dilated=impossible), MadeUp())
@@ -262,8 +262,9 @@ def test_cohorts_count_right():
 
 def test_contradictions_are_told(tmp_path):
     assert contradiction(0.65, Share(0.1, 0.2)) == MORE
-    assert contradiction(0.1, Share(0.5, 0.9)) == FEWER
-    assert contradiction(0.65, Share(0.3, 0.9)) == "near the model"
+    assert contradiction(0.1, Share(0.5, 0.6)) == FEWER
+    assert contradiction(0.1, Share(0.5, 0.9)) == "the model does not decide"
+    assert contradiction(0.65, Share(0.6, 0.7)) == "near the model"
     found = assess(person(tmp_path, stone="4.2 mm ± 0.3 mm"), MadeUp(1e6))
     comparisons = {row["comparison"] for row in assess_record(found, "a.toml")["cohorts"]}
     assert MORE in comparisons

@@ -11,6 +11,7 @@ from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
 from stonepass.laboratory.comparison import Setting, compare, size_curves
 from stonepass.laboratory.invitro import fit_friction
+from stonepass.laboratory.least_squares import profile_level
 from stonepass.materials.catalogue import material
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Material
@@ -77,7 +78,7 @@ def test_a_point_without_an_answer_is_counted_not_averaged():
     lost = replace(found.answers[1], outcome=Outcome.BEYOND_CLOSURE, pressure=None)
     found = replace(found, answers=(found.answers[0], lost))
     assert (found.compared, found.bias) == (1, pytest.approx(2e3))
-    assert found.without_answer == {"BEYOND_CLOSURE": 1}
+    assert found.not_compared == {"BEYOND_CLOSURE": 1}
     assert found.r_squared is None
 
 
@@ -134,14 +135,40 @@ def test_weights_and_what_is_refused():
     assert abs(fit_friction(spoilt, QUICK, solver=MadeUp()).friction.value - 0.3) > 0.02
     with pytest.raises(BadInput, match=r"sd_kPa is 0\.0, but must be above 0"):
         fit_friction([replace(p, sd=Pressure(0.0)) for p in points], QUICK, solver=MadeUp())
-    with pytest.raises(BadInput, match="series is 1 points that the model answers"):
+    with pytest.raises(
+        BadInput, match="series is 1 points that the model answers with a held stone"
+    ):
         fit_friction(points[:1], QUICK, solver=MadeUp())
+
+
+def test_loose_stones_say_nothing_of_friction():
+    """With them the estimate, its interval and the joint fit are the same."""
+    points = made_up([*DRY, *WET], 0.3, noise=0.05)
+    loose = series([1.0, 2.0, 3.0], [(1.5, 0.9, 0.0), (1.5, 0.8, 0.0), (2.0, 0.95, 0.0)])
+    alone = fit_friction(points, QUICK, solver=MadeUp())
+    found = fit_friction([*points, *loose], QUICK, solver=MadeUp())
+    assert found.joint.friction == alone.joint.friction
+    assert found.friction.low == pytest.approx(alone.friction.low, rel=1e-6)
+    assert found.fitted.not_compared == {"LOOSE": 3}
+    assert found.fitted.r_squared == pytest.approx(alone.fitted.r_squared)
+    assert any("3 of 9 stones are no larger than the lumen" in told for told in found.warnings)
+
+
+def test_joint_intervals_are_profiles():
+    """Each end is where the misfit, the other parameter at its best, reaches its level."""
+    found = fit_friction(made_up([*DRY, *DRY, *WET], 0.3, noise=0.03), QUICK, solver=MadeUp())
+    joint, grid = found.joint, np.geomspace(1.0 / 3.0, 3.0, 20_001)
+    level = profile_level(10 - 2)
+    ends = [end for end in (joint.friction.low, joint.friction.high) if end is not None]
+    assert ends
+    for end in ends:
+        assert np.min(joint.misfit(np.array(end), grid)) == pytest.approx(level, rel=1e-3)
 
 
 def test_no_friction_meets_a_series_far_above_the_wall():
     points = made_up(DRY, 1.0, stiffness=20.0)
     found = fit_friction(points, QUICK, solver=MadeUp())
-    assert any("end of its range, 2" in sentence for sentence in found.warnings)
+    assert any("no friction makes this wall meet" in sentence for sentence in found.warnings)
     assert found.friction.high is None
 
 

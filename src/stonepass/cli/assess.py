@@ -35,7 +35,7 @@ def command(
 ) -> int:
     """Assess one person: critical and present pressure as intervals, beside what cohorts saw.
 
-    Measured limits are 2, 4, 6, 8 and 12 kPa; their sources stand in the answer.
+    Limits with a source are 2, 4, 6, 8 and 12 kPa; the answer names it.
     """
     from stonepass.cli.terminal import counting, print_json, show, warn, writable
 

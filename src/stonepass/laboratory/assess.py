@@ -19,7 +19,7 @@ from stonepass.laboratory.cohorts import Row, rows_for
 from stonepass.laboratory.person import INPUTS, Person
 from stonepass.materials.stability import check
 from stonepass.model.answer import Answer
-from stonepass.model.case import WALL_RATIO
+from stonepass.model.case import WALL_RATIO, Case
 from stonepass.model.far_field import confining_traction
 from stonepass.studies.jobs import PooledSolver, Solver
 from stonepass.studies.response import (
@@ -46,14 +46,18 @@ __all__ = [
 INTERVAL = (0.05, 0.5, 0.95)
 WIDEST = 1.0 + OVERSIZE[1]  # opening beyond which the present pressure is only known to exceed it
 MORE_DRAWS = (0, 2, 4, 6)  # powers of two over the samples asked for
+AGREE = 0.02  # of a quantile by lower bounds and without them: then it is told
 FEWEST = 100  # samples that are possible
 DRIVERS_SAMPLES = 1024
 SIZES = np.concatenate([np.arange(1.0, 10.01, 0.5)])  # mm, of shares by size
 NOT_OF_RESISTANCE = ("dilated_inner_diameter", "dilated_outer_diameter")
 LARGE_ERROR = 0.05
 SMALL_SHARE = 0.005  # not worth a sentence
-FEW_KEPT = 0.5
+FEW_POSSIBLE = 0.5
+FEWEST_OF_A_CLASS = 30  # samples
+MOST_LOST = 0.5  # of the samples may be next to a case without an answer
 MORE, FEWER, NEAR = "more than the model expects", "fewer than the model expects", "near the model"
+UNDECIDED = "the model does not decide"
 FAR_APART = 0.2  # of two shares, to be called a contradiction
 
 Draws = Mapping[str, Float[np.ndarray, " n"]]
@@ -79,6 +83,15 @@ class Share:
     low: float
     high: float
 
+    def told(self) -> str:
+        """In words: ``60 %``, ``fewer than 1 %``, ``55 to 62 %`` where some are not decided."""
+        low, high = (round(100.0 * each) for each in (self.low, self.high))
+        if low != high:
+            return f"{low} to {high} %"
+        if low == 0:
+            return "fewer than 1 %"
+        return "more than 99 %" if low == 100 else f"{low} %"
+
 
 @dataclass(frozen=True)
 class Driver:
@@ -89,29 +102,42 @@ class Driver:
 
 
 @dataclass(frozen=True)
+class Present:
+    """Urine pressure in Pa of every sample, and where that is only a lower bound.
+
+    `opening` is r_a/R_a of the dilated segment.
+    """
+
+    pressure: Float[np.ndarray, " n"]
+    bound: Bool[np.ndarray, " n"]
+    opening: Float[np.ndarray, " n"]
+
+
+@dataclass(frozen=True)
 class Samples:
-    """The possible ways to be: pressures in Pa, and where they are only lower bounds."""
+    """The possible ways to be: P_ucr in Pa, and where that is only a lower bound.
+
+    `diameter` is the stone's in mm; `loose` where it is no larger than the lumen.
+    """
 
     critical: Float[np.ndarray, " n"]
     bound: Bool[np.ndarray, " n"]
-    present: Float[np.ndarray, " n"] | None
-    present_bound: Bool[np.ndarray, " n"] | None
     loose: Bool[np.ndarray, " n"]
     size_ratio: Float[np.ndarray, " n"]
-    opening: Float[np.ndarray, " n"] | None
+    diameter: Float[np.ndarray, " n"]
 
-    def below(self, pressure: float) -> Share:
-        """The share with P_ucr below a pressure."""
-        less = self.critical < pressure
-        return Share(float(np.mean(less & ~self.bound)), float(np.mean(less)))
-
-    def below_present(self) -> Share | None:
-        """The share with P_ucr below the present pressure."""
-        if self.present is None or self.present_bound is None:
-            return None
-        less = self.critical < self.present
-        possible = less | self.present_bound
-        return Share(float(np.mean(less & ~self.bound)), float(np.mean(possible)))
+    def below(
+        self, pressure: float | Present, chosen: Bool[np.ndarray, " n"] | None = None
+    ) -> Share:
+        """The share with P_ucr below a pressure, of all samples or of those `chosen`."""
+        some = np.ones(len(self.critical), dtype=bool) if chosen is None else chosen
+        if isinstance(pressure, Present):
+            less = self.critical < pressure.pressure
+            possible = less | pressure.bound
+        else:
+            less = possible = self.critical < pressure
+        certain = less & ~self.bound
+        return Share(float(np.mean(certain[some])), float(np.mean(possible[some])))
 
 
 @dataclass(frozen=True)
@@ -139,7 +165,8 @@ class Assessment:
         Stone diameters in mm, and the share below the limit if the stone had that size.
     cohorts : tuple of Row
     samples : Samples or None
-    kept : float
+    at_present : Present or None
+    possible : float
         Share of the draws that describe a possible wall.
     solves : int
     surface_error : float
@@ -160,7 +187,8 @@ class Assessment:
     drivers: tuple[Driver, ...] = ()
     by_size: tuple[tuple[float, Share], ...] = ()
     samples: Samples | None = None
-    kept: float = 1.0
+    at_present: Present | None = None
+    possible: float = 1.0
     solves: int = 0
     surface_error: float = 0.0
     warnings: tuple[str, ...] = ()
@@ -168,18 +196,16 @@ class Assessment:
     def beside(self, row: Row) -> Share | None:
         """The model's share below the limit for the stones of a cohort's row.
 
-        Of a size class: the mean over those of its sizes that this stone may have; of a place: all
-        samples.
+        Of a size class: the samples whose stone belongs to it; None where they are too few. Of a
+        place: all samples.
         """
-        if row.sizes is None or not self.by_size:
+        if row.sizes is None or self.samples is None:
             return self.below_limit
         low, high = row.sizes
-        nearest = min(self.by_size, key=lambda each: abs(each[0] - (low + high) / 2.0))
-        some = [share for size, share in self.by_size if low <= size <= high] or [nearest[1]]
-        return Share(
-            float(np.mean([share.low for share in some])),
-            float(np.mean([share.high for share in some])),
-        )
+        chosen = (self.samples.diameter >= low) & (self.samples.diameter < high)
+        if chosen.sum() < FEWEST_OF_A_CLASS:
+            return None
+        return self.samples.below(self.person.limit, chosen)
 
     @property
     def central(self) -> float | None:
@@ -192,6 +218,8 @@ def contradiction(passed: float, share: Share | None) -> str:
     """Whether the share that passed lies far from the model's share below the limit."""
     if share is None:
         return ""
+    if share.high - share.low > FAR_APART:
+        return UNDECIDED
     if passed > share.high + FAR_APART:
         return MORE
     if passed < share.low - FAR_APART:
@@ -210,42 +238,47 @@ def assess(person: Person, solver: Solver | None = None) -> Assessment:
     solver = solver or PooledSolver()
     check(person.material)
     case = person.case()
-    drawn, kept = _drawn(person)
+    drawn, possible = _drawn(person)
     at_values = solver.answers([case])[0]
-    cohorts = _cohorts(person)
     under_load = replace(case, load=person.load)  # each sample divides it by its own stiffness
-    surface = response_surface(under_load, _conditions(person, drawn), solver)
-    if not surface.usable:
-        message = (
-            f"{Outcome.NO_SOLUTION.value[:-1]} for {len(surface.lost.friction)} of "
-            f"{surface.tried} cases that the inputs span, in most of them since: {surface.reason}"
-        )
-        return Assessment(
-            person, Outcome.NO_SOLUTION, message, at_values, cohorts, kept=kept,
-            solves=surface.tried + 1,
-        )  # fmt: skip
-    samples = _samples(person, surface, drawn)
-    error = float(np.quantile(surface.errors, 0.95))
-    assessment = Assessment(
+    conditions = _conditions(person, drawn)
+    present = _present(person, under_load, drawn)
+    surface = response_surface(under_load, conditions, solver)
+    known = Assessment(
         person=person,
-        outcome=Outcome.MOVES,
-        message=_message(samples.below(person.limit), person.limit),
+        outcome=Outcome.NO_SOLUTION,
+        message="",
         at_values=at_values,
-        cohorts=cohorts,
+        cohorts=_cohorts(person),
+        present=None if present is None else _range(present.pressure, present.bound),
+        at_present=present,
+        possible=possible,
+        solves=surface.tried + 1,
+    )
+    lost = f"{len(surface.lost.friction)} of {surface.tried} cases that the inputs span"
+    samples = _samples(person, surface, drawn) if surface.usable else None
+    if samples is None or float(np.mean(samples.bound & (samples.critical == 0.0))) > MOST_LOST:
+        why = surface.reason.removeprefix(Outcome.NO_SOLUTION.value[:-1]).lstrip(": ")
+        message = f"{Outcome.NO_SOLUTION.value[:-1]} for {lost}; mostly: {why}"
+        return replace(known, message=message, warnings=_warnings(known))
+    below = samples.below(person.limit)
+    found = replace(
+        known,
+        outcome=Outcome.MOVES,
+        message=(
+            f"In {below.told()} of the ways in which the inputs may be, the critical pressure is "
+            f"below the pressure limit, {person.limit / 1e3:.4g} kPa."
+        ),
         critical=_range(samples.critical, samples.bound),
-        present=None if samples.present is None else _range(samples.present, samples.present_bound),
-        below_limit=samples.below(person.limit),
-        below_present=samples.below_present(),
+        below_limit=below,
+        below_present=None if present is None else samples.below(present),
         loose=float(np.mean(samples.loose)),
         drivers=_drivers(person, surface, samples),
         by_size=_by_size(person, surface, drawn),
         samples=samples,
-        kept=kept,
-        solves=surface.tried + 1,
-        surface_error=error,
-        warnings=_warnings(person, samples, kept, error),
+        surface_error=float(np.quantile(surface.errors, 0.95)),
     )
-    return assessment
+    return replace(found, warnings=_warnings(found))
 
 
 def _drawn(person: Person) -> tuple[Draws, float]:
@@ -261,28 +294,22 @@ def _drawn(person: Person) -> tuple[Draws, float]:
         engine = qmc.Sobol(len(names) + 1, seed=person.seed)
         unit = np.clip(engine.random_base2(power + more), tiny, 1.0 - tiny)
         drawn = {name: person.measured[name].drawn(unit[:, k]) for k, name in enumerate(names)}
-        possible = _possible(person, drawn, unit[:, -1])
-        if possible.sum() >= person.samples:
+        wall = _wall_ratio(drawn)
+        possible = (wall >= WALL_RATIO[0]) & (wall <= WALL_RATIO[1])
+        kept = possible
+        if "dilated_outer_diameter" in drawn:
+            kept = possible & (unit[:, -1] < _agreement(person, drawn))
+        if kept.sum() >= person.samples:
             break
-    if possible.sum() < FEWEST:
+    if kept.sum() < FEWEST:
         raise BadInput(
             "diameters",
-            f"possible together in {possible.sum()} of {len(possible)} draws",
-            "such that a wall of constant volume may have them",
+            f"such that {kept.sum()} of {len(kept)} draws agree with one another",
+            f"such that a wall of constant volume may have them, in at least {FEWEST} draws",
             "check them and their uncertainties",
         )
-    kept = {name: values[possible][: person.samples] for name, values in drawn.items()}
-    return kept, float(possible.mean())
-
-
-def _possible(
-    person: Person, drawn: Draws, chance: Float[np.ndarray, " n"]
-) -> Bool[np.ndarray, " n"]:
-    wall = _wall_ratio(drawn)
-    possible = (wall >= WALL_RATIO[0]) & (wall <= WALL_RATIO[1])
-    if "dilated_outer_diameter" in drawn:
-        possible &= chance < _agreement(person, drawn)
-    return possible
+    chosen = {name: values[kept][: person.samples] for name, values in drawn.items()}
+    return chosen, float(possible.mean())
 
 
 def _wall_ratio(drawn: Draws) -> Float[np.ndarray, " n"]:
@@ -329,30 +356,36 @@ def _critical(
 def _samples(person: Person, surface: ResponseSurface, drawn: Draws) -> Samples:
     critical, bound = _critical(person, surface, drawn)
     at = _conditions(person, drawn)
-    present, wide, opening = None, None, None
-    if person.dilated:
-        opening = drawn["dilated_inner_diameter"] / drawn["inner_diameter"]
-        wide = opening > WIDEST
-        held = np.minimum(opening, WIDEST)
-        across = drawn["stiffness"] * transmural(surface.case, held, at.wall_ratio)
-        outside = np.asarray(confining_traction(held, at.wall_ratio, person.load))
-        # No lower than what keeps the tube open: a narrower one was not measured, but misread.
-        present = np.maximum(across, 0.0) + outside
     lumen = lumen_ratios(surface.case, at.wall_ratio, at.load_factor)
     loose = at.size_ratio <= lumen
-    return Samples(critical, bound, present, wide, loose, at.size_ratio, opening)
+    return Samples(critical, bound, loose, at.size_ratio, 1e3 * drawn["stone_diameter"])
 
 
-def _range(values: Float[np.ndarray, " n"], bound: Bool[np.ndarray, " n"] | None = None) -> Range:
-    """Quantiles; one that falls among lower bounds is not known."""
-    known = values if bound is None else np.where(bound, np.inf, values)
-    ends = np.quantile(known, INTERVAL, method="higher")
-    told = [float(end) if np.isfinite(end) else None for end in ends]
-    low, median, high = told
-    if None not in told:
+def _present(person: Person, case: Case, drawn: Draws) -> Present | None:
+    """Urine pressure by the far field at the dilated diameter; None where it was not measured."""
+    if not person.dilated:
+        return None
+    wall = np.clip(_wall_ratio(drawn), *WALL_RATIO)
+    opening = drawn["dilated_inner_diameter"] / drawn["inner_diameter"]
+    held = np.minimum(opening, WIDEST)
+    across = drawn["stiffness"] * transmural(case, held, wall)
+    outside = np.asarray(confining_traction(held, wall, person.load))
+    # No lower than what keeps the tube open: a narrower one was not measured, but misread.
+    return Present(np.maximum(across, 0.0) + outside, opening > WIDEST, opening)
+
+
+def _range(values: Float[np.ndarray, " n"], bound: Bool[np.ndarray, " n"]) -> Range:
+    """Quantiles; one is told only where lower bounds, however far they are exceeded, leave it."""
+    least = np.quantile(values, INTERVAL, method="higher")
+    most = np.quantile(np.where(bound, np.inf, values), INTERVAL, method="higher")
+    low, median, high = (
+        float(other) if other <= (1.0 + AGREE) * known else None
+        for known, other in zip(least, most, strict=True)
+    )
+    ends = (low, median, high)
+    if None not in ends:
         return Range(low, median, high)
-    least = float(np.quantile(values, INTERVAL[told.index(None)], method="lower"))
-    return Range(low, median, high, least)
+    return Range(low, median, high, float(least[ends.index(None)]))
 
 
 def _drivers(person: Person, surface: ResponseSurface, samples: Samples) -> tuple[Driver, ...]:
@@ -406,45 +439,51 @@ def _cohorts(person: Person) -> tuple[Row, ...]:
     return tuple(rows_for(low, high, person.place))
 
 
-def _message(below: Share, limit: float) -> str:
-    told = (
-        f"{below.low:.0%}"
-        if below.high - below.low < SMALL_SHARE
-        else f"{below.low:.0%} to {below.high:.0%}"
-    )
-    return (
-        f"In {told} of the ways in which the inputs may be, the stone moves at less than the "
-        f"pressure limit, {limit / 1e3:.4g} kPa."
-    )
-
-
-def _warnings(person: Person, samples: Samples, kept: float, error: float) -> tuple[str, ...]:
+def _warnings(found: Assessment) -> tuple[str, ...]:
+    person, samples, present = found.person, found.samples, found.at_present
     material, told = person.material, list(person.assumed)
     highest = material.strain_range[1]
     known = f"but the constants of material '{material.name}' were used up to {highest:g} only"
-    far = float(np.mean(samples.size_ratio > highest))
-    if far > SMALL_SHARE:
-        told.append(f"in {far:.0%} of the samples the stone stretches the wall beyond {highest:g} "
-                    f"times its circumference, {known}")  # fmt: skip
-    if samples.opening is not None:
-        wide = float(np.mean(samples.opening > highest))
-        if wide > SMALL_SHARE:
-            told.append(f"in {wide:.0%} of the samples the dilated segment is wider than "
-                        f"{highest:g} times the ureter, {known}: the present pressure is "
-                        "extrapolated, and a wall that has crept makes it too high")  # fmt: skip
-        narrow = float(np.mean(samples.opening < 1.0))
-        if narrow > SMALL_SHARE:
-            told.append(f"in {narrow:.0%} of the samples the dilated segment is no wider than the "
-                        "ureter; its transmural pressure counts as 0")  # fmt: skip
-    undecided = float(np.mean(samples.bound))
-    if undecided > SMALL_SHARE:
-        told.append(f"in {undecided:.0%} of the samples only a lower bound of the critical "
-                    "pressure is known: the stone is larger, or the friction higher, than the "
-                    "model answers")  # fmt: skip
-    if kept < FEW_KEPT:
-        told.append(f"{1.0 - kept:.0%} of the draws describe no possible wall and were left out: "
-                    "the diameters are known too badly, and what is left is narrower than they "
-                    "say")  # fmt: skip
-    if error > LARGE_ERROR:
-        told.append(f"the response surface is off by up to {error:.0%}")
-    return tuple(told)
+
+    def tell(chosen: Bool[np.ndarray, " n"], sentence: str) -> None:
+        """Add a sentence where it concerns more than a few samples."""
+        share = float(np.mean(chosen))
+        if share > SMALL_SHARE:
+            told.append(f"in {share:.0%} of the samples {sentence}")
+
+    if person.load.confining_pressure > 0.0 or person.load.prestretch != 1.0:
+        told.append("diameters of the ureter are taken as those without load, but imaging shows "
+                    "them under it")  # fmt: skip
+    if samples is not None:
+        tell(
+            samples.size_ratio > highest,
+            f"the stone stretches the wall beyond {highest:g} times its circumference, {known}",
+        )
+        tell(
+            samples.loose,
+            "the stone is no larger than the lumen; one that obstructs is held, so "
+            "these say that the sizes are known too badly, or that something else holds it",
+        )
+        tell(samples.bound, "only a lower bound of the critical pressure is known: the stone is "
+             "larger, or the friction higher, than the model answers")  # fmt: skip
+    if present is not None:
+        tell(
+            present.opening > highest,
+            f"the dilated segment is wider than {highest:g} times the ureter, {known}: the "
+            "present pressure is extrapolated, and a wall that has crept makes it too high",
+        )
+        tell(present.opening < 1.0, "the dilated segment is no wider than the ureter; its "
+             "transmural pressure counts as 0")  # fmt: skip
+    if found.below_present is not None and found.below_present.low > SMALL_SHARE:
+        told.append(
+            f"in {found.below_present.told()} of the samples the present pressure exceeds the "
+            "critical one although the stone is there: these inputs contradict one another, or "
+            "what holds the stone is not in the model"
+        )
+    if found.possible < FEW_POSSIBLE:
+        told.append(f"{1.0 - found.possible:.0%} of the draws describe no possible wall and were "
+                    "left out: the diameters are known too badly, and what is left is narrower "
+                    "than they say")  # fmt: skip
+    if found.surface_error > LARGE_ERROR:
+        told.append(f"the response surface is off by up to {found.surface_error:.0%}")
+    return tuple(dict.fromkeys([*told, *found.at_values.warnings]))

@@ -116,7 +116,7 @@ COHORTS = (
         "AUA/EAU analysis",
         "cited in doi 10.29337/j.isjp.2017.09.002",
         QUOTED,
-        "pooled; 95 % intervals 46–85 and 36–59 %",
+        "pooled; from 46 to 85 and from 36 to 59 %",
         (Rate("≤ 5 mm", 0.0, 5.0, 0.68), Rate("5–10 mm", 5.0, 10.0, 0.47)),
     ),
     Cohort(
@@ -149,7 +149,7 @@ COHORTS = (
         "Kori Hospital 2019",
         "doi 10.1007/s00345-018-2461-x",
         ITSELF,
-        "418 patients, within 4 weeks; 76 % where the wall was thinner than 2.71 mm, 15 % else",
+        "418 patients, within 4 weeks; 76 % with a wall at the stone below 2.71 mm, 15 % else",
         (Rate("≤ 10 mm", 0.0, 10.0, 0.483, None, 418),),
     ),
 )  # fmt: skip
@@ -160,8 +160,15 @@ def rows_for(low: float, high: float, place: str | None) -> list[Row]:
     rows = []
     for cohort in COHORTS:
         for rate in cohort.by_size:
-            if rate.low <= high and low < rate.high:
-                sizes = (max(rate.low, low), min(rate.high, high))
+            if _overlap(rate, low, high):
+                sizes = (rate.low, rate.high)
                 rows.append(Row(cohort, rate.label, rate.passed, sizes, rate.days, rate.count))
         rows += [Row(cohort, name, passed) for name, passed in cohort.by_place if name == place]
     return rows
+
+
+def _overlap(rate: Rate, low: float, high: float) -> bool:
+    """Whether a size class and a range have more than an end in common."""
+    if low == high:
+        return rate.low <= low < rate.high
+    return rate.low < high and low < rate.high

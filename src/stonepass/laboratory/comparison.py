@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from jaxtyping import Float
 
+from stonepass.errors import Outcome
 from stonepass.materials.protocol import Material
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
@@ -60,18 +61,18 @@ class Comparison:
 
     @property
     def measured(self) -> Float[np.ndarray, " n"]:
-        """Measured pressures in Pa of the points that have an answer."""
+        """Measured pressures in Pa of the points whose stone is held and has an answer."""
         pairs = zip(self.points, self.answers, strict=True)
-        return np.array([point.pressure for point, answer in pairs if answer.pressure is not None])
+        return np.array([point.pressure for point, answer in pairs if _moves(answer)])
 
     @property
     def predicted(self) -> Float[np.ndarray, " n"]:
         """The model's in Pa, of the same."""
-        return np.array([each.pressure for each in self.answers if each.pressure is not None])
+        return np.array([each.pressure for each in self.answers if _moves(each)])
 
     @property
     def compared(self) -> int:
-        """How many points have an answer."""
+        """How many points that is."""
         return len(self.predicted)
 
     @property
@@ -95,10 +96,14 @@ class Comparison:
         return 1.0 - float(np.sum((self.predicted - self.measured) ** 2)) / spread
 
     @property
-    def without_answer(self) -> dict[str, int]:
-        """How many points have none, by outcome."""
-        names = [each.outcome.name for each in self.answers if each.pressure is None]
+    def not_compared(self) -> dict[str, int]:
+        """How many points are left out, by outcome: loose stones, and those without an answer."""
+        names = [each.outcome.name for each in self.answers if not _moves(each)]
         return {name: names.count(name) for name in dict.fromkeys(names)}
+
+
+def _moves(answer: Answer) -> bool:
+    return answer.outcome is Outcome.MOVES and answer.pressure is not None
 
 
 def compare(

@@ -15,13 +15,22 @@ from typing import Any
 
 import numpy as np
 from jaxtyping import Float
+from scipy.optimize import minimize_scalar
 from scipy.stats import f as f_distribution
 
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.laboratory.comparison import Comparison, Setting, compare
-from stonepass.laboratory.least_squares import LEVEL, Interval, correlations, intervals, lmfit
+from stonepass.laboratory.least_squares import (
+    LEVEL,
+    Interval,
+    correlations,
+    ends_of_profile,
+    intervals,
+    lmfit,
+    profile_level,
+)
 from stonepass.model.answer import Answer
-from stonepass.model.case import FRICTION, Case
+from stonepass.model.case import CONFINING, FRICTION, Case
 from stonepass.model.points import Point
 from stonepass.studies.jobs import PooledSolver, Solver
 from stonepass.units import Values
@@ -32,10 +41,17 @@ NODES = (0.05, 0.2, 0.5, 1.0)  # of friction, solved first
 LOAD_FACTORS = (0.5, 1.0, 2.0)  # of confining pressures, where stiffness varies
 SMALLEST, LARGEST = 0.01, FRICTION[1]
 STIFFNESS = (1.0 / 3.0, 3.0)
+BOUNDS = {"friction": (SMALLEST, LARGEST), "stiffness": STIFFNESS}
+PROFILE_GRID = 60  # of the other parameter
 START = (0.3, 1.0)
 REFINED, JOINTLY_REFINED = 3, 2  # times that the series is solved at the friction fitted so far
 SETTLED = 1e-3  # of friction, relative
 FEWEST = 4  # points for two parameters
+NO_FRICTION = (
+    "no friction makes this wall meet the series: the one that is nearest lies at the end of what "
+    "the model answers"
+)
+ENDED = "{} points have no answer at the friction that fits and were left out of the fit"
 
 
 @dataclass(frozen=True)
@@ -125,13 +141,15 @@ def fit_friction(
         Fewer than two points that the model answers, or standard deviations of 0.
     """
     library, solver = lmfit(), solver or PooledSolver()
+    if setting.method.model == "beam":
+        raise BadInput("model", "beam", "paper or direct", "the beam holds for thin walls only")
     weights, weighted = _weights(points)
-    curves, lost = _curves(points, setting, solver)
+    curves, told = _curves(points, setting, solver)
     kept = [k for k, curve in enumerate(curves) if curve is not None]
-    require(len(kept) > 1, "series", f"{len(kept)} points that the model answers", "two at least")
-    some = [points[k] for k in kept]
+    require(len(kept) > 1, "series", f"{len(kept)} points that the model answers with a held stone",
+            "two at least")  # fmt: skip
     known = tuple(curve for curve in curves if curve is not None)
-    series = _Model(known, some, weights[kept], setting)
+    series = _Model(known, [points[k] for k in kept], weights[kept], setting)
     parameters = library.Parameters()
     parameters.add("friction", START[0], min=SMALLEST, max=LARGEST)
     parameters.add("stiffness", START[1], min=STIFFNESS[0], max=STIFFNESS[1], vary=False)
@@ -142,22 +160,33 @@ def fit_friction(
         if fitted is not None and abs(value - fitted.friction) < SETTLED * value:
             break
         fitted = compare(points, value, setting, solver)
+        held = [fitted.answers[k].outcome is Outcome.MOVES for k in kept]
+        if sum(held) < 2:
+            break
+        if not all(held):
+            series = series.where(held)
+            kept = [k for k, yes in zip(kept, held, strict=True) if yes]
+            told.append(ENDED.format(len(held) - sum(held)))
         series = series.through(value, [{1.0: fitted.answers[k]} for k in kept])
     assert fitted is not None
     minimizer, found = _minimized(library, series, parameters)
-    bounds, told = intervals(minimizer, found, ["friction"])
-    estimate = Estimate(float(found.params["friction"].value), *_ends(bounds, "friction"))
-    joint, more = _joint(library, series, parameters, solver)
+    value = float(found.params["friction"].value)
     asked = fitted if friction is None else compare(points, friction, setting, solver)
-    return InVitro(
-        comparison=asked,
-        fitted=fitted,
-        friction=estimate,
-        joint=joint,
-        setting=setting,
-        weighted=weighted,
-        warnings=tuple(dict.fromkeys([*lost, *_at_end(estimate), *told, *more])),
-    )
+    answered = [k for k in kept if fitted.answers[k].outcome is Outcome.MOVES]
+    at_end = any(abs(value - end) < 1e-3 * end for end in BOUNDS["friction"])
+    if at_end or len(answered) < 2:
+        told.append(NO_FRICTION)
+        nothing = Estimate(value, None, None)
+        return InVitro(asked, fitted, nothing, None, setting, weighted, _once(told))
+    bounds, more = intervals(minimizer, found, ["friction"])
+    estimate = Estimate(value, *_ends(bounds, "friction"))
+    joint, about_both = _joint(library, series, parameters, solver)
+    told += [*more, *about_both]
+    return InVitro(asked, fitted, estimate, joint, setting, weighted, _once(told))
+
+
+def _once(sentences: Sequence[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(sentences))
 
 
 def _minimized(library: Any, series: _Model, parameters: Any) -> tuple[Any, Any]:
@@ -221,16 +250,13 @@ class _OverFriction:
 
 @dataclass(frozen=True)
 class _Curve:
-    """P_ucr of one point over friction and stiffness; `loose` stones need none."""
+    """P_ucr of one point over friction and stiffness."""
 
     factors: tuple[float, ...]
     over: tuple[_OverFriction, ...]
-    loose: bool = False
 
     def __call__(self, mu: Any, stiffness: Any) -> Any:
         """s P_ucr(μ; P_out/s): between load factors by the polynomial through them."""
-        if self.loose:
-            return np.zeros(np.broadcast_shapes(np.shape(mu), np.shape(stiffness)))
         if len(self.factors) == 1:
             return stiffness * self.over[0](mu)
         factor = 1.0 / stiffness
@@ -269,6 +295,15 @@ class _Model:
         """Sum of squares on a grid."""
         return np.sum(np.square(self._residuals(mu, stiffness)), axis=-1)
 
+    def where(self, chosen: Sequence[bool]) -> _Model:
+        """Some of its points."""
+        return replace(
+            self,
+            curves=tuple(c for c, yes in zip(self.curves, chosen, strict=True) if yes),
+            points=[p for p, yes in zip(self.points, chosen, strict=True) if yes],
+            weights=self.weights[np.array(chosen)],
+        )
+
     def through(self, mu: float, answers: Sequence[Mapping[float, Answer]]) -> _Model:
         """The same through answers at one more friction, of each point by load factor."""
         pairs = zip(self.curves, answers, strict=True)
@@ -298,19 +333,27 @@ def _curves(
     flat = list(dict.fromkeys(case for each in asked for case in each.values()))
     known = dict(zip(flat, solver.answers(flat, error=False), strict=True))
     curves = [_curve({key: known[case] for key, case in each.items()}) for each in asked]
-    lost = sum(curve is None for curve in curves)
-    told = [f"{lost} of {len(points)} points have no answer and are left out"] if lost else []
+    loose = [
+        any(known[case].outcome is Outcome.LOOSE for (f, _), case in each.items() if f == 1.0)
+        for each in asked
+    ]
+    lost = sum(curve is None for curve in curves) - sum(loose)
+    told = []
+    if any(loose):
+        told.append(f"{sum(loose)} of {len(points)} stones are no larger than the lumen and say "
+                    "nothing of friction")  # fmt: skip
+    if lost:
+        told.append(f"{lost} of {len(points)} points have no answer and are left out")
     return curves, told
 
 
 def _asked(point: Point, setting: Setting) -> dict[tuple[float, float], Case]:
-    factors = LOAD_FACTORS if point.confining_pressure > 0.0 else (1.0,)
+    outside = float(point.confining_pressure)
+    factors = tuple(f for f in LOAD_FACTORS if f * outside <= CONFINING[1]) if outside else (1.0,)
     return {(f, mu): setting.case(point, mu, f) for f in factors for mu in NODES}
 
 
 def _curve(answers: dict[tuple[float, float], Answer]) -> _Curve | None:
-    if any(a.outcome is Outcome.LOOSE for (f, _), a in answers.items() if f == 1.0):
-        return _Curve((), (), loose=True)
     found = {}
     for factor in dict.fromkeys(f for f, _ in answers):
         over = {mu: a.pressure for (f, mu), a in answers.items() if f == factor and a.pressure}
@@ -322,14 +365,6 @@ def _curve(answers: dict[tuple[float, float], Answer]) -> _Curve | None:
     if 1.0 not in found:
         return None
     return _Curve(tuple(found), tuple(found.values()))
-
-
-def _at_end(estimate: Estimate) -> list[str]:
-    for end in (SMALLEST, LARGEST):
-        if abs(estimate.value - end) < 1e-3 * end:
-            return [f"the friction that fits lies at the end of its range, {end:g}: no friction "
-                    "makes this wall meet the series"]  # fmt: skip
-    return []
 
 
 def _joint(
@@ -344,24 +379,52 @@ def _joint(
     for _ in range(JOINTLY_REFINED):
         _, found = _minimized(library, series, both)
         series = series.solved_at(float(found.params["friction"].value), solver)
-    minimizer, found = _minimized(library, series, both)
-    bounds, told = intervals(minimizer, found, list(both))
-    values = {name: float(found.params[name].value) for name in both}
-    estimates = {name: Estimate(values[name], *_ends(bounds, name)) for name in both}
+    _, found = _minimized(library, series, both)
     least = max(float(np.sum(np.square(found.residual))), np.finfo(float).tiny)
 
     def misfit(mu: Values, stiffness: Values) -> Values:
         return series.misfit(mu, stiffness) / least
 
+    best = {name: float(found.params[name].value) for name in BOUNDS}
+    estimates = {name: Estimate(best[name], *_profiled(misfit, best, name, count)) for name in best}
+    told = [
+        f"the series does not bound {name} {'' if end is None else 'on one side '}when stiffness "
+        "is fitted too"
+        for name, each in estimates.items()
+        for end in [each.high if each.low is None else each.low]
+        if each.low is None or each.high is None
+    ]
     share = 2.0 * float(f_distribution.ppf(LEVEL, 2, count - 2)) / (count - 2)
+    correlation = correlations(found, list(both)).get(("friction", "stiffness"))
     joint = JointFit(
-        estimates["friction"],
-        estimates["stiffness"],
-        correlations(found, list(both)).get(("friction", "stiffness")),
-        misfit,
-        1.0 + share,
+        estimates["friction"], estimates["stiffness"], correlation, misfit, 1.0 + share
     )
-    return joint, [f"{sentence} when stiffness is fitted too" for sentence in told]
+    return joint, told
+
+
+def _profiled(
+    misfit: Callable[[Values, Values], Values], best: Mapping[str, float], name: str, count: int
+) -> Interval:
+    """Ends of the interval of one parameter, the other at its best for every value of it."""
+    other = "stiffness" if name == "friction" else "friction"
+    grid = np.unique(np.append(np.geomspace(*BOUNDS[other], PROFILE_GRID), best[other]))
+    level = profile_level(count - 2)
+
+    def at(value: float, others: Values) -> Values:
+        given = (value, others) if name == "friction" else (others, value)
+        return misfit(*(np.asarray(each) for each in given))
+
+    def excess(value: float) -> float:
+        values = np.asarray(at(value, grid))
+        k = int(np.argmin(values))
+        ends = (grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)])
+        nearest = minimize_scalar(
+            lambda each: float(at(value, each)), bounds=ends, method="bounded",
+            options={"xatol": 1e-9},
+        )  # fmt: skip
+        return min(float(nearest.fun), float(values[k])) - level
+
+    return ends_of_profile(excess, best[name], 0.01 * best[name], BOUNDS[name])
 
 
 def _ends(bounds: dict[str, Interval], name: str) -> Interval:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 from warnings import catch_warnings, simplefilter
 
@@ -13,7 +13,15 @@ from scipy.stats import t as t_distribution
 
 from stonepass.extras import library
 
-__all__ = ["LEVEL", "Interval", "correlations", "intervals", "lmfit"]
+__all__ = [
+    "LEVEL",
+    "Interval",
+    "correlations",
+    "ends_of_profile",
+    "intervals",
+    "lmfit",
+    "profile_level",
+]
 
 LEVEL = 0.95
 FARTHER = 1.5  # each step outwards over the last one
@@ -84,18 +92,33 @@ def _open_ended(bounds: dict[str, Interval]) -> list[str]:
 def _profile_of_one(minimizer: Any, result: Any, name: str) -> Interval:
     """Where χ² has grown by the F distribution's share, on both sides of the best fit."""
     best, parameter = float(result.params[name].value), result.params[name]
-    share = float(f_distribution.ppf(LEVEL, 1, result.nfree)) / result.nfree
     least = float(np.sum(np.square(minimizer.userfcn(result.params))))
     moved = result.params.copy()
+    level = least * profile_level(result.nfree)
 
     def excess(value: float) -> float:
         moved[name].set(value=value)
-        return float(np.sum(np.square(minimizer.userfcn(moved)))) - least * (1.0 + share)
+        return float(np.sum(np.square(minimizer.userfcn(moved)))) - level
 
     spread = parameter.stderr if parameter.stderr else abs(best)
+    return ends_of_profile(excess, best, 0.5 * spread, (parameter.min, parameter.max))
+
+
+def profile_level(free: int) -> float:
+    """χ² over its least value at the ends of the interval of one parameter."""
+    return 1.0 + float(f_distribution.ppf(LEVEL, 1, free)) / free
+
+
+def ends_of_profile(
+    excess: Callable[[float], float], best: float, first: float, bounds: tuple[float, float]
+) -> Interval:
+    """Where a profile crosses 0 on both sides of the best value; None where it does not.
+
+    Steps grow outwards from the `first` one to the bounds.
+    """
     ends: list[float | None] = []
-    for sign, bound in ((-1.0, parameter.min), (1.0, parameter.max)):
-        step, inner, end = max(0.5 * spread, SMALLEST * abs(best)), best, None
+    for sign, bound in zip((-1.0, 1.0), bounds, strict=True):
+        step, inner, end = max(first, SMALLEST * abs(best)), best, None
         for _ in range(STEPS):
             outer = best + sign * step
             beyond = sign * (outer - bound) >= 0.0

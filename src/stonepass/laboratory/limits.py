@@ -11,15 +11,11 @@ __all__ = ["LIMITS", "PressureLimit", "limit_told"]
 
 @dataclass(frozen=True)
 class PressureLimit:
-    """A pressure in Pa, what it is, and who says so.
-
-    `read` says how the source was read: ``itself``, or ``paper`` where Liu et al. 2022 state it.
-    """
+    """A pressure in Pa, what it is, and who says so."""
 
     pressure: Pressure
     what: str
     source: str
-    read: str = "itself"
 
 
 _NEPHROSTOMY = "EAU congress 2007, abstract 71"
@@ -47,10 +43,9 @@ LIMITS = (
     ),
     PressureLimit(
         Pressure(12e3),
-        "the limit of the paper, which cites a study of minipigs for it; ink entered veins of pig "
+        "the limit that the paper states, citing a study of minipigs; ink entered veins of pig "
         "kidneys ex vivo from 90 mmHg (12.0 kPa)",
         "Liu et al. 2022, doi 10.1016/j.jmbbm.2022.105432; WCET abstract 4800",
-        "paper",
     ),
 )
 

@@ -36,11 +36,11 @@ LARGEST_SEED = 2**32
 # What nobody measures in a person, and what stands in where the file is silent.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
 WHY_FRICTION = (
-    "friction is assumed from 0.05 to 0.5: nobody has measured it between a stone and a ureter; "
+    "friction is taken from 0.05 to 0.5: nobody has measured it between a stone and a ureter; "
     "wet tissue lies far below the paper's 0.5, which is estimated from a dry crystal's slopes"
 )
 WHY_STIFFNESS = (
-    "the wall's stiffness is assumed to be 1 ± 0.3 times the material's: how much people differ "
+    "the wall's stiffness is taken to be 1 ± 0.3 times the material's: how much people differ "
     "is not published"
 )
 # Every number that may be uncertain, by its name in the file.
@@ -196,11 +196,11 @@ def _person(parsed: _PersonFile, folder: Path) -> Person:
     require(0 <= seed < LARGEST_SEED, "seed", seed, f"from 0 to {LARGEST_SEED - 1}")
     assumed = [
         why
-        for why, section, key in (
-            (WHY_FRICTION, stone, "friction"),
-            (WHY_STIFFNESS, ureter, "stiffness"),
+        for why, given, default in (
+            (WHY_FRICTION, stone.friction, ASSUMED_FRICTION),
+            (WHY_STIFFNESS, ureter.stiffness, ASSUMED_STIFFNESS),
         )
-        if key not in section.model_fields_set
+        if given == default  # written out or not, nobody measured it
     ]
     person = Person(
         measured=measured,

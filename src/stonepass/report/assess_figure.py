@@ -38,9 +38,8 @@ def pressures_figure(found: Assessment) -> Figure:
         axes.axvline(known.pressure / 1e3, color=COLOURS["grey"], linewidth=0.7, linestyle=":",
                      label="_" if k else "published pressures")  # fmt: skip
     axes.axvline(limit / 1e3, color=COLOURS["orange"], label=f"limit, {limit / 1e3:g} kPa")
-    present = found.present
-    if present is not None and samples.present is not None:
-        ordered = np.sort(samples.present)
+    if found.at_present is not None:
+        ordered = np.sort(found.at_present.pressure)
         above = 100.0 * (1.0 - np.searchsorted(ordered, grid, side="right") / len(ordered))
         axes.plot(grid / 1e3, above, color=COLOURS["green"], linestyle="--",
                   label="present pressure is above")  # fmt: skip
@@ -83,7 +82,7 @@ def cohorts_figure(found: Assessment) -> Figure:
         low = 100.0 * np.array([share.low for _, share in found.by_size])
         high = 100.0 * np.array([share.high for _, share in found.by_size])
         axes.fill_between(size, low, high, color=COLOURS["blue"], alpha=0.2, linewidth=0)
-        axes.plot(size, (low + high) / 2.0, color=COLOURS["blue"], linewidth=2.0,
+        axes.plot(size, low, color=COLOURS["blue"], linewidth=2.0,
                   label="model: moves below the limit")  # fmt: skip
     axes.set(xlabel="stone diameter (mm)", ylabel="share (%)", ylim=(0, 102), xlim=(0, WIDEST))
     figure.legend(fontsize=8, loc="outside right upper")

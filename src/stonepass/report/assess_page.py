@@ -10,7 +10,7 @@ from stonepass.laboratory.assess import FEWER, MORE, Assessment, contradiction
 from stonepass.laboratory.cohorts import Cohort, Row
 from stonepass.laboratory.limits import LIMITS, limit_told
 from stonepass.report.assess_figure import cohorts_figure, drivers_figure, pressures_figure
-from stonepass.report.assess_report import CAUTION, measured_told, range_told, share_told
+from stonepass.report.assess_report import CAUTION, measured_told, range_told
 from stonepass.report.html import inline_svg, write_html
 from stonepass.report.record import DISCLAIMER, VERSION
 
@@ -74,14 +74,15 @@ def _cards(found: Assessment) -> list[str]:
     ):
         if values is not None:
             median, interval = range_told(values)
-            cards.append((median, f"{name}, median; 90 %: {interval}"))
+            beside = "; measured above stones: 1.9 to 6 kPa" if values is found.present else ""
+            cards.append((median, f"{name}, median; 90 %: {interval}{beside}"))
     limit = f"{found.person.limit / 1e3:.4g} kPa"
     for name, share in (
         (f"of samples: critical pressure below the limit, {limit}", found.below_limit),
         ("of samples: critical pressure below the present one", found.below_present),
     ):
         if share is not None:
-            cards.append((share_told(share), name))
+            cards.append((share.told(), name))
     if found.critical is not None:
         loose = f"{round(100 * found.loose)} %"
         cards.append((loose, "of samples: stone no larger than the lumen (critical pressure 0)"))
@@ -101,7 +102,7 @@ def _pressures(found: Assessment) -> list[str]:
     ]
     if found.drivers:
         parts += [
-            "<h2>What the spread of the critical pressure comes from</h2>",
+            "<h2>What the spread of the critical pressure comes from (with interactions)</h2>",
             inline_svg(drivers_figure(found), "Share of the spread by input"),
         ]
     return parts
@@ -110,7 +111,7 @@ def _pressures(found: Assessment) -> list[str]:
 def _inputs(found: Assessment) -> list[str]:
     person = found.person
     limit = f"{person.limit / 1e3:.4g} kPa: {limit_told(person.limit)}"
-    rows = [*measured_told(found).items(), ("wall", person.material.name)]
+    rows = [*measured_told(found).items()]
     if person.place is not None:
         rows.append(("place", person.place))
     rows.append(("pressure limit", limit))
@@ -134,7 +135,8 @@ def _cohorts(found: Assessment) -> list[str]:
     return [
         "<h2>What cohorts saw in such stones</h2>",
         "<p>The share that passed, and the share of samples that move below the limit, are two "
-        "different things; where they lie more than 20 points apart it is said. What counts as the "
+        "different things; where they lie more than 20 points apart it is said. Of a size class "
+        "the model's share is that of the samples whose stone belongs to it. What counts as the "
         "lumen moves the model more than any other input: excised and empty ureters are far "
         "narrower than those in contrast CT.</p>",
         inline_svg(cohorts_figure(found), "Shares that passed by size, and the model's"),
@@ -148,7 +150,7 @@ def _passed(found: Assessment, row: Row) -> str:
         return escape(f"{row.group}: {days}")
     share = found.beside(row)
     word = contradiction(row.passed, share)
-    model = f" ({share_told(share)})" if share is not None else ""
+    model = "" if share is None else f" ({share.told()})"
     told = escape(f"{row.group}: {round(100 * row.passed)} %{', ' + days if days else ''}{model}")
     return f'<span class="off">{told}, {escape(word)}</span>' if word in FAR else told
 
@@ -174,10 +176,13 @@ def _sources(found: Assessment) -> list[str]:
 
 def _how(found: Assessment) -> str:
     person = found.person
+    if found.samples is None:
+        return f"{found.solves} solves."
     return (
-        f"{person.samples} samples, seed {person.seed}, of a response surface through "
+        f"{len(found.samples.critical)} samples, seed {person.seed}, of a response surface through "
         f"{found.solves} solves, off by up to {found.surface_error:.1%} in 95 of 100 places "
-        f"(one solve left out at a time); {found.kept:.0%} of the draws describe a possible wall."
+        f"(one solve left out at a time); {found.possible:.0%} of the draws describe a possible "
+        "wall."
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from rich import box
@@ -13,7 +14,7 @@ from stonepass.laboratory.person import INPUTS
 from stonepass.report.record import DISCLAIMER, VERSION, record
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
-__all__ = ["CAUTION", "assess_record", "assess_tables", "measured_told", "range_told", "share_told"]
+__all__ = ["CAUTION", "assess_record", "assess_tables", "measured_told", "range_told"]
 
 CAUTION = (
     "The shares speak of the inputs' uncertainty in a model of a passive tube. They are no chance "
@@ -30,6 +31,7 @@ def assess_record(found: Assessment, file: str) -> dict[str, Any]:
         "message": found.message,
         "critical_pressure_kPa": _range(found.critical),
         "critical_pressure_at_values_kPa": None if found.central is None else found.central / 1e3,
+        "at_values": record(found.at_values),
         "present_pressure_kPa": _range(found.present),
         "critical_below_limit": _share(found.below_limit),
         "critical_below_present": _share(found.below_present),
@@ -72,13 +74,13 @@ def assess_record(found: Assessment, file: str) -> dict[str, Any]:
             "limit_source": limit_told(person.limit),
             "samples": person.samples,
             "seed": person.seed,
-            "at_values": record(found.at_values)["inputs"],
         },
         "accuracy": {
-            "kept": found.kept,
+            "possible": found.possible,
             "solves": found.solves,
             "surface_error": found.surface_error,
         },
+        "level": 0.90,
         "warnings": list(found.warnings),
         "caution": CAUTION,
         "version": VERSION,
@@ -96,10 +98,23 @@ def assess_tables(found: Assessment) -> list[Table]:
 
 def measured_told(found: Assessment) -> dict[str, str]:
     """Every input in words, by what it is called."""
-    return {
+    person = found.person
+    told = {
         INPUTS[name]: each.told(METRE_PER_MM, "mm") if name in LENGTHS else each.told()
-        for name, each in found.person.measured.items()
-    }
+        for name, each in person.measured.items()
+    } | {"wall": person.material.name}
+    load, method, shape = person.load, person.method, person.shape
+    if load.confining_pressure > 0.0:
+        outside = f"{load.confining_pressure / 1e3:g} kPa, {load.confinement}"
+        told["confining pressure"] = outside
+    if load.prestretch != 1.0:
+        told["pre-stretch"] = f"{load.prestretch:g}"
+    if not shape.spheroidal:
+        told["shape"] = Path(shape.reference).name or "of its own"
+    elif shape.aspect != 1.0:
+        told["aspect"] = f"{shape.aspect:g}"
+    told["model"] = method.model if method.model == "direct" else f"paper, {method.seating}"
+    return told
 
 
 def range_told(found: Range | None, unit: str = "kPa") -> tuple[str, str]:
@@ -115,14 +130,6 @@ def range_told(found: Range | None, unit: str = "kPa") -> tuple[str, str]:
         return f"above {float(f'{found.at_least / scale:.3g}'):g}"
 
     return f"{told(found.median)} {unit}", f"{told(found.low)} to {told(found.high)} {unit}"
-
-
-def share_told(share: Share | None) -> str:
-    """A share in words: ``60 %``, or ``55 to 62 %`` where some samples are not decided."""
-    if share is None:
-        return ""
-    low, high = (round(100.0 * each) for each in (share.low, share.high))
-    return f"{low} %" if low == high else f"{low} to {high} %"
 
 
 def _pressures(found: Assessment) -> Table:
@@ -146,7 +153,7 @@ def _pressures(found: Assessment) -> Table:
     )
     for name, share in shares:
         if share is not None:
-            table.add_row(f"[bold]{name}[/bold]", f"[bold]{share_told(share)}[/bold]", "of samples")
+            table.add_row(f"[bold]{name}[/bold]", f"[bold]{_told(share)}[/bold]", "of samples")
     if found.critical is not None:
         table.add_row("of these: no larger than the lumen", f"{round(100 * found.loose)} %",
                       "of samples")  # fmt: skip
@@ -155,7 +162,7 @@ def _pressures(found: Assessment) -> Table:
 
 def _drivers(found: Assessment) -> Table:
     table = Table(box=box.SIMPLE_HEAD)
-    table.add_column("what the spread comes from")
+    table.add_column("what the spread comes from (with interactions)")
     table.add_column("", justify="right")
     table.add_column("")
     for driver in found.drivers:
@@ -173,13 +180,17 @@ def _cohorts(found: Assessment) -> Table:
         if row.days is not None:
             passed += f"{', ' if passed else ''}{row.days:g} days"
         share = found.beside(row)
-        told = share_told(share)
+        told = _told(share)
         if row.passed is not None:
             told += f", {contradiction(row.passed, share)}" if told else ""
         else:
             told = ""
         table.add_row(row.group, passed, row.cohort.name, told)
     return table
+
+
+def _told(share: Share | None) -> str:
+    return "" if share is None else share.told()
 
 
 def _range(found: Range | None) -> dict[str, float | None] | None:

@@ -80,13 +80,7 @@ def _draw_region(axes: Axes, found: InVitro, joint: JointFit) -> None:
                  linewidths=0.9)  # fmt: skip
     axes.plot(joint.friction.value, joint.stiffness.value, "o", color=COLOURS["blue"],
               label="both fitted, joint 95 % region")  # fmt: skip
-    low, high = found.friction.low, found.friction.high
     here = found.friction.value
-    axes.errorbar(
-        [here], [1.0],
-        xerr=[[0.0 if low is None else here - low], [0.0 if high is None else high - here]],
-        fmt="s", color=COLOURS["orange"], capsize=3, label="friction alone, 95 %",
-    )  # fmt: skip
     axes.axhline(1.0, color=COLOURS["grey"], linewidth=0.8, linestyle=":")
     for set_limits, grid, known, own in (
         (axes.set_xlim, friction, inside.any(axis=0), here),
@@ -94,6 +88,12 @@ def _draw_region(axes: Axes, found: InVitro, joint: JointFit) -> None:
     ):
         some = np.array([*grid[known], own])
         set_limits(some.min() / AROUND, some.max() * AROUND)
+    # An end that the series does not bound runs out of the picture.
+    first, last = axes.get_xlim()
+    low = first if found.friction.low is None else found.friction.low
+    high = last if found.friction.high is None else found.friction.high
+    axes.plot([low, high], [1.0, 1.0], color=COLOURS["orange"], linewidth=1.8)
+    axes.plot(here, 1.0, "s", color=COLOURS["orange"], label="friction alone, 95 %")
     axes.set(xlabel="friction", ylabel="stiffness, times the material's")
     axes.set_title("What the series can tell")
     axes.legend(fontsize=7.5, loc="upper right")

@@ -11,6 +11,7 @@ from rich.table import Table
 
 from stonepass.laboratory.comparison import Comparison
 from stonepass.laboratory.invitro import Estimate, InVitro
+from stonepass.laboratory.least_squares import LEVEL
 from stonepass.report.record import DISCLAIMER, VERSION, write_csv
 from stonepass.report.table import significant
 
@@ -38,6 +39,7 @@ def invitro_record(found: InVitro, file: str) -> dict[str, Any]:
             "correlation": joint.correlation,
         },
         "weighted": found.weighted,
+        "level": LEVEL,
         "points": [dict(zip(_COLUMNS, row, strict=True)) for row in _rows(found.comparison)],
         "inputs": {
             "file": file,
@@ -133,7 +135,7 @@ def _agreement(comparison: Comparison) -> dict[str, Any]:
         "rmse_kPa": None if rmse is None else rmse / 1e3,
         "r_squared": comparison.r_squared,
         "compared": comparison.compared,
-        "without_answer": comparison.without_answer,
+        "not_compared": comparison.not_compared,
     }
 
 

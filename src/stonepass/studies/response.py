@@ -1,8 +1,8 @@
 """Critical pressure as a smooth function of sizes, wall, friction and load, from some solves.
 
-ln(P_ucr/(μ P_end)) varies little: P_end is the far field at a tube as wide as the stone (where the
-paper's closure ends), and near μ = 0 P_ucr grows with μ. Between the solves it is a cubic
-radial-basis interpolant over √(ξ/ξ_lumen − 1), ln(η − 1), √μ and the load.
+ln(P_ucr/(μ P_s)) varies little: P_s is the pressure that holds a tube as wide as the stone, which
+vanishes at the lumen as P_ucr does, and near μ = 0 P_ucr grows with μ. Between the solves it is a
+cubic radial-basis interpolant over √(ξ/ξ_lumen − 1), ln(η − 1), √μ and the load.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from scipy.optimize import elementwise
 from scipy.spatial import KDTree
 from scipy.stats import qmc
 
-from stonepass.errors import Outcome
+from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
-from stonepass.model.case import Case, Load, Stone, Ureter
+from stonepass.model.case import CONFINING, Case, Load, Stone, Ureter
 from stonepass.model.far_field import (
     SMALLEST_LUMEN,
     confining_traction,
@@ -46,7 +46,9 @@ SEED = 7  # of the design
 SCATTERED = {1: 8, 2: 16, 3: 32, 4: 64}  # points beside corners and centres of faces, by dimension
 TAILS = (0.002, 0.998)  # of walls, frictions and loads, between which the surface is built
 NARROW = 1e-9  # a range that counts as one value
-FEWEST = 0.5  # of the solves must have an answer
+FEWEST = 10  # solves with an answer
+NEAR_END = 0.02  # of the closure's end, within which P_ucr may as well lie beyond it
+HALF_LENGTHS = 2.5  # half the tube's length, in radii of the largest stone
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,8 @@ class ResponseSurface:
     solved : Conditions
     pressure : array (n)
         P_ucr in Pa of what was solved; where the closure ended first, its end.
+    ended : array (n)
+        Where it did.
     lost : Conditions
         What was tried and has no answer.
     reason : str
@@ -114,6 +118,7 @@ class ResponseSurface:
     case: Case
     solved: Conditions
     pressure: Float[np.ndarray, " n"]
+    ended: Bool[np.ndarray, " n"]
     lost: Conditions
     reason: str
 
@@ -124,8 +129,8 @@ class ResponseSurface:
 
     @property
     def usable(self) -> bool:
-        """Whether enough of them have an answer."""
-        return len(self.pressure) >= FEWEST * self.tried
+        """Whether enough of them have an answer for a surface."""
+        return len(self.pressure) >= FEWEST
 
     def __call__(self, asked: Conditions) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
         """P_ucr in Pa, and where that is only a lower bound.
@@ -141,15 +146,15 @@ class ResponseSurface:
         top = self._top
         held = np.clip(over, 0.0, top)
         at = replace(asked, size_ratio=lumen * (1.0 + np.clip(held, OVERSIZE[0], None)))
-        end = self._end(at)
         friction = np.maximum(asked.friction, SMALLEST_FRICTION)
         near = self._coordinates(replace(at, friction=friction))
-        found = np.exp(self._interpolant(near)) * asked.friction * end
+        found = np.exp(self._interpolant(near)) * asked.friction * self._scale(at)
         # Below the smallest size that was solved it falls in proportion to the oversize.
         found *= np.minimum(held / OVERSIZE[0], 1.0)
         bound = over > top
-        if self.case.method.model == "paper":
-            bound |= found >= end
+        if self.ended.any():  # near the closure's end the surface cannot say on which side it is
+            end = self._closure_end(at)
+            bound |= found >= (1.0 - NEAR_END) * end
             found = np.minimum(found, end)
         unknown = closed | ((over > 0.0) & self._lost(near))
         stuck = (over > 0.0) & ~unknown
@@ -181,13 +186,21 @@ class ResponseSurface:
 
     @cached_property
     def _values(self) -> Float[np.ndarray, " n"]:
-        return np.log(self.pressure / (self.solved.friction * self._end(self.solved)))
+        return np.log(self.pressure / (self.solved.friction * self._scale(self.solved)))
 
-    def _end(self, at: Conditions) -> Float[np.ndarray, " n"]:
-        """Far field in a tube as wide as the stone."""
+    def _scale(self, at: Conditions) -> Float[np.ndarray, " n"]:
+        """Pressure that holds a tube as wide as the stone, by the whole law as the lumen is."""
+        law, load = self.case.ureter.material.law, self.case.load
+        across = np.asarray(inflation(at.size_ratio, at.wall_ratio, law, load.prestretch))
+        return across + self._outside(at)
+
+    def _closure_end(self, at: Conditions) -> Float[np.ndarray, " n"]:
+        """The same by the far field of the method, where the paper's closure ends."""
+        return transmural(self.case, at.size_ratio, at.wall_ratio) + self._outside(at)
+
+    def _outside(self, at: Conditions) -> Float[np.ndarray, " n"]:
         traction = confining_traction(at.size_ratio, at.wall_ratio, self.case.load)
-        across = transmural(self.case, at.size_ratio, at.wall_ratio)
-        return across + at.load_factor * np.asarray(traction)
+        return at.load_factor * np.asarray(traction)
 
     @cached_property
     def _interpolant(self) -> RBFInterpolator:
@@ -211,7 +224,11 @@ def response_surface(case: Case, over: Conditions, solver: Solver) -> ResponseSu
 
     Sizes are taken from the lumen up to `OVERSIZE` beyond it, whatever `over` has of them.
     """
-    quick = replace(case, method=replace(case.method, accuracy="fast"))
+    if case.method.model == "beam":
+        raise BadInput("model", "beam", "paper or direct", "the beam holds for thin walls only")
+    longest = HALF_LENGTHS * (1.0 + OVERSIZE[1]) * max(1.0, case.stone.shape.reach)
+    half_length = max(case.method.half_length, longest)
+    quick = replace(case, method=replace(case.method, accuracy="fast", half_length=half_length))
     design = _design(case, over)
     cases = [_case(quick, design, k) for k in range(len(design.friction))]
     answers = solver.answers(cases, error=False)
@@ -222,6 +239,7 @@ def response_surface(case: Case, over: Conditions, solver: Solver) -> ResponseSu
         case,
         design.where(known),
         pressures[known],
+        np.array([answer.outcome is Outcome.BEYOND_CLOSURE for answer in answers])[known],
         design.where(~known),
         reasons.most_common(1)[0][0] if reasons else "",
     )
@@ -261,7 +279,9 @@ def _raw(case: Case, at: Conditions) -> Float[np.ndarray, "n 4"]:
 def _design(case: Case, over: Conditions) -> Conditions:
     """Corners, centres of faces and scattered points of the box round `over`."""
     friction = np.maximum(over.friction, SMALLEST_FRICTION)
-    factor = over.load_factor if case.load.confining_pressure > 0.0 else np.ones(1)
+    factor = np.ones(1)
+    if case.load.confining_pressure > 0.0:
+        factor = np.minimum(over.load_factor, CONFINING[1] / case.load.confining_pressure)
     spans = [
         np.sqrt(np.array(OVERSIZE)),
         _span(np.log(over.wall_ratio - 1.0)),

@@ -61,4 +61,5 @@ def command(
     else:
         show(*assess_tables(found), f"{found.message} {CAUTION}", DISCLAIMER)
         warn(found.warnings)
+        warn([f"at the measured values {told}" for told in found.at_values.warnings])
     return 0 if found.outcome.answered else 1

@@ -486,4 +486,4 @@ def _warnings(found: Assessment) -> tuple[str, ...]:
                     "than they say")  # fmt: skip
     if found.surface_error > LARGE_ERROR:
         told.append(f"the response surface is off by up to {found.surface_error:.0%}")
-    return tuple(dict.fromkeys([*told, *found.at_values.warnings]))
+    return tuple(told)

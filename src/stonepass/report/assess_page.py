@@ -16,7 +16,7 @@ from stonepass.report.record import DISCLAIMER, VERSION
 
 __all__ = ["write_assessment"]
 
-FAR = (MORE, FEWER)
+FAR = {MORE: "↑", FEWER: "↓"}
 _STYLE = """
 body { max-width: 52rem; }
 h1 { margin-bottom: .2rem; } h2 { margin: 1.4rem 0 .3rem; }
@@ -42,7 +42,8 @@ ul { padding-left: 1.1rem; margin: .3rem 0; font-size: .88rem; }
   .cards { grid-template-columns: repeat(5, 1fr); gap: .4rem; } .card { padding: .3rem .5rem; }
   .card b { font-size: 11.5pt; } .card span { font-size: 7.8pt; display: block; line-height: 1.25; }
   .second { break-before: page; } img, table, .card { break-inside: avoid; }
-  img { width: 84%; margin: 0 auto; }
+  img { width: 84%; margin: 0 auto; } .second img { width: 72%; }
+  .sources li { font-size: 7.4pt; line-height: 1.22; }
 }
 """
 
@@ -56,10 +57,10 @@ def write_assessment(found: Assessment, path: Path) -> None:
         *_cards(found),
         *_pressures(found),
         *_inputs(found),
-        *_warnings(found),
+        *_sources(found),
         '<section class="second">',
         *_cohorts(found),
-        *_sources(found),
+        *_warnings(found),
         "</section>",
         f"<footer><p>stonepass {VERSION}. {DISCLAIMER} {_how(found)}</p></footer>",
     ]
@@ -131,7 +132,10 @@ def _cohorts(found: Assessment) -> list[str]:
         f"<td>{' · '.join(_passed(found, row) for row in rows)}</td></tr>"
         for cohort, rows in by_cohort.items()
     )
-    head = "<tr><th class='who'>cohort</th><th>passed (the model's share below the limit)</th></tr>"
+    head = (
+        '<tr><th class="who">cohort</th><th>passed (the model\'s share below the limit); '
+        "↑ more, ↓ fewer than the model expects</th></tr>"
+    )
     return [
         "<h2>What cohorts saw in such stones</h2>",
         "<p>The share that passed, and the share of samples that move below the limit, are two "
@@ -152,7 +156,7 @@ def _passed(found: Assessment, row: Row) -> str:
     word = contradiction(row.passed, share)
     model = "" if share is None else f" ({share.told()})"
     told = escape(f"{row.group}: {round(100 * row.passed)} %{', ' + days if days else ''}{model}")
-    return f'<span class="off">{told}, {escape(word)}</span>' if word in FAR else told
+    return f'<span class="off">{told} {FAR[word]}</span>' if word in FAR else told
 
 
 def _warnings(found: Assessment) -> list[str]:
@@ -170,7 +174,9 @@ def _sources(found: Assessment) -> list[str]:
     )
     return [
         "<h2>Sources</h2>",
-        _list([f"Cohorts: {sources}.", f"Pressures (dotted lines): {limits}."]),
+        '<div class="sources">'
+        + _list([f"Cohorts: {sources}.", f"Pressures (dotted lines): {limits}."])
+        + "</div>",
     ]
 
 

@@ -202,6 +202,36 @@ def test_thin_walls_without_an_answer_are_not_decided(tmp_path):
     assert record["cohorts"]
 
 
+def test_without_a_surface_what_needs_none_is_told(tmp_path):
+    dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0 mm"'
+    someone = person(tmp_path, wall="0.525 mm ± 0.01 mm", dilated=dilated)
+    lost = assess(someone, MadeUp(thinnest=9.0))
+    assert lost.outcome is Outcome.NO_SOLUTION
+    assert lost.present.median == pytest.approx(13.2e3, rel=0.01)
+    write_assessment(lost, tmp_path / "page.html")
+    assert "13.2 kPa" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+def test_the_beam_is_refused(tmp_path):
+    beam = '[method]\nmodel = "beam"\nsecant_stretch = 1.2'
+    with pytest.raises(BadInput, match="model is beam, but must be paper or direct"):
+        assess(person(tmp_path, dilated=beam), MadeUp())
+
+
+def test_shares_are_no_verdicts():
+    told = [Share(*ends).told() for ends in ((0.0, 0.0), (1.0, 1.0), (0.4, 0.4), (0.1, 0.3))]
+    assert told == ["fewer than 1 %", "more than 99 %", "40 %", "10 to 30 %"]
+
+
+def test_a_class_is_compared_with_its_own_samples(tmp_path):
+    """A stone of exactly 4.2 mm is of the class 4 mm: the share beside it is that of page one."""
+    found = assess(person(tmp_path, friction="0.05 to 0.5"), MadeUp())
+    rows = [row for row in found.cohorts if row.group == "4 mm"]
+    assert len(rows) == 1
+    assert found.beside(rows[0]) == found.below_limit
+    assert 0.0 < found.below_limit.low < 1.0
+
+
 def test_surface_meets_whole_solves(tmp_path):
     """Frictionless seating of latex tubes; sizes, walls and frictions at random."""
     ureter = Ureter(wall_ratio=1.5, material="latex")

@@ -149,44 +149,37 @@ def fit_friction(
     require(len(kept) > 1, "series", f"{len(kept)} points that the model answers with a held stone",
             "two at least")  # fmt: skip
     known = tuple(curve for curve in curves if curve is not None)
-    series = _Model(known, [points[k] for k in kept], weights[kept], setting)
+    whole = _Model(known, [points[k] for k in kept], weights[kept], setting)
     parameters = library.Parameters()
     parameters.add("friction", START[0], min=SMALLEST, max=LARGEST)
     parameters.add("stiffness", START[1], min=STIFFNESS[0], max=STIFFNESS[1], vary=False)
-    fitted = None
+    fitted, chosen = None, [True] * len(kept)
     for _ in range(REFINED):
-        minimizer, found = _minimized(library, series, parameters)
+        minimizer, found = _minimized(library, whole.where(chosen), parameters)
         value = float(found.params["friction"].value)
         if fitted is not None and abs(value - fitted.friction) < SETTLED * value:
             break
         fitted = compare(points, value, setting, solver)
+        whole = whole.through(value, [{1.0: fitted.answers[k]} for k in kept])
         held = [fitted.answers[k].outcome is Outcome.MOVES for k in kept]
         if sum(held) < 2:
             break
-        if not all(held):
-            series = series.where(held)
-            kept = [k for k, yes in zip(kept, held, strict=True) if yes]
-            told.append(ENDED.format(len(held) - sum(held)))
-        series = series.through(value, [{1.0: fitted.answers[k]} for k in kept])
+        chosen = held
     assert fitted is not None
-    minimizer, found = _minimized(library, series, parameters)
+    minimizer, found = _minimized(library, whole.where(chosen), parameters)
     value = float(found.params["friction"].value)
-    asked = fitted if friction is None else compare(points, friction, setting, solver)
-    answered = [k for k in kept if fitted.answers[k].outcome is Outcome.MOVES]
-    at_end = any(abs(value - end) < 1e-3 * end for end in BOUNDS["friction"])
-    if at_end or len(answered) < 2:
+    answered = sum(fitted.answers[k].outcome is Outcome.MOVES for k in kept)
+    if answered < 2 or any(abs(value - end) < 1e-3 * end for end in BOUNDS["friction"]):
+        estimate = Estimate(value, None, None)
         told.append(NO_FRICTION)
-        nothing = Estimate(value, None, None)
-        return InVitro(asked, fitted, nothing, None, setting, weighted, _once(told))
-    bounds, more = intervals(minimizer, found, ["friction"])
-    estimate = Estimate(value, *_ends(bounds, "friction"))
-    joint, about_both = _joint(library, series, parameters, solver)
-    told += [*more, *about_both]
-    return InVitro(asked, fitted, estimate, joint, setting, weighted, _once(told))
-
-
-def _once(sentences: Sequence[str]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(sentences))
+    else:
+        bounds, more = intervals(minimizer, found, ["friction"])
+        estimate = Estimate(value, *_ends(bounds, "friction"))
+        told += [*more, *([ENDED.format(chosen.count(False))] if False in chosen else [])]
+    joint, about_both = _joint(library, whole, parameters, solver)
+    asked = fitted if friction is None else compare(points, friction, setting, solver)
+    told = list(dict.fromkeys([*told, *about_both]))
+    return InVitro(asked, fitted, estimate, joint, setting, weighted, tuple(told))
 
 
 def _minimized(library: Any, series: _Model, parameters: Any) -> tuple[Any, Any]:
@@ -304,6 +297,10 @@ class _Model:
             weights=self.weights[np.array(chosen)],
         )
 
+    def ended(self, mu: float) -> list[bool]:
+        """Which points lie at the end of the closure, where nothing depends on friction."""
+        return [any(float(over(mu)) >= over.end for over in curve.over) for curve in self.curves]
+
     def through(self, mu: float, answers: Sequence[Mapping[float, Answer]]) -> _Model:
         """The same through answers at one more friction, of each point by load factor."""
         pairs = zip(self.curves, answers, strict=True)
@@ -380,6 +377,10 @@ def _joint(
         _, found = _minimized(library, series, both)
         series = series.solved_at(float(found.params["friction"].value), solver)
     _, found = _minimized(library, series, both)
+    ended = series.ended(float(found.params["friction"].value))
+    if any(ended) and count - sum(ended) >= FEWEST:
+        series, count = series.where([not each for each in ended]), count - sum(ended)
+        _, found = _minimized(library, series, both)
     least = max(float(np.sum(np.square(found.residual))), np.finfo(float).tiny)
 
     def misfit(mu: Values, stiffness: Values) -> Values:

@@ -16,11 +16,18 @@ if TYPE_CHECKING:
     from stonepass.imaging.picture import Picture
     from stonepass.imaging.readers import read_picture
     from stonepass.imaging.untrusted import read_untrusted
+    from stonepass.laboratory.assess import Assessment, assess
+    from stonepass.laboratory.bench import read_inflation, read_tension
+    from stonepass.laboratory.comparison import Setting
+    from stonepass.laboratory.fit import fit_law
+    from stonepass.laboratory.invitro import fit_friction
+    from stonepass.laboratory.person import read_person
     from stonepass.materials.protocol import Material
     from stonepass.model.answer import Answer
     from stonepass.model.case import Case, Load, Method, Stone, Ureter
     from stonepass.model.critical import critical_pressure, solve
     from stonepass.model.meridian import read_shape, shape_through
+    from stonepass.model.points import read_points
     from stonepass.model.push_through import PushedState, push_through
     from stonepass.model.seated import SeatedState, seat
     from stonepass.model.shape import Shape
@@ -31,6 +38,7 @@ __version__ = "0.1.0"
 # Every public name and the module it lives in; nothing is imported before it is used.
 _HOME = {
     "Answer": "model.answer",
+    "Assessment": "laboratory.assess",
     "BadInput": "errors",
     "Case": "model.case",
     "Load": "model.case",
@@ -40,6 +48,7 @@ _HOME = {
     "Picture": "imaging.picture",
     "PushedState": "model.push_through",
     "SeatedState": "model.seated",
+    "Setting": "laboratory.comparison",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
     "Stone": "model.case",
@@ -47,11 +56,18 @@ _HOME = {
     "StraightPath": "imaging.paths",
     "SurfaceFriction": "imaging.friction",
     "Ureter": "model.case",
+    "assess": "laboratory.assess",
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
+    "fit_friction": "laboratory.invitro",
+    "fit_law": "laboratory.fit",
     "push_through": "model.push_through",
+    "read_inflation": "laboratory.bench",
+    "read_person": "laboratory.person",
     "read_picture": "imaging.readers",
+    "read_points": "model.points",
     "read_shape": "model.meridian",
+    "read_tension": "laboratory.bench",
     "read_untrusted": "imaging.untrusted",
     "seat": "model.seated",
     "shape_through": "model.meridian",
@@ -61,6 +77,7 @@ _HOME = {
 
 __all__ = [
     "Answer",
+    "Assessment",
     "BadInput",
     "Case",
     "Load",
@@ -70,6 +87,7 @@ __all__ = [
     "Picture",
     "PushedState",
     "SeatedState",
+    "Setting",
     "Shape",
     "SizeAnswer",
     "Stone",
@@ -77,11 +95,18 @@ __all__ = [
     "StraightPath",
     "SurfaceFriction",
     "Ureter",
+    "assess",
     "critical_pressure",
     "critical_size",
+    "fit_friction",
+    "fit_law",
     "push_through",
+    "read_inflation",
+    "read_person",
     "read_picture",
+    "read_points",
     "read_shape",
+    "read_tension",
     "read_untrusted",
     "seat",
     "shape_through",

@@ -31,6 +31,15 @@ Drawn = Annotated[
 ]
 
 
+Relative = Annotated[
+    bool,
+    typer.Option(
+        "--relative/--absolute",
+        help="Errors in proportion to what was measured, or equal.  [default: absolute]",
+    ),
+]
+
+
 @app.command("tensile")
 def tensile(
     data: File,
@@ -42,6 +51,7 @@ def tensile(
         str | None, typer.Option("--thickness", metavar="LENGTH", help="Of the strip.")
     ] = None,
     fix: Fix = None,
+    relative: Relative = False,
     out: Out = None,
     figure: Drawn = None,
     json: Json = False,
@@ -55,7 +65,7 @@ def tensile(
         for name, side in (("--width", width), ("--thickness", thickness))
     ]
     inputs = {"file": data.name, "width_m": sides[0], "thickness_m": sides[1]}
-    return _fit(read_tension(data, *sides), law, fix, out, figure, json, inputs)
+    return _fit(read_tension(data, *sides), law, fix, relative, out, figure, json, inputs)
 
 
 @app.command("inflation")
@@ -69,6 +79,7 @@ def inflation(
         str, typer.Option("--outer", metavar="LENGTH", help="Outer diameter of the tube at rest.")
     ],
     fix: Fix = None,
+    relative: Relative = False,
     out: Out = None,
     figure: Drawn = None,
     json: Json = False,
@@ -83,13 +94,14 @@ def inflation(
         "inner_diameter_m": tube.inner_diameter,
         "outer_diameter_m": tube.outer_diameter,
     }
-    return _fit(read_inflation(data, tube), law, fix, out, figure, json, inputs)
+    return _fit(read_inflation(data, tube), law, fix, relative, out, figure, json, inputs)
 
 
 def _fit(
     data: Data,
     law: str,
     fix: list[str] | None,
+    relative: bool,
     out: Path | None,
     figure: Path | None,
     json: bool,
@@ -103,14 +115,15 @@ def _fit(
     writable(out, (".toml",))
     writable(figure, FIGURES)
     with working("fitting"):
-        found = fit_law(data, law, _given(law, fix or []), Path(inputs["file"]).stem)
+        name = Path(inputs["file"]).stem
+        found = fit_law(data, law, _given(law, fix or []), name, relative=relative)
     if figure is not None:
         from stonepass.report.fit_figure import fit_figure
         from stonepass.report.style import save
 
         save(fit_figure(found), figure)
     if json:
-        print_json(fit_record(found, inputs))
+        print_json(fit_record(found, inputs | {"relative": relative}))
     else:
         show(fit_table(found), DISCLAIMER)
         warn(found.warnings)

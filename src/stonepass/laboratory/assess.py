@@ -326,7 +326,7 @@ def _agreement(person: Person, drawn: Draws) -> Float[np.ndarray, " n"]:
     """
     inner = drawn["inner_diameter"]
     section = (_wall_ratio(drawn) ** 2 - 1.0) * inner**2 / person.load.prestretch
-    outer = np.sqrt(drawn["dilated_inner_diameter"] ** 2 + section)
+    outer = np.sqrt(np.maximum(drawn["dilated_inner_diameter"] ** 2 + section, 0.0))
     measured = person.measured["dilated_outer_diameter"]
     if measured.sd is None:
         return ((outer >= measured.low) & (outer <= measured.high)).astype(float)

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 from jaxtyping import Float
+from scipy.stats import spearmanr
 
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
 from stonepass.laboratory.least_squares import correlations, intervals, lmfit
@@ -22,6 +23,9 @@ __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
 STARTS = (0.1, 1.0, 5.0)  # of the numbers of a law, each tried
 INDISTINCT = 1e-6  # of singular values of the sensitivities, relative
+SMALLEST_SHARE = 0.01  # of the largest stress: below it an error is no longer proportional
+FEWEST_OF_A_TREND = 8  # points
+UNLIKELY = 0.01  # chance of so clear a trend where there is none
 SHARE = 0.3  # of a constant in what the data cannot tell, for it to be named
 NUMBER = (1e-6, 1e3)  # of constants without unit
 CROSS = (-1e2, 1e2)
@@ -110,7 +114,12 @@ class FittedLaw:
 
 
 def fit_law(
-    data: Data, law: str, given: Mapping[str, float] | None = None, name: str = "fitted"
+    data: Data,
+    law: str,
+    given: Mapping[str, float] | None = None,
+    name: str = "fitted",
+    *,
+    relative: bool = False,
 ) -> FittedLaw:
     """Fit the constants of a law to data by least squares.
 
@@ -124,6 +133,9 @@ def fit_law(
         Constants that are not fitted, moduli in Pa.
     name : str
         Of the material.
+    relative : bool
+        Whether errors are proportional to what was measured, as a gauge's often are, instead of
+        equally large everywhere. Intervals are right only for the one that is true.
 
     Raises
     ------
@@ -145,13 +157,17 @@ def fit_law(
     scale = float(np.abs(data.observed).max())
     require(scale > 0.0, "data", "zero throughout", "measured under load")
 
+    spread = np.full(points, scale)
+    if relative:
+        spread = np.maximum(np.abs(data.observed), SMALLEST_SHARE * scale)
+
     def residuals(parameters: Any) -> Float[np.ndarray, " n"]:
-        """Predicted less observed over the largest; far off where the law has no stress."""
+        """Predicted less observed over what is expected; far off where the law has no stress."""
         try:
             found = data.predicted(known.make(**parameters.valuesdict()))
         except BadInput:
             found = np.full(points, np.nan)
-        off = (found - data.observed) / scale
+        off = (found - data.observed) / spread
         return np.where(np.isfinite(off), off, IMPOSSIBLE)
 
     best = None
@@ -170,6 +186,7 @@ def fit_law(
     fitted = known.make(**values)
     predicted = data.predicted(fitted)
     off = predicted - data.observed
+    warnings += _growing(off, data.observed, relative)
     low, high = data.strain_range
     material = Material(
         name=name,
@@ -247,3 +264,16 @@ def _check_told(residuals: Any, result: Any, free: list[str]) -> None:
         "such that every constant changes what is predicted",
         f"give one of them, e.g. --fix {named[-1]}=VALUE, or another test",
     )
+
+
+def _growing(
+    off: Float[np.ndarray, " n"], observed: Float[np.ndarray, " n"], relative: bool
+) -> list[str]:
+    """Whether residuals grow with what was measured, although they were taken as equal."""
+    if relative or len(off) < FEWEST_OF_A_TREND or np.ptp(np.abs(off)) == 0.0:
+        return []
+    trend = spearmanr(np.abs(off), np.abs(observed))
+    if not (trend.statistic > 0.0 and trend.pvalue < UNLIKELY):
+        return []
+    return ["residuals grow with the stress, so that intervals are too narrow: fit with relative "
+            "errors (--relative)"]  # fmt: skip

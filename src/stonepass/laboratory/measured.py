@@ -134,7 +134,7 @@ def _read(
     allowed = f"from {shown[0]} to {shown[1]}"
     require(low <= first <= high, argument, text, allowed)
     if spread:
-        require(0.0 <= second <= high, argument, text, "with an uncertainty of 0 or more")
+        require(0.0 <= second <= high, argument, text, f"with an uncertainty from 0 to {shown[1]}")
         return Measured(first, second, low, high)
     require(first <= second <= high, argument, text, f"a rising range {allowed}")
     return Measured((first + second) / 2.0, None, first, second)

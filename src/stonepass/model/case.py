@@ -14,7 +14,7 @@ from stonepass.materials.user_law import load_material, looks_like_file
 from stonepass.model.closure import ORDER
 from stonepass.model.opening import Pairs
 from stonepass.model.shape import ASPECT, Shape
-from stonepass.units import Length, Pressure, length, pressure
+from stonepass.units import Length, Pressure, format_length, length, pressure
 
 __all__ = ["Case", "Load", "Method", "Stone", "Ureter", "find_material"]
 
@@ -122,8 +122,8 @@ class Ureter:
             require(
                 outer > inner,
                 "outer diameter",
-                outer_diameter,
-                f"larger than the inner diameter, {inner_diameter}",
+                format_length(outer),
+                f"larger than the inner diameter, {format_length(inner)}",
             )
             ratio = outer / inner
             if wall_ratio is not None and not abs(wall_ratio - ratio) <= 1e-9 * ratio:

@@ -211,7 +211,7 @@ class ResponseSurface:
         low, high = self._range
         varying = high - low > NARROW
         scaled = (_raw(self.case, at) - low)[:, varying] / (high - low)[varying]
-        return np.clip(scaled, 0.0, 1.0)
+        return np.clip(np.nan_to_num(scaled), 0.0, 1.0)  # a closed lumen has no place here
 
     @cached_property
     def _range(self) -> tuple[Float[np.ndarray, " d"], Float[np.ndarray, " d"]]:

@@ -416,6 +416,7 @@ def _profiled(
         return misfit(*(np.asarray(each) for each in given))
 
     def excess(value: float) -> float:
+        """Least misfit over the other parameter, less the level."""
         values = np.asarray(at(value, grid))
         k = int(np.argmin(values))
         ends = (grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)])

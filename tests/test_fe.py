@@ -10,7 +10,8 @@ from scipy.special import ellipeinc
 from stonepass.fe.contact import Arc, lobatto, unilateral
 from stonepass.fe.discrete import discretise, free_unknowns, inner_wall, set_at_nodes, wall_form
 from stonepass.fe.friction import open_contact
-from stonepass.fe.mesh import Layout, graded, growing, intervals, place, structured_mesh
+from stonepass.fe.grading import graded, growing, intervals
+from stonepass.fe.mesh import Layout, place, structured_mesh
 from stonepass.fe.newton import Plain, newton
 from stonepass.fe.problem import Tube
 from stonepass.fe.profile import Profile

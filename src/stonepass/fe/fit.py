@@ -25,7 +25,8 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.friction import closed_contact, open_contact
-from stonepass.fe.mesh import INNER, Layout, graded, growing, intervals, place
+from stonepass.fe.grading import graded, growing, intervals
+from stonepass.fe.mesh import INNER, Layout, place
 from stonepass.fe.newton import Bordered, Plain, Report, newton_or_homotopy
 from stonepass.fe.press import FRICTION_WEIGHT, along_wall, dissipation
 from stonepass.fe.problem import Failure, Resolution, Tube

@@ -18,7 +18,8 @@ from stonepass.fe.discrete import (
     inner_wall,
     wall_form,
 )
-from stonepass.fe.mesh import INNER, Layout, growing
+from stonepass.fe.grading import growing
+from stonepass.fe.mesh import INNER, Layout
 from stonepass.fe.newton import Plain, newton_or_homotopy
 from stonepass.fe.problem import Failure, Tube, Wrap
 from stonepass.fe.profile import Profile

@@ -41,7 +41,8 @@ from stonepass.fe.discrete import (
     wall_form,
 )
 from stonepass.fe.fit import FIT_TOLERANCE, INSIDE_OUT, POLISH, ROUNDING, Fitted
-from stonepass.fe.mesh import Layout, graded, growing, intervals, place
+from stonepass.fe.grading import graded, growing, intervals
+from stonepass.fe.mesh import Layout, place
 from stonepass.fe.newton import Bordered, Report, newton
 from stonepass.fe.press import along_wall
 from stonepass.fe.problem import Failure, Resolution, Tube

@@ -1,0 +1,40 @@
+"""Grid lines whose intervals grow geometrically."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+from scipy.optimize import brentq
+
+__all__ = ["graded", "growing", "intervals"]
+
+
+def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points"]:
+    """Points 0 … `total` whose intervals grow geometrically from `first`; even if that is large.
+
+    ``graded(2, 1.0, 3.0)`` is 0, 1, 3: the intervals 1 and 2 have the ratio 2.
+    """
+    if first * count >= total:
+        return np.linspace(0.0, total, count + 1)
+
+    def excess(log_ratio: float) -> float:
+        return float(first * np.exp(log_ratio * np.arange(count)).sum() - total)
+
+    # The last interval is at most `total`, which bounds the ratio.
+    log_ratio = brentq(excess, 0.0, np.log(total / first) / (count - 1), xtol=1e-14)
+    points = np.concatenate([[0.0], np.cumsum(first * np.exp(log_ratio * np.arange(count)))])
+    return points * (total / points[-1])
+
+
+def intervals(first: float, total: float, growth: float, least: int = 2) -> int:
+    """Fewest geometric intervals from `first` to `total` whose ratio stays below `growth`."""
+    if first >= total:
+        return least
+    return max(least, int(np.ceil(np.log1p(total / first * (growth - 1.0)) / np.log(growth))))
+
+
+def growing(
+    first: float, total: float, growth: float, least: int = 2
+) -> Float[np.ndarray, " points"]:
+    """Points 0 … `total`, the first interval `first`, as few as the largest `growth` allows."""
+    return graded(intervals(first, total, growth, least), first, total)

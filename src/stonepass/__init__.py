@@ -9,6 +9,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from stonepass.origin import VERSION
+
 if TYPE_CHECKING:
     from stonepass.errors import BadInput, Outcome, StonepassError
     from stonepass.imaging.friction import SurfaceFriction, surface_friction
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
     from stonepass.model.shape import Shape
     from stonepass.model.size import SizeAnswer, critical_size
 
-__version__ = "0.1.0"
+__version__ = VERSION
 
 # Every public name and the module it lives in; nothing is imported before it is used.
 _HOME = {

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
+from stonepass.origin import DISCLAIMER
 
 __all__ = ["command"]
 
@@ -43,7 +44,6 @@ def command(
     from stonepass.laboratory.assess import assess
     from stonepass.laboratory.person import read_person
     from stonepass.report.assess_report import CAUTION, assess_record, assess_tables
-    from stonepass.report.record import DISCLAIMER
     from stonepass.studies.jobs import PooledSolver
 
     person = read_person(case_file)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stonepass.cli.options import Json
+from stonepass.origin import DISCLAIMER
 
 if TYPE_CHECKING:
     from stonepass.laboratory.fit import Data
@@ -110,7 +111,6 @@ def _fit(
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
     from stonepass.laboratory.fit import fit_law
     from stonepass.report.fit_report import fit_record, fit_table
-    from stonepass.report.record import DISCLAIMER
 
     writable(out, (".toml",))
     writable(figure, FIGURES)

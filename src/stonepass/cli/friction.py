@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stonepass.cli.options import Json
+from stonepass.origin import DISCLAIMER
 
 if TYPE_CHECKING:
     from stonepass.imaging.paths import StraightPath
@@ -88,7 +89,6 @@ def command(
             picture = picture.with_area(*part)
         found = surface_friction(picture, scale, lines, baseline_order, deviation_order)
     from stonepass.report.friction_report import friction_record, friction_table
-    from stonepass.report.record import DISCLAIMER
 
     if figure is not None:
         from stonepass.report.friction_figure import friction_figure

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from stonepass.origin import DISCLAIMER
+
 __all__ = ["command"]
 
 
@@ -20,7 +22,6 @@ def command(
     from stonepass.cli.terminal import FIGURES, counting, show, warn, writable
     from stonepass.paper.headline import headline
     from stonepass.paper.headline_report import confining_table, headline_figure, headline_table
-    from stonepass.report.record import DISCLAIMER
     from stonepass.report.style import save
     from stonepass.report.table import grouped_warnings
 

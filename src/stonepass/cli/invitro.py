@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
+from stonepass.origin import DISCLAIMER
 
 __all__ = ["command"]
 
@@ -63,7 +64,6 @@ def command(
         invitro_table,
         write_invitro,
     )
-    from stonepass.report.record import DISCLAIMER
     from stonepass.studies.jobs import PooledSolver
 
     if friction is not None:

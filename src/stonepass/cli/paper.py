@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from stonepass.cli.options import Cache, NoCache, Workers, cache_folder
+from stonepass.origin import DISCLAIMER
 
 __all__ = ["command"]
 
@@ -49,7 +50,6 @@ def command(
     from stonepass.paper.claims_table import claims_table
     from stonepass.paper.run import chosen, reproduce
     from stonepass.paper.section import Asked
-    from stonepass.report.record import DISCLAIMER
     from stonepass.studies.store import Store
     from stonepass.units import pressure
 

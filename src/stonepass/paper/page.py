@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
+from stonepass.origin import DISCLAIMER, VERSION
 from stonepass.paper.section import Asked, Claim, Section
 from stonepass.report.html import write_html
-from stonepass.report.record import DISCLAIMER, VERSION
 
 __all__ = ["write_page"]
 

@@ -11,7 +11,8 @@ from rich.table import Table
 from stonepass.laboratory.assess import Assessment, Range, Share, contradiction
 from stonepass.laboratory.limits import limit_told
 from stonepass.laboratory.person import INPUTS
-from stonepass.report.record import DISCLAIMER, VERSION, record
+from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.report.record import record
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
 __all__ = ["CAUTION", "assess_record", "assess_tables", "measured_told", "range_told"]

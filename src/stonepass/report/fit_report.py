@@ -8,10 +8,9 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-import stonepass
 from stonepass.laboratory.fit import Constant, FittedLaw
 from stonepass.materials.known_laws import name_of_law
-from stonepass.report.record import DISCLAIMER
+from stonepass.origin import DISCLAIMER, VERSION
 
 __all__ = ["fit_record", "fit_table"]
 
@@ -43,7 +42,7 @@ def fit_record(found: FittedLaw, inputs: dict[str, Any]) -> dict[str, Any]:
         "stable": not found.unstable,
         "stability": found.unstable,
         "warnings": list(found.warnings),
-        "version": stonepass.__version__,
+        "version": VERSION,
         "disclaimer": DISCLAIMER,
     }
 

@@ -8,9 +8,8 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-import stonepass
 from stonepass.imaging.friction import SurfaceFriction
-from stonepass.report.record import DISCLAIMER
+from stonepass.origin import DISCLAIMER, VERSION
 
 __all__ = ["friction_record", "friction_table"]
 
@@ -50,7 +49,7 @@ def friction_record(found: SurfaceFriction, image: str) -> dict[str, Any]:
         "pixel_source": found.picture.pixel_source,
         "notes": list(found.picture.notes),
         "warnings": list(found.warnings),
-        "version": stonepass.__version__,
+        "version": VERSION,
         "disclaimer": DISCLAIMER,
     }
 

@@ -12,7 +12,8 @@ from rich.table import Table
 from stonepass.laboratory.comparison import Comparison
 from stonepass.laboratory.invitro import Estimate, InVitro
 from stonepass.laboratory.least_squares import LEVEL
-from stonepass.report.record import DISCLAIMER, VERSION, write_csv
+from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.report.record import write_csv
 from stonepass.report.table import significant
 
 __all__ = ["invitro_record", "invitro_table", "write_invitro"]

@@ -11,15 +11,13 @@ from typing import Any
 
 import numpy as np
 
-import stonepass
 from stonepass.errors import BadInput
 from stonepass.model.answer import Answer, Touch
 from stonepass.model.case import Case
 from stonepass.model.size import SizeAnswer
+from stonepass.origin import DISCLAIMER, VERSION
 
 __all__ = [
-    "DISCLAIMER",
-    "VERSION",
     "curve_rows",
     "record",
     "size_record",
@@ -28,8 +26,6 @@ __all__ = [
     "write_profile",
 ]
 
-VERSION = stonepass.__version__
-DISCLAIMER = "Research use only. Not a medical device."
 PROFILE_STEP = 0.1  # degrees
 LEFT_OUT = ("model", "pairs")  # of the method: one stands elsewhere, the other as a file
 _CURVE_COLUMNS = (
@@ -97,7 +93,7 @@ def record(answer: Answer) -> dict[str, Any]:
             "residual": state.solver.residual if state else None,
         },
         "warnings": list(answer.warnings),
-        "version": stonepass.__version__,
+        "version": VERSION,
         "disclaimer": DISCLAIMER,
     }
 

@@ -17,8 +17,9 @@ from rich.table import Table
 from stonepass.errors import BadInput
 from stonepass.model.advance import advance_force
 from stonepass.model.push_through import PushedState
+from stonepass.origin import DISCLAIMER, VERSION
 from stonepass.report.push_figure import draw_pressure, draw_wall
-from stonepass.report.record import DISCLAIMER, VERSION, write_csv
+from stonepass.report.record import write_csv
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.report.table import case_title, significant
 from stonepass.studies.rising import Rising

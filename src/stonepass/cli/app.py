@@ -6,11 +6,12 @@ from typing import Annotated
 
 import typer
 
-import stonepass
 from stonepass.cli import (
     assess,
     closures,
+    compare,
     curve,
+    export,
     fit,
     friction,
     headline,
@@ -21,6 +22,7 @@ from stonepass.cli import (
     push,
     size,
 )
+from stonepass.origin import VERSION
 
 __all__ = ["app"]
 
@@ -37,7 +39,7 @@ app = typer.Typer(
 
 def _version(value: bool) -> None:
     if value:
-        print(f"stonepass {stonepass.__version__}")
+        print(f"stonepass {VERSION}")
         raise typer.Exit()
 
 
@@ -55,6 +57,8 @@ app.command("size")(size.command)
 app.command("curve")(curve.command)
 app.command("push")(push.command)
 app.command("closures")(closures.command)
+app.command("export")(export.command)
+app.command("compare")(compare.command)
 app.command("friction")(friction.command)
 app.command("invitro")(invitro.command)
 app.command("assess")(assess.command)

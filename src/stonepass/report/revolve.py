@@ -26,22 +26,29 @@ LIGHT = np.array([-0.45, 0.9, 0.25])
 STONE_RINGS = 40
 
 
-def write_vtu(path: Path, wall: Field, *, mirrored: bool) -> None:
-    """Write the deformed wall as hexahedra with its Cauchy stress in Pa (tension positive).
+def write_vtu(path: Path, wall: Field, *, mirrored: bool, inner_radius: float = 1.0) -> None:
+    """Write the deformed wall as hexahedra: displacement, and Cauchy stress in Pa.
 
-    Lengths are in inner radii, z along the tube; `mirrored` adds the other half of a half tube.
-    Stress components are cylindrical: rr, tt (hoop), zz, rz.
+    Lengths are in units of which the inner radius has `inner_radius`, z along the tube; `mirrored`
+    adds the other half of a half tube. Stress components are cylindrical, tension positive: rr,
+    tt (hoop), zz, rz.
     """
     half = _meridian(wall, mirrored=mirrored)
-    r, z, quads = half.r, half.z, half.quads
-    count, angles = len(r), 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
-    points = np.concatenate([np.c_[r * np.cos(t), r * np.sin(t), z] for t in angles])
+    quads, count = half.quads, len(half.r)
+    angles = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
+
+    def turned(r: Float[np.ndarray, " n"], z: Float[np.ndarray, " n"]) -> Float[np.ndarray, "m 3"]:
+        rings = [np.c_[r * np.cos(t), r * np.sin(t), z] for t in angles]
+        return inner_radius * np.concatenate(rings)
+
     near = quads[None] + count * np.arange(SEGMENTS)[:, None, None]
     far = quads[None] + count * ((np.arange(SEGMENTS) + 1) % SEGMENTS)[:, None, None]
     cells = np.concatenate([far, near], axis=2).reshape(-1, 8)
     data = {name: np.tile(values, SEGMENTS) for name, values in half.stress.items()}
+    data["displacement"] = turned(half.r - half.R, half.z - half.Z)
     try:
-        meshio.Mesh(points, [("hexahedron", cells)], point_data=data).write(path)
+        mesh = meshio.Mesh(turned(half.r, half.z), [("hexahedron", cells)], point_data=data)
+        mesh.write(path)
     except OSError as problem:
         raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
 

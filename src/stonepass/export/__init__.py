@@ -1,0 +1,1 @@
+"""The seated state for other finite-element programs, and their results read back."""

@@ -1,0 +1,315 @@
+"""An input file for FEBio 4: millimetres, kilopascals, and so millinewtons.
+
+FEBio has no axisymmetric elements. The file has a wedge of them, one thick, about the axis z: one
+side in the plane y = 0, the other turned by `WEDGE`. There u_y = u_x tan(WEDGE) ties the nodes to
+their plane. FEBio's "normal displacement" would hold them altogether, for it prescribes all three
+components.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from xml.etree.ElementTree import Comment, Element, SubElement, indent, tostring
+
+import numpy as np
+from jaxtyping import Float, Int, Num
+
+from stonepass.export.feb_material import add_wall_material
+from stonepass.export.grid import Grid
+from stonepass.export.seating import KPA, MM, Seating
+from stonepass.materials.derivatives import hoop_modulus
+from stonepass.origin import DISCLAIMER, VERSION
+
+__all__ = ["CONTACT_FILE", "INNER_FILE", "WEDGE", "write_feb"]
+
+WEDGE = float(np.radians(2.0))  # angle of the wedge
+LOAD_INCREMENTS = 10
+SEARCH = 0.25  # how far a face of the wall looks for the strip, over R_a
+INNER_FILE = "seated_inner.csv"  # node, u_r, 0, u_z of the inner wall, in mm
+CONTACT_FILE = "seated_contact.csv"  # face, contact pressure in kPa
+
+STRIP_CURVE, LOAD_CURVE = "1", "2"
+
+
+@dataclass(frozen=True)
+class _Wedge:
+    """A grid turned about the axis; node numbers start at `first`.
+
+    Numbers go through the side at angle 0, then the turned side, then the edges between corners.
+    """
+
+    grid: Grid
+    first: int
+
+    @cached_property
+    def corners(self) -> Int[np.ndarray, " corners"]:
+        """Nodes of the grid that are corners."""
+        return np.unique(self.grid.cells[:, :4])
+
+    @property
+    def count(self) -> int:
+        """How many nodes."""
+        return 2 * len(self.grid.points) + len(self.corners)
+
+    @cached_property
+    def sides(self) -> tuple[Int[np.ndarray, " points"], ...]:
+        """Numbers at angle 0, turned and halfway; the last −1 where the grid has no corner."""
+        n = len(self.grid.points)
+        halfway = np.full(n, -1)
+        halfway[self.corners] = self.first + 2 * n + np.arange(len(self.corners))
+        return self.first + np.arange(n), self.first + n + np.arange(n), halfway
+
+    def turned(self, vectors: Float[np.ndarray, "points 2"]) -> Float[np.ndarray, "nodes 3"]:
+        """Points or displacements r, z of the grid as x, y, z of every node."""
+        parts = []
+        for angle, (r, z) in (
+            (0.0, vectors.T),
+            (WEDGE, vectors.T),
+            (WEDGE / 2.0, vectors[self.corners].T),
+        ):
+            parts.append(np.column_stack([r * np.cos(angle), r * np.sin(angle), z]))
+        return np.vstack(parts)
+
+    def elements(self) -> Int[np.ndarray, "cells 20"]:
+        """hex20: e_r × e_z = −e_θ, so the turned side is the bottom."""
+        flat, turned, halfway = (side[self.grid.cells] for side in self.sides)
+        parts = (turned[:, :4], flat[:, :4], turned[:, 4:], flat[:, 4:], halfway[:, :4])
+        return np.hstack(parts)
+
+    def faces(
+        self, cells: Int[np.ndarray, "faces 8"], start: int, end: int, middle: int
+    ) -> Int[np.ndarray, "faces 8"]:
+        """quad8 on the side of each cell from `start` to `end`; its normal is that way × e_θ."""
+        a, b, m = cells[:, start], cells[:, end], cells[:, middle]
+        flat, turned, halfway = self.sides
+        around = (flat[a], flat[b], turned[b], turned[a], flat[m], halfway[b], turned[m])
+        return np.column_stack([*around, halfway[a]])
+
+    def inner(self, columns: slice) -> Int[np.ndarray, "faces 8"]:
+        """Faces of the first row, their normals towards the axis."""
+        return self.faces(self.grid.cells[: self.grid.columns][columns], 0, 3, 7)
+
+    def outer(self) -> Int[np.ndarray, "faces 8"]:
+        """Faces of the last row, their normals away from the axis."""
+        return self.faces(self.grid.cells[-self.grid.columns :], 2, 1, 5)
+
+    def on(self, line: Int[np.ndarray, " nodes"]) -> Int[np.ndarray, " numbers"]:
+        """Every node over a line of the grid."""
+        numbers = np.concatenate([side[line] for side in self.sides])
+        return np.sort(numbers[numbers >= 0])
+
+
+def write_feb(seating: Seating) -> str:
+    """The file as text.
+
+    Raises
+    ------
+    BadInput
+        FEBio has no such law.
+    """
+    wall = _Wedge(seating.wall, 1)
+    strip = _Wedge(seating.strip, 1 + wall.count)
+    root = Element("febio_spec", version="4.0")
+    root.append(Comment(_header(seating)))
+    SubElement(root, "Module", type="solid")
+    _materials(root, seating)
+    _mesh(root, seating, wall, strip)
+    _travel(root, seating, strip)
+    _boundary(root, seating, wall)
+    _load(root, seating)
+    _contact(root, seating)
+    _steps(root, seating)
+    _curves(root, seating)
+    _output(root)
+    indent(root)
+    return '<?xml version="1.0" encoding="ISO-8859-1"?>\n' + tostring(root, "unicode") + "\n"
+
+
+def _header(s: Seating) -> str:
+    case = s.case
+    name = case.ureter.material.name.encode("ascii", "replace").decode().replace("--", "- -")
+    lines = (
+        f"Seated state of a stone in a ureter, stonepass {VERSION}",
+        f"size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}, material {name}",
+        f"half-length {case.method.half_length:g} R_a, R_a = {s.inner_radius / MM:.6g} mm",
+        f"units mm, mN, kPa; a wedge of {np.degrees(WEDGE):g} degrees about z, in front of y = 0",
+        DISCLAIMER,
+    )
+    return "\n    " + "\n    ".join(lines) + "\n  "
+
+
+def _materials(root: Element, s: Seating) -> None:
+    section = SubElement(root, "Material")
+    law = s.case.ureter.material.law
+    add_wall_material(section, law, id="1", name="wall")
+    stone = SubElement(section, "material", id="2", name="stone", type="neo-Hookean")
+    _leaf(stone, "E", 100.0 * hoop_modulus(law) / KPA)
+    _leaf(stone, "v", 0.3)
+
+
+def _mesh(root: Element, s: Seating, wall: _Wedge, strip: _Wedge) -> None:
+    mesh = SubElement(root, "Mesh")
+    bodies = {"wall": wall, "stone": strip}
+    for name, wedge in bodies.items():
+        points = wedge.turned(wedge.grid.points) * s.inner_radius / MM
+        _rows(SubElement(mesh, "Nodes", name=f"{name}_nodes"), "node", points, wedge.first)
+    first = 1
+    for name, wedge in bodies.items():
+        elements = SubElement(mesh, "Elements", type="hex20", name=name)
+        _rows(elements, "elem", wedge.elements(), first)
+        first += len(wedge.grid.cells)
+    faces = {"lumen": wall.inner(s.facing), "outside": wall.outer(), "facing": strip.outer()}
+    for name, corners in faces.items():
+        _rows(SubElement(mesh, "Surface", name=name), "quad8", corners, 1)
+    sets = {
+        "side": wall.sides[0],
+        "first": wall.on(s.wall.column_line(0)),
+        "last": wall.on(s.wall.column_line(-1)),
+        "inner": wall.sides[0][s.wall.row_line(0)],
+        "strip": strip.first + np.arange(strip.count),
+    }
+    for name, numbers in sets.items():
+        SubElement(mesh, "NodeSet", name=name).text = _joined(numbers)
+    pair = SubElement(mesh, "SurfacePair", name="touch")
+    _leaf(pair, "primary", "lumen")
+    _leaf(pair, "secondary", "facing")
+    domains = SubElement(root, "MeshDomains")
+    for name in bodies:
+        SubElement(domains, "SolidDomain", name=name, mat=name)
+
+
+def _travel(root: Element, s: Seating, strip: _Wedge) -> None:
+    data = SubElement(root, "MeshData")
+    way = strip.turned(s.travel) * s.inner_radius / MM
+    for dof, values in zip("xyz", way.T, strict=True):
+        table = SubElement(data, "NodeData", name=f"travel_{dof}", node_set="strip")
+        table.set("data_type", "scalar")
+        for position, value in enumerate(values, start=1):
+            _leaf(table, "node", float(value), lid=str(position))
+
+
+def _boundary(root: Element, s: Seating, wall: _Wedge) -> None:
+    section = SubElement(root, "Boundary")
+    _hold(section, "side", "y")
+    pull = (s.case.load.prestretch - 1.0) * s.case.method.half_length * s.inner_radius / MM
+    for end, way in (("first", -pull if s.whole else 0.0), ("last", pull)):
+        if way == 0.0:
+            _hold(section, end, "z")
+        else:
+            _leaf(_move(section, end, "z"), "value", way, lc=LOAD_CURVE)
+    for dof in "xyz":
+        move = _move(section, "strip", dof)
+        _leaf(move, "value", f"travel_{dof}", lc=STRIP_CURVE, type="map")
+    for number in wall.sides[1]:
+        tie = SubElement(section, "bc", type="linear constraint")
+        _leaf(tie, "node", int(number))
+        _leaf(tie, "dof", "y")
+        child = SubElement(tie, "child_dof")
+        _leaf(child, "node", int(number))
+        _leaf(child, "dof", "x")
+        _leaf(child, "value", float(np.tan(WEDGE)))
+
+
+def _hold(section: Element, node_set: str, held: str) -> None:
+    bc = SubElement(section, "bc", type="zero displacement", node_set=node_set)
+    for dof in "xyz":
+        _leaf(bc, f"{dof}_dof", int(dof == held))
+
+
+def _move(section: Element, node_set: str, dof: str) -> Element:
+    bc = SubElement(section, "bc", type="prescribed displacement", node_set=node_set)
+    _leaf(bc, "dof", dof)
+    _leaf(bc, "relative", 0)
+    return bc
+
+
+def _load(root: Element, s: Seating) -> None:
+    """A pressure on the outer wall; a dead one keeps its first area and normal, so its forces."""
+    load = s.case.load
+    if load.confining_pressure == 0.0:
+        return
+    section = SubElement(root, "Loads")
+    pressure = SubElement(section, "surface_load", type="pressure", surface="outside")
+    _leaf(pressure, "pressure", load.confining_pressure / KPA, lc=LOAD_CURVE)
+    _leaf(pressure, "symmetric_stiffness", 0)
+    _leaf(pressure, "linear", int(not load.hydrostatic))
+
+
+def _contact(root: Element, s: Seating) -> None:
+    """Pressure is penalty times penetration, without augmentation, as in the other decks."""
+    section = SubElement(root, "Contact")
+    touch = SubElement(section, "contact", type="sliding-elastic", surface_pair="touch")
+    _leaf(touch, "laugon", "PENALTY")
+    _leaf(touch, "penalty", s.penalty / KPA / (s.inner_radius / MM))
+    _leaf(touch, "auto_penalty", 0)
+    _leaf(touch, "two_pass", 0)
+    _leaf(touch, "symmetric_stiffness", 0)
+    _leaf(touch, "search_radius", SEARCH * s.inner_radius / MM)
+    _leaf(touch, "fric_coeff", s.case.seating_friction)
+
+
+def _steps(root: Element, s: Seating) -> None:
+    section = SubElement(root, "Step")
+    load = s.case.load
+    loaded = load.prestretch != 1.0 or load.confining_pressure > 0.0
+    counts = (LOAD_INCREMENTS if loaded else 1, int(np.ceil(s.length / s.increment)))
+    for number, (name, count) in enumerate(zip(("load", "press"), counts, strict=True), start=1):
+        step = SubElement(section, "step", id=str(number), name=name)
+        _control(SubElement(step, "Control"), count)
+
+
+def _control(control: Element, count: int) -> None:
+    """A time of one in `count` increments at first; full Newton steps."""
+    _leaf(control, "analysis", "STATIC")
+    _leaf(control, "time_steps", count)
+    _leaf(control, "step_size", 1.0 / count)
+    stepper = SubElement(control, "time_stepper", type="default")
+    for name, value in {"max_retries": 10, "opt_iter": 15, "aggressiveness": 1}.items():
+        _leaf(stepper, name, value)
+    _leaf(stepper, "dtmin", 1e-3 / count)
+    _leaf(stepper, "dtmax", min(2.0 / count, 1.0))
+    solver = SubElement(control, "solver", type="solid")
+    _leaf(solver, "symmetric_stiffness", "non-symmetric")
+    _leaf(solver, "max_refs", 25)
+    _leaf(solver, "dtol", 1e-3)
+    _leaf(solver, "etol", 1e-3)
+    _leaf(SubElement(solver, "qn_method", type="BFGS"), "max_ups", 0)
+
+
+def _curves(root: Element, s: Seating) -> None:
+    section = SubElement(root, "LoadData")
+    for number, first in ((STRIP_CURVE, s.first_share), (LOAD_CURVE, 1.0)):
+        curve = SubElement(section, "load_controller", id=number, type="loadcurve")
+        _leaf(curve, "interpolate", "LINEAR")
+        _leaf(curve, "extend", "CONSTANT")
+        points = SubElement(curve, "points")
+        for point in ((0.0, 0.0), (1.0, first), (2.0, 1.0)):
+            _leaf(points, "pt", _joined(np.array(point)))
+
+
+def _output(root: Element) -> None:
+    section = SubElement(root, "Output")
+    log = SubElement(section, "logfile")
+    inner = SubElement(log, "node_data", data="ux;uy;uz", node_set="inner", file=INNER_FILE)
+    faces = SubElement(log, "face_data", data="contact pressure", surface="lumen")
+    faces.set("file", CONTACT_FILE)
+    for record in (inner, faces):
+        record.set("delim", ",")
+    plot = SubElement(section, "plotfile", type="febio")
+    for name in ("displacement", "stress", "contact pressure", "contact gap"):
+        SubElement(plot, "var", type=name)
+
+
+def _rows(parent: Element, tag: str, rows: Num[np.ndarray, "rows columns"], first: int) -> None:
+    for number, row in enumerate(rows, start=first):
+        SubElement(parent, tag, id=str(number)).text = _joined(row)
+
+
+def _joined(values: Num[np.ndarray, " values"]) -> str:
+    return ",".join(f"{value:.12g}" for value in values)
+
+
+def _leaf(parent: Element, tag: str, value: str | int | float, **attributes: str) -> None:
+    text = value if isinstance(value, str) else f"{value:.12g}"
+    SubElement(parent, tag, attributes).text = text

@@ -1,0 +1,282 @@
+"""A deck for CalculiX or Abaqus: millimetres, kilopascals, and so millinewtons.
+
+Two programs, one format, where they differ (`FLAVOURS`): CalculiX has no hybrid elements, so the
+wall is nearly incompressible (ν = 0.499); Abaqus has, and keeps volume exactly. CalculiX treats
+whatever touches in the first step as fitted together and there takes gaps below 1/penalty, in the
+deck's units, for contact, which pulls the wall on; so the strip touches in the second step only,
+and the units make 1/penalty far smaller than the clearance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from stonepass.errors import BadInput, refuse_unknown
+from stonepass.export.grid import Grid
+from stonepass.export.seating import KPA, MM, Seating, bulk_modulus
+from stonepass.materials.derivatives import hoop_modulus
+from stonepass.materials.fung import Fung
+from stonepass.materials.known_laws import name_of_law
+from stonepass.materials.mooney_rivlin import MooneyRivlin
+from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.protocol import Law
+from stonepass.materials.yeoh import Yeoh
+from stonepass.origin import DISCLAIMER, VERSION
+
+__all__ = ["ELEMENTS", "FLAVOURS", "write_inp"]
+
+FLAVOURS = ("calculix", "abaqus")
+ELEMENTS = ("CAX8", "CAX8R")
+A_LINE = 12  # numbers
+
+
+def write_inp(
+    seating: Seating,
+    element: str = "CAX8",
+    flavour: str = "calculix",
+    increment: float | None = None,
+) -> str:
+    """The deck as text; the strip goes at most `increment` R_a at a time, else as the seating says.
+
+    Raises
+    ------
+    BadInput
+        Element or flavour is not known, or the program has no such law.
+    """
+    for what, value, known in (("element", element, ELEMENTS), ("flavour", flavour, FLAVOURS)):
+        if value not in known:
+            refuse_unknown(what, value, list(known))
+    parts = (
+        _header(seating, element, flavour),
+        _mesh(seating, element, flavour),
+        _sets(seating),
+        _materials(seating, flavour),
+        _contact(seating, flavour),
+        _steps(seating, flavour, increment or seating.increment),
+    )
+    return "\n".join(line for part in parts for line in part) + "\n"
+
+
+def _header(s: Seating, element: str, flavour: str) -> Iterator[str]:
+    case = s.case
+    yield f"** Seated state of a stone in a ureter, stonepass {VERSION}"
+    yield f"** size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}, material " + (
+        case.ureter.material.name
+    )
+    yield f"** half-length {case.method.half_length:g} R_a, R_a = {s.inner_radius / MM:.6g} mm"
+    yield f"** {element} for {flavour}; mm, mN, kPa; r along x, the tube's axis along y"
+    yield f"** {DISCLAIMER}"
+    yield "*HEADING"
+    yield "Stone pressed into a ureter"
+
+
+def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
+    hybrid = "H" if flavour == "abaqus" else ""
+    points = np.vstack([s.wall.points, s.strip.points]) * s.inner_radius / MM
+    yield "*NODE, NSET=ALL"
+    for number, (r, z) in enumerate(points, start=1):
+        yield _row(number, float(r), float(z))
+    yield f"*ELEMENT, TYPE={element}{hybrid}, ELSET=WALL"
+    yield from _elements(s.wall, 1, 1)
+    first = len(s.wall.cells) + 1
+    if _matrix(s.case.ureter.material.law):
+        yield "** the ground matrix: the same elements again"
+        yield f"*ELEMENT, TYPE={element}{hybrid}, ELSET=MATRIX"
+        yield from _elements(s.wall, first, 1)
+        first += len(s.wall.cells)
+    yield "*ELEMENT, TYPE=CAX8, ELSET=STRIP"
+    yield from _elements(s.strip, first, len(s.wall.points) + 1)
+
+
+def _elements(grid: Grid, first: int, first_node: int) -> Iterator[str]:
+    for number, nodes in enumerate(grid.cells + first_node, start=first):
+        yield _row(number, *nodes.tolist())
+
+
+def _sets(s: Seating) -> Iterator[str]:
+    count = len(s.wall.points)
+    inner = s.wall.row_line(0)
+    yield from _set("FIRST", s.wall.column_line(0))
+    yield from _set("LAST", s.wall.column_line(-1))
+    yield from _set("INNER", inner)
+    yield from _set("STONE", count + np.arange(len(s.strip.points)))
+    yield "*SURFACE, NAME=LUMEN, TYPE=ELEMENT"
+    for column in range(s.facing.start, s.facing.stop):
+        yield _row(column + 1, "S4")
+    yield "*SURFACE, NAME=OUTSIDE, TYPE=ELEMENT"
+    last_row = (s.wall.rows - 1) * s.wall.columns
+    for column in range(s.wall.columns):
+        yield _row(last_row + column + 1, "S2")
+    yield "*SURFACE, NAME=STONE, TYPE=ELEMENT"
+    copies = 2 if _matrix(s.case.ureter.material.law) else 1
+    before = copies * len(s.wall.cells) + (s.strip.rows - 1) * s.strip.columns
+    for column in range(s.strip.columns):
+        yield _row(before + column + 1, "S2")
+
+
+def _set(name: str, nodes: Any) -> Iterator[str]:
+    kept = [int(node) + 1 for node in nodes if node >= 0]
+    yield f"*NSET, NSET={name}"
+    for start in range(0, len(kept), A_LINE):
+        yield _row(*kept[start : start + A_LINE])
+
+
+def _materials(s: Seating, flavour: str) -> Iterator[str]:
+    law = s.case.ureter.material.law
+    D1 = 0.0 if flavour == "abaqus" else 2.0 / (bulk_modulus(law) / KPA)
+    yield "*MATERIAL, NAME=WALL"
+    yield from _law(law, D1, flavour)
+    yield "*SOLID SECTION, ELSET=WALL, MATERIAL=WALL" + (
+        ", ORIENTATION=CYLINDER" if isinstance(law, Fung) else ""
+    )
+    if _matrix(law):
+        yield "*MATERIAL, NAME=MATRIX"
+        assert isinstance(law, Fung)
+        yield from _law(NeoHookean(law.G / 2.0), D1, flavour)
+        yield "*SOLID SECTION, ELSET=MATRIX, MATERIAL=MATRIX"
+    yield "** its nodes all have prescribed motions"
+    yield "*MATERIAL, NAME=STONE"
+    yield "*ELASTIC"
+    yield _row(25.0 * hoop_modulus(law) / KPA, 0.3)
+    yield "*SOLID SECTION, ELSET=STRIP, MATERIAL=STONE"
+
+
+def _matrix(law: Law) -> bool:
+    return isinstance(law, Fung) and law.G > 0.0
+
+
+def _law(law: Law, D1: float, flavour: str) -> Iterator[str]:
+    if isinstance(law, NeoHookean):
+        yield "*HYPERELASTIC, NEO HOOKE"
+        yield _row(law.C10 / KPA, D1)
+    elif isinstance(law, MooneyRivlin):
+        yield "*HYPERELASTIC, MOONEY-RIVLIN"
+        yield _row(law.C10 / KPA, law.C01 / KPA, D1)
+    elif isinstance(law, Yeoh):
+        yield "*HYPERELASTIC, YEOH"
+        yield _row(law.C10 / KPA, law.C20 / KPA, law.C30 / KPA, D1, 0.0, 0.0)
+    elif isinstance(law, Fung) and flavour == "abaqus":
+        # Directions 1, 2, 3 are r, z, θ. Constants b1111, b1122, b2222, b1133, b2233, b3333,
+        # b1212, b1313; b2323, c, D.
+        yield "*ORIENTATION, NAME=CYLINDER"
+        yield "1., 0., 0., 0., 1., 0."
+        yield "*ANISOTROPIC HYPERELASTIC, FUNG-ORTHOTROPIC"
+        yield _row(0.0, 0.0, law.a2222, 0.0, law.a1122, law.a1111, 0.0, 0.0)
+        yield _row(0.0, law.C / KPA, D1)
+    else:
+        named = name_of_law(law) or "a law of one's own"
+        allowed = "neo-hookean, mooney-rivlin or yeoh in a deck for CalculiX"
+        remedy = "--flavour abaqus and --format feb have fung too"
+        raise BadInput("law", named, allowed, remedy)
+
+
+def _contact(s: Seating, flavour: str) -> Iterator[str]:
+    stiffness = s.penalty / KPA / (s.inner_radius / MM)
+    yield "*SURFACE INTERACTION, NAME=TOUCH"
+    yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
+    yield _row(stiffness)
+    friction = s.case.seating_friction
+    if friction > 0.0 and flavour == "calculix":
+        yield "*FRICTION"
+        yield _row(friction, stiffness)
+    elif friction > 0.0:
+        yield f"*FRICTION, ELASTIC SLIP={1e-3 * s.inner_radius / MM:.12g}"
+        yield _row(friction)
+    yield "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE"
+    yield "LUMEN, STONE"
+
+
+def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
+    pull = (s.case.load.prestretch - 1.0) * s.case.method.half_length * s.inner_radius / MM
+    yield "*BOUNDARY"
+    yield from ("FIRST, 2, 2", "LAST, 2, 2")
+    if _radial(s):
+        yield "STONE, 2, 2"
+    yield "** first: ends and load, the strip still clear of the wall"
+    yield "*STEP, NLGEOM, INC=1000"
+    yield "*STATIC"
+    yield _row(*((0.1, 1.0, 1e-4, 0.2) if _loaded(s) else (1.0, 1.0)))
+    if pull:
+        yield "*BOUNDARY"
+        yield _row("LAST", 2, 2, pull)
+        if s.whole:
+            yield _row("FIRST", 2, 2, -pull)
+    yield from _motion(s, s.first_share)
+    yield from _load(s)
+    yield "*END STEP"
+    way = increment / s.length
+    yield "** then: the strip presses the wall open"
+    yield "*STEP, NLGEOM, INC=1000"
+    yield "*STATIC"
+    yield _row(min(way, 1.0), 1.0, 1e-6, min(way, 1.0))
+    yield from _motion(s, 1.0)
+    yield from _output(flavour)
+    yield "*END STEP"
+
+
+def _loaded(s: Seating) -> bool:
+    return s.case.load.prestretch != 1.0 or s.case.load.confining_pressure > 0.0
+
+
+def _radial(s: Seating) -> bool:
+    return not s.travel[:, 1].any()
+
+
+def _motion(s: Seating, share: float) -> Iterator[str]:
+    yield "*BOUNDARY"
+    way = share * s.travel * s.inner_radius / MM
+    if _radial(s):
+        yield _row("STONE", 1, 1, float(way[0, 0]))
+        return
+    first = len(s.wall.points) + 1
+    for number, (r, z) in enumerate(way, start=first):
+        yield _row(number, 1, 1, float(r))
+        yield _row(number, 2, 2, float(z))
+
+
+def _load(s: Seating) -> Iterator[str]:
+    load = s.case.load
+    if load.confining_pressure == 0.0:
+        return
+    if load.hydrostatic:
+        yield "*DLOAD"
+        last_row = (s.wall.rows - 1) * s.wall.columns
+        for column in range(s.wall.columns):
+            yield _row(last_row + column + 1, "P2", load.confining_pressure / KPA)
+        return
+    yield "** dead: the radial resultant is kept"
+    yield "*CLOAD"
+    forces = s.dead_forces() / KPA * (s.inner_radius / MM) ** 2
+    for node, force in zip(s.wall.row_line(-1), forces, strict=True):
+        yield _row(int(node) + 1, 1, -float(force))
+
+
+def _output(flavour: str) -> Iterator[str]:
+    if flavour == "abaqus":
+        yield "*OUTPUT, FIELD"
+        yield "*NODE OUTPUT"
+        yield "U, RF"
+        yield "*ELEMENT OUTPUT"
+        yield "S, LE"
+        yield "*CONTACT OUTPUT"
+        yield "CSTRESS, CDISP"
+        return
+    yield "** read back by: stonepass compare"
+    yield "*NODE PRINT, NSET=INNER, FREQUENCY=1000"
+    yield "U"
+    yield "*CONTACT PRINT, FREQUENCY=1000"
+    yield "CSTR"
+    yield "** to look at: cgx"
+    yield "*NODE FILE, FREQUENCY=1000"
+    yield "U"
+    yield "*EL FILE, FREQUENCY=1000"
+    yield "S"
+    yield "*CONTACT FILE, FREQUENCY=1000"
+    yield "CDIS, CSTR"
+
+
+def _row(*values: str | int | float) -> str:
+    return ", ".join(f"{v:.12g}" if isinstance(v, float) else str(v) for v in values)

@@ -1,0 +1,87 @@
+"""CalculiX beside stonepass: table, record and picture."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from rich import box
+from rich.table import Table
+
+from stonepass.export.comparison import Comparison
+from stonepass.report.record import record
+from stonepass.report.style import COLOURS, new_figure
+from stonepass.report.table import case_title, significant
+
+__all__ = ["compare_figure", "compare_record", "compare_table"]
+
+KPA = 1e3
+
+
+def compare_table(found: Comparison) -> Table:
+    """The numbers of both, and by how much CalculiX differs."""
+    table = Table(box=box.SIMPLE_HEAD, title=case_title(found.answer.case))
+    table.add_column("")
+    for name in ("stonepass", "solver error", "CalculiX", "difference"):
+        table.add_column(name, justify="right")
+    ours, theirs, error = found.seated, found.contact, found.answer.error
+    angle = np.degrees(ours.contact_angle), np.degrees(theirs.contact_angle)
+    table.add_row(
+        "contact angle",
+        f"{angle[0]:.2f}°",
+        "" if error is None else f"{np.degrees(error.contact_angle):.2f}°",
+        f"{angle[1]:.2f}°",
+        f"{angle[1] - angle[0]:+.2f}°",
+    )
+    rows = (
+        (
+            "contact pressure at 90°, kPa",
+            ours.equator_contact_pressure,
+            None if error is None else error.equator_contact_pressure,
+            theirs.equator_contact_pressure,
+        ),
+        (
+            "critical pressure, kPa",
+            found.answer.pressure,
+            None if error is None else error.critical_pressure,
+            found.pressure,
+        ),
+    )
+    for name, mine, uncertain, other in rows:
+        table.add_row(
+            name,
+            *("–" if value is None else significant(value / KPA) for value in (mine, uncertain)),
+            "–" if other is None else significant(other / KPA),
+            f"{other / mine - 1.0:+.2%}" if mine and other is not None else "–",
+        )
+    return table
+
+
+def compare_record(found: Comparison) -> dict[str, Any]:
+    """Our record, and what CalculiX has for the same."""
+    theirs = found.contact
+    return {
+        **record(found.answer),
+        "calculix": {
+            "contact_angle_deg": float(np.degrees(theirs.contact_angle)),
+            "equator_contact_pressure_Pa": theirs.equator_contact_pressure,
+            "peak_contact_pressure_Pa": theirs.peak_contact_pressure,
+            "critical_pressure_Pa": found.pressure,
+        },
+    }
+
+
+def compare_figure(found: Comparison) -> Figure:
+    """Contact pressure over the angle, both."""
+    figure = new_figure(6.4, 3.6)
+    axes = figure.add_subplot()
+    for contact, colour, label, width in (
+        (found.seated, COLOURS["blue"], "stonepass", 1.8),
+        (found.contact, COLOURS["orange"], "CalculiX", 1.2),
+    ):
+        axes.plot(np.degrees(contact.theta), contact.contact_pressure / KPA, color=colour,
+                  label=label, linewidth=width)  # fmt: skip
+    axes.set(xlabel="θ in °", ylabel="contact pressure in kPa", ylim=(0.0, None))
+    axes.legend(frameon=False)
+    return figure

@@ -1,138 +1,103 @@
-"""Timings against their targets, one thread: python benchmarks/run.py [--json]
+"""One run, one table: stonepass against CalculiX, its own scaling, and what whole work takes.
 
-In-process rows are the median of several solves after one warm-up ("after import"); process rows
-are whole commands from a cold interpreter, the median again. These machines are noisy: a missed
-target is reported, not raised.
+    python benchmarks/run.py [--out FOLDER] [--json]
+
+Writes docs/benchmark.md and docs/data/benchmark.json; decks and results of CalculiX stay in FOLDER
+(build/benchmark). One thread; ratios are of one run. These machines are noisy: a missed target is
+reported, not raised.
 """
 
 from __future__ import annotations
 
+import argparse
+import datetime
 import json
 import os
-import platform
-import resource
-import statistics
 import subprocess
 import sys
-import time
-from collections.abc import Callable
+from pathlib import Path
 
-REPEATS = 7
+from measure import ONE_THREAD, Row, machine
+
+ROOT = Path(__file__).resolve().parents[1]
+SECTIONS = {
+    "peers": "Beside CalculiX",
+    "scaling": "Growth with unknowns",
+    "one answer": "One answer, after import (processor time)",
+    "many": "Many answers (clock)",
+    "cold commands": "Whole commands, cold (clock)",
+    "memory": "Memory",
+}
 
 
 def main() -> None:
-    os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    rows = [*in_process(), *processes()]
-    if "--json" in sys.argv:
-        print(json.dumps({"machine": machine(), "rows": rows}, indent=2))
-        return
-    print(machine())
-    print(f"{'what':<58}{'median':>9}{'target':>9}   ")
-    for row in rows:
-        mark = "ok" if row["value"] <= row["target"] else "MISSED"
-        unit = row["unit"]
-        print(f"{row['what']:<58}{row['value']:>7.2f} {unit}{row['target']:>7g} {unit}   {mark}")
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--out", type=Path, default=ROOT / "build" / "benchmark")
+    options.add_argument("--json", action="store_true", help="JSON on stdout as well")
+    given = options.parse_args()
+    if not all(os.environ.get(name) == "1" for name in ONE_THREAD):
+        # Libraries read these when they are loaded, so before this process began.
+        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | ONE_THREAD)
+    found = measured(given.out)
+    data = ROOT / "docs" / "data" / "benchmark.json"
+    data.write_text(json.dumps(found, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    from page import page
+
+    (ROOT / "docs" / "benchmark.md").write_text(page(found, SECTIONS), encoding="utf-8")
+    if given.json:
+        print(json.dumps(found, indent=2, ensure_ascii=False))
 
 
-def machine() -> str:
-    import ngsolve
+def measured(folder: Path) -> dict:
+    """Run everything; each row is printed as it is known."""
+    from peers import peers, ratios
+    from phases import phases
+    from workloads import LARGEST_EXPONENT, commands, many, processes, scalings, single
 
-    return (
-        f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, "
-        f"Python {platform.python_version()}, NGSolve {ngsolve.__version__}"
-    )
+    described = machine()
+    print(", ".join(f"{name} {value}" for name, value in described.items()))
+    rows: list[Row] = []
+    beside, growth = [], []
 
+    def tell(row: Row) -> None:
+        rows.append(row)
+        mark = {True: "met", False: "MISSED", None: ""}[row.met]
+        bound = "" if row.target is None else f"{'≥' if row.at_least else '≤'} {row.target:g}"
+        print(f"{row.what:<74}{row.value:>9.2f} {row.unit:<3}{bound:>8}  {mark}", flush=True)
 
-def in_process() -> list[dict]:
-    import stonepass as sp
-
-    def solve(
-        seating: str,
-        material: str,
-        eta: float,
-        xi: float,
-        friction: float = 0.5,
-        model: str = "paper",
-    ) -> Callable[[], object]:
-        case = sp.Case(
-            sp.Stone(size_ratio=xi, friction=friction),
-            sp.Ureter(wall_ratio=eta, material=material),
-            method=sp.Method(seating=seating, model=model),
-        )
-        return lambda: sp.solve(case)
-
-    def direct(*case: object) -> Callable[[], object]:
-        return solve("pressed", *case, "direct")  # type: ignore[arg-type]
-
-    cases = [
-        ("frictionless latex, η 1.5, ξ 1.2", solve("frictionless", "latex", 1.5, 1.2), 0.3),
-        ("pressed latex, η 1.5, ξ 1.2, μ 0.475", solve("pressed", "latex", 1.5, 1.2, 0.475), 1.2),
-        ("pressed ureter, η 1.3, ξ 1.212", solve("pressed", "ureter", 1.3, 1.212), 4.0),
-        ("pressed ureter, η 3.4, ξ 1.109", solve("pressed", "ureter", 3.4, 1.109), 4.0),
-        ("direct latex, η 1.5, ξ 1.2, μ 0.475", direct("latex", 1.5, 1.2, 0.475), 2.0),
-        ("direct ureter, η 1.3, ξ 1.212", direct("ureter", 1.3, 1.212, 0.5), 6.0),
-        ("direct ureter, η 3.4, ξ 1.109", direct("ureter", 3.4, 1.109, 0.5), 6.0),
-    ]
-    rows = [row(f"{what} (after import)", timed(call), target) for what, call, target in cases]
-    return [*rows, *curves()]
-
-
-def curves() -> list[dict]:
-    """P_ucr(ξ) at 31 sizes, errors estimated, in this process."""
-    import stonepass as sp
-    from stonepass.studies.curve import curve
-
-    rows = []
-    for material, eta, top in (("latex", 1.5, 1.5), ("ureter", 1.3, 1.3)):
-        case = sp.Case(
-            sp.Stone(size_ratio=top),
-            sp.Ureter(wall_ratio=eta, material=material),
-            method=sp.Method(seating="frictionless"),
-        )
-        sizes = [1.0 + (top - 1.0) * k / 30 for k in range(31)]
-        seconds = timed(lambda case=case, sizes=sizes: curve(case, sizes), repeats=3)
-        rows.append(row(f"curve of 31 sizes, frictionless {material}, η {eta}", seconds, 8.0))
-    return rows
+    for kind, solved, exact in peers(folder):
+        for each in (*solved, exact):
+            angle, sigma, critical = each.errors(exact)
+            beside.append({"seating": kind, "who": each.who, "cpu_s": each.cpu,
+                           "contact_angle_error_deg": angle, "equator_pressure_error": sigma,
+                           "critical_pressure_error": critical})  # fmt: skip
+            print(f"{kind}, {each.who:<23} {each.cpu:>8.2f} s CPU   errors: α₀ {angle:.3f}°, "
+                  f"σ(90°) {sigma:.2%}, P_ucr {critical:.2%}")  # fmt: skip
+        for row in ratios(kind, solved, exact):
+            tell(row)
+    for scaling in scalings():
+        growth.append({"what": scaling.what, "dofs": scaling.dofs, "cpu_s": scaling.seconds,
+                       "exponent": scaling.exponent})  # fmt: skip
+        tell(Row("scaling", f"power of the unknowns, {scaling.what}", scaling.exponent, "",
+                 LARGEST_EXPONENT))  # fmt: skip
+    for row in (*single(), *many(processes()), *commands()):
+        tell(row)
+    return {
+        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
+        "code": commit(),
+        "machine": described,
+        "beside": beside,
+        "scaling": growth,
+        "rows": [row.record() for row in rows],
+        "phases": phases(),
+    }
 
 
-def processes() -> list[dict]:
-    command = [sys.executable, "-m", "stonepass"]
-    latex = ["pressure", "--xi", "1.2", "--eta", "1.5", "--material", "latex"]
-    ureter = ["pressure", "--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.54mm"]
-    smooth = ["--seating", "frictionless"]
-    rows = [
-        row(
-            "stonepass pressure, frictionless latex", timed(process(command + latex + smooth)), 2.5
-        ),
-        row(
-            "stonepass pressure, frictionless ureter", timed(process(command + ureter + smooth)), 4
-        ),
-        row("stonepass pressure, pressed latex", timed(process(command + latex)), 2.5),
-        row("stonepass pressure, pressed ureter", timed(process(command + ureter)), 4.0),
-        row("stonepass --help (process)", timed(process([*command, "--help"])), 0.4),
-    ]
-    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024.0
-    return [*rows, {"what": "peak memory of these processes", "value": peak, "target": 300.0,
-                    "unit": "MB"}]  # fmt: skip
-
-
-def process(command: list[str]) -> Callable[[], object]:
-    null = subprocess.DEVNULL
-    return lambda: subprocess.run(command, check=True, stdout=null, stderr=null)
-
-
-def timed(call: Callable[[], object], repeats: int = REPEATS) -> float:
-    call()
-    seconds = []
-    for _ in range(repeats):
-        started = time.perf_counter()
-        call()
-        seconds.append(time.perf_counter() - started)
-    return statistics.median(seconds)
-
-
-def row(what: str, value: float, target: float) -> dict:
-    return {"what": what, "value": value, "target": target, "unit": "s "}
+def commit() -> str:
+    """Which code was measured."""
+    found = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, text=True,
+                           capture_output=True, check=False)  # fmt: skip
+    return found.stdout.strip()
 
 
 if __name__ == "__main__":

@@ -427,12 +427,12 @@ def curve(deck, number):
 
 
 def test_steps_take_a_time_of_one_each_and_the_curves_go_on(deck):
-    for control in deck.root.iterfind("Step/step/Control"):
-        whole = float(control.find("time_steps").text) * float(control.find("step_size").text)
+    for each in deck.root.iterfind("Step/step/Control"):
+        whole = float(each.find("time_steps").text) * float(each.find("step_size").text)
         assert whole == pytest.approx(1.0)
-        stepper = control.find("time_stepper")
+        stepper = each.find("time_stepper")
         dtmin, dtmax = (float(stepper.find(name).text) for name in ("dtmin", "dtmax"))
-        assert dtmin < float(control.find("step_size").text) <= dtmax
+        assert dtmin < float(each.find("step_size").text) <= dtmax
     share = pytest.approx(deck.seating.first_share)
     assert curve(deck, 1) == [(0.0, 0.0), (1.0, share), (2.0, 1.0)]
     assert curve(deck, 2) == [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]

@@ -65,9 +65,9 @@ def compare_record(found: Comparison) -> dict[str, Any]:
         **record(found.answer),
         "calculix": {
             "contact_angle_deg": float(np.degrees(theirs.contact_angle)),
-            "equator_contact_pressure_Pa": theirs.equator_contact_pressure,
-            "peak_contact_pressure_Pa": theirs.peak_contact_pressure,
-            "critical_pressure_Pa": found.pressure,
+            "equator_contact_pressure_kPa": theirs.equator_contact_pressure / KPA,
+            "peak_contact_pressure_kPa": theirs.peak_contact_pressure / KPA,
+            "critical_pressure_kPa": None if found.pressure is None else found.pressure / KPA,
         },
     }
 

@@ -1,0 +1,122 @@
+"""The seated state beside CalculiX: time and error of both against our reference, in one run."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from measure import Row, calculix, cpu_seconds, spend
+
+import stonepass as sp
+from stonepass.export.inp import write_inp
+from stonepass.export.results import read_contact
+from stonepass.export.seating import INCREMENT, seating
+from stonepass.model.by_balance import balance_pressure
+from stonepass.model.seated import Contact
+
+FINE = 0.025
+LEVELS = ("fast", "standard")
+# By seating and element: how many times as much processor time CalculiX takes, at least.
+TARGETS = {
+    ("frictionless", "CAX8"): 100.0,
+    ("frictionless", "CAX8R"): 30.0,
+    ("pressed", "CAX8"): 30.0,
+    ("pressed", "CAX8R"): None,
+}
+# Longer increments are faster where CalculiX converges with them.
+INCREMENTS = (2.0 * INCREMENT, INCREMENT)
+
+
+@dataclass(frozen=True)
+class Solved:
+    """Seconds of processor, and what came out: α₀ in degrees, σ(π/2) and P_ucr in Pa."""
+
+    who: str
+    cpu: float
+    numbers: tuple[float, float, float]
+
+    def errors(self, exact: Solved) -> tuple[float, float, float]:
+        """Of α₀ in degrees, of σ(π/2) and P_ucr relative."""
+        mine, right = np.array(self.numbers), np.array(exact.numbers)
+        off = np.abs(mine - right) / np.array([1.0, right[1], right[2]])
+        return tuple(off.tolist())
+
+
+def latex(kind: str, accuracy: str = "standard") -> sp.Case:
+    """The paper's latex tube and a stone 1.2 times its lumen."""
+    return sp.Case(
+        sp.Stone(size_ratio=1.2, friction=0.475),
+        sp.Ureter(wall_ratio=1.5, material="latex"),
+        method=sp.Method(seating=kind, accuracy=accuracy),
+    )
+
+
+def peers(folder: Path) -> Iterator[tuple[str, list[Solved], Solved]]:
+    """Seating, those who solved it, and the reference; decks and results stay in `folder`."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for kind in ("frictionless", "pressed"):
+        exact = ours(kind, "reference", repeats=1)
+        found = [ours(kind, level) for level in LEVELS]
+        if calculix() is not None:
+            found += [theirs(kind, element, folder) for element in ("CAX8", "CAX8R")]
+        yield kind, found, exact
+
+
+def ours(kind: str, level: str, repeats: int = 7) -> Solved:
+    """A whole answer, with the estimate of its error."""
+    case = latex(kind, level)
+    answer = sp.solve(case)
+    assert answer.seated is not None
+    seconds = cpu_seconds(lambda: sp.solve(case), repeats)
+    return Solved(f"stonepass, {level}", seconds, _numbers(answer.seated))
+
+
+def theirs(kind: str, element: str, folder: Path) -> Solved:
+    """The exported deck, with the longest increments that converge."""
+    model = seating(latex(kind), FINE)
+    for increment in INCREMENTS:
+        job = f"{kind}_{element}_{increment:g}"
+        deck = write_inp(model, element, increment=increment)
+        (folder / f"{job}.inp").write_text(deck, encoding="utf-8")
+        print(f"  ccx {job} …", file=sys.stderr, flush=True)
+        spent = spend(["ccx", job], folder)
+        if spent.code == 0:
+            contact = read_contact(model, folder / f"{job}.dat")
+            return Solved(f"CalculiX, {element}", spent.cpu, _numbers(contact))
+    raise SystemExit(f"ccx did not converge for {kind} {element}; its decks are in {folder}")
+
+
+def _numbers(contact: Contact) -> tuple[float, float, float]:
+    pressure = balance_pressure(contact)
+    assert pressure is not None
+    angle = float(np.degrees(contact.contact_angle))
+    return angle, contact.equator_contact_pressure, pressure
+
+
+def ratios(kind: str, found: list[Solved], exact: Solved) -> Iterator[Row]:
+    """How many times as much CalculiX takes as the cheapest of ours that is nowhere worse."""
+    mine = [each for each in found if each.who.startswith("stonepass")]
+    for other in (each for each in found if not each.who.startswith("stonepass")):
+        element = other.who.rpartition(" ")[2]
+        as_good = [
+            each
+            for each in mine
+            if all(a <= b for a, b in zip(each.errors(exact), other.errors(exact), strict=True))
+        ]
+        best = min(as_good, key=lambda each: each.cpu, default=None)
+        for each in mine:
+            chosen = each is best
+            yield Row(
+                "peers",
+                f"{kind}: {other.who} over {each.who}" + (", as accurate" if chosen else ""),
+                other.cpu / each.cpu,
+                "×",
+                TARGETS[kind, element] if chosen else None,
+                at_least=True,
+            )
+        if best is None:
+            yield Row("peers", f"{kind}: none of ours as accurate as {other.who}", 0.0, "×",
+                      TARGETS[kind, element], at_least=True)  # fmt: skip

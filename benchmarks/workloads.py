@@ -1,0 +1,133 @@
+"""How cost grows with unknowns, and what curves, surfaces, direct answers and commands take."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from measure import Row, cpu_seconds, memory, stonepass
+
+import stonepass as sp
+from stonepass.fe.problem import Resolution
+from stonepass.model.seated import NoSeat, seat
+from stonepass.paper.fig8 import SIZES, WALLS
+from stonepass.paper.inputs import ureter_case
+from stonepass.studies.curve import curve
+from stonepass.studies.jobs import PooledSolver
+
+REFINEMENTS = (0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)
+LARGEST_EXPONENT = 1.3
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """Unknowns and processor seconds of one mesh after another, and the fitted power."""
+
+    what: str
+    dofs: tuple[int, ...]
+    seconds: tuple[float, ...]
+    exponent: float
+
+
+def scalings() -> Iterator[Scaling]:
+    """Seated states on finer and finer meshes, the path's increments kept."""
+    for kind, material, eta, xi in (
+        ("frictionless", "latex", 1.5, 1.2),
+        ("pressed", "latex", 1.5, 1.2),
+        ("pressed", "ureter", 1.3, 1.21),
+    ):
+        case = _case(kind, material, eta, xi)
+        dofs, seconds = [], []
+        for factor in REFINEMENTS:
+            fine = replace(Resolution().refined(factor), increments=Resolution().increments)
+            state = seat(case, fine)
+            if isinstance(state, NoSeat):
+                raise SystemExit(f"no seat at refinement {factor}: {state.reason}")
+            dofs.append(state.solver.dofs)
+            repeats = 5 if factor <= 1.0 else 1
+            seconds.append(cpu_seconds(lambda case=case, fine=fine: seat(case, fine), repeats))
+            print(f"  {kind} {material}: {dofs[-1]} unknowns, {seconds[-1]:.2f} s", file=sys.stderr)
+        slope = float(np.polyfit(np.log(dofs), np.log(seconds), 1)[0])
+        yield Scaling(f"{kind} {material}, η {eta}, ξ {xi}", tuple(dofs), tuple(seconds), slope)
+
+
+def single() -> Iterator[Row]:
+    """One answer after import, error estimate included."""
+    ureter, latex = ("pressed", "ureter"), ("pressed", "latex", 1.5, 1.2, 0.475)
+    for what, target, case in (
+        ("frictionless latex, η 1.5, ξ 1.2", 0.3, _case("frictionless", "latex", 1.5, 1.2)),
+        ("pressed latex, η 1.5, ξ 1.2, μ 0.475", 1.2, _case(*latex)),
+        ("pressed ureter, η 1.3, ξ 1.212", 4.0, _case(*ureter, 1.3, 1.212)),
+        ("pressed ureter, η 3.4, ξ 1.109", 4.0, _case(*ureter, 3.4, 1.109)),
+        ("direct latex, η 1.5, ξ 1.2, μ 0.475", 2.0, _case(*latex, "direct")),
+        ("direct ureter, η 1.3, ξ 1.212", 6.0, _case(*ureter, 1.3, 1.212, model="direct")),
+        ("direct ureter, η 3.4, ξ 1.109", 6.0, _case(*ureter, 3.4, 1.109, model="direct")),
+    ):
+        yield Row("one answer", what, cpu_seconds(lambda case=case: sp.solve(case)), "s", target)
+
+
+def many(workers: int) -> Iterator[Row]:
+    """Curves in this process, and the surface of Fig. 8b in a pool; by the clock."""
+    for kind, material, eta, top, target in (
+        ("frictionless", "latex", 1.5, 1.5, 8.0),
+        ("frictionless", "ureter", 1.3, 1.3, 8.0),
+        ("pressed", "ureter", 1.3, 1.3, None),
+    ):
+        case = _case(kind, material, eta, top)
+        sizes = np.linspace(1.0, top, 31).tolist()
+        seconds = _clock(lambda case=case, sizes=sizes: curve(case, sizes))
+        yield Row("many", f"P_ucr of 31 sizes, {kind} {material}, η {eta}", seconds, "s", target)
+    cases = [ureter_case(eta, xi) for eta in WALLS for xi in SIZES]
+    solver = PooledSolver(workers=workers)
+    for error, what in ((False, ""), (True, ", errors estimated")):
+        seconds = _clock(lambda error=error: solver.answers(cases, error=error))
+        what = f"surface of Fig. 8b, {len(WALLS)} × {len(SIZES)} with friction{what}"
+        yield Row("many", f"{what}, {workers} processes", seconds, "s", 120.0)
+
+
+def commands() -> Iterator[Row]:
+    """Whole commands from a cold interpreter, by the clock, and their largest memory."""
+    latex = ("--xi", "1.2", "--eta", "1.5", "--material", "latex")
+    ureter = ("--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.54mm")
+    smooth = ("--seating", "frictionless")
+    largest = 0.0
+    for what, target, arguments in (
+        ("--help", 0.4, ("--help",)),
+        ("pressure, frictionless latex", 2.5, ("pressure", *latex, *smooth)),
+        ("pressure, pressed latex", 2.5, ("pressure", *latex)),
+        ("pressure, frictionless ureter", 4.0, ("pressure", *ureter, *smooth)),
+        ("pressure, pressed ureter", 4.0, ("pressure", *ureter)),
+        ("pressure, direct ureter", 8.0, ("pressure", *ureter, "--model", "direct")),
+    ):
+        spent = stonepass(*arguments)
+        if spent.code:
+            raise SystemExit(f"stonepass {what} failed: {spent.output}")
+        largest = max(largest, spent.memory)
+        yield Row("cold commands", f"stonepass {what}", spent.wall, "s", target)
+    yield Row("memory", "largest of these commands", largest, "MB", 300.0)
+    yield Row("memory", "this benchmark's process, all meshes", memory(), "MB")
+
+
+def processes() -> int:
+    """Two, as the target says, or one where there are no two cores."""
+    return min(2, os.cpu_count() or 1)
+
+
+def _case(
+    kind: str, material: str, eta: float, xi: float, friction: float = 0.5, model: str = "paper"
+) -> sp.Case:
+    return sp.Case(
+        sp.Stone(size_ratio=xi, friction=friction),
+        sp.Ureter(wall_ratio=eta, material=material),
+        method=sp.Method(seating=kind, model=model),
+    )
+
+
+def _clock(call: Callable[[], object]) -> float:
+    started = time.perf_counter()
+    call()
+    return time.perf_counter() - started

@@ -34,6 +34,7 @@ ON_ALL_CORES = (
     "micrograph",
     "tables",
     "laboratory",
+    "calculix",
 )
 SECTIONS = (*SIDE_BY_SIDE, *ON_ALL_CORES)
 ROOT = Path(__file__).parents[1]

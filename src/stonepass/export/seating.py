@@ -37,9 +37,9 @@ SMALLEST_RADIUS = 0.02  # of the strip at the start, over R_a
 UNIT_RADIUS = Length(1e-3)  # R_a in m where the case has ratios only
 # Penalty of the contact times the element length over w″(1), in the range that CalculiX converges
 # with: contact pressure comes out within 1 %, a stiffer one chatters.
-PENALTY = 1.25
+PENALTY = 2.0
 POISSON = 0.499  # of programs that cannot keep volume exactly
-INCREMENT, FEWEST = 0.01, 8  # of the strip over R_a, at most, and how many increments at least
+INCREMENT, FEWEST = 0.4, 8  # of the strip over the element length, and how many at least
 # Pa and m: decks are in kilopascals, millimetres, and so millinewtons.
 KPA, MM = 1e3, 1e-3
 
@@ -100,7 +100,7 @@ class Seating:
     @property
     def increment(self) -> float:
         """Way of the strip in an increment over R_a: twice that is faster where it converges."""
-        return min(INCREMENT, self.length / FEWEST)
+        return min(INCREMENT * self.fine, self.length / FEWEST)
 
     def dead_forces(self) -> Float[np.ndarray, " nodes"]:
         """Radial force on each node of the outer line, whole turn, in Pa × R_a², inwards positive.

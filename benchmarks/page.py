@@ -40,8 +40,9 @@ def table(header: list[str], rows: list[list[str]]) -> str:
 
 def _about_peers() -> str:
     return (
-        "The latex tube, η 1.5, ξ 1.2, friction 0.475, solved by us at two accuracies, with the "
-        "estimate of the error, and by CalculiX from the exported deck (elements of 0.025 R_a in "
+        "The latex tube, η 1.5, ξ 1.2, friction 0.475, solved by us at two accuracies, the state "
+        "alone and with the estimate of its error (a second, coarser solve, which CalculiX does "
+        "not have), and by CalculiX from the exported deck (elements of 0.025 R_a in "
         "the contact, ν 0.499, penalty contact, the longest increments with which it converged). "
         "Errors are against our `reference` accuracy; CalculiX's are those of its penalty, its ν "
         "and its mesh. P_ucr is the paper's balance on each contact."

@@ -14,11 +14,13 @@ import stonepass as sp
 from stonepass.export.inp import write_inp
 from stonepass.export.results import read_contact
 from stonepass.export.seating import seating
+from stonepass.model.accuracy import LEVELS
 from stonepass.model.by_balance import balance_pressure
 from stonepass.model.seated import Contact
 
 FINE = 0.025
-LEVELS = ("fast", "standard")
+OURS = ("fast", "standard")
+ALONE = ", state alone"
 # By seating and element: how many times as much processor time CalculiX takes, at least.
 TARGETS = {
     ("frictionless", "CAX8"): 100.0,
@@ -59,19 +61,20 @@ def peers(folder: Path) -> Iterator[tuple[str, list[Solved], Solved]]:
     folder.mkdir(parents=True, exist_ok=True)
     for kind in ("frictionless", "pressed"):
         exact = ours(kind, "reference", repeats=1)
-        found = [ours(kind, level) for level in LEVELS]
+        found = [ours(kind, level, alone=alone) for level in OURS for alone in (True, False)]
         if calculix() is not None:
             found += [theirs(kind, element, folder) for element in ("CAX8", "CAX8R")]
         yield kind, found, exact
 
 
-def ours(kind: str, level: str, repeats: int = 7) -> Solved:
-    """A whole answer, with the estimate of its error."""
+def ours(kind: str, level: str, *, alone: bool = False, repeats: int = 7) -> Solved:
+    """A whole answer with the estimate of its error; `alone`, without it, as CalculiX has none."""
     case = latex(kind, level)
-    answer = sp.solve(case)
+    only = LEVELS[level].resolution if alone else None
+    answer = sp.solve(case, only)
     assert answer.seated is not None
-    seconds = cpu_seconds(lambda: sp.solve(case), repeats)
-    return Solved(f"stonepass, {level}", seconds, _numbers(answer.seated))
+    seconds = cpu_seconds(lambda: sp.solve(case, only), repeats)
+    return Solved(f"stonepass, {level}{ALONE if alone else ''}", seconds, _numbers(answer.seated))
 
 
 def theirs(kind: str, element: str, folder: Path) -> Solved:

@@ -1,0 +1,83 @@
+"""What the benchmark measures with, and how its page comes out; no timing is asserted."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parents[1] / "benchmarks"
+
+
+@pytest.fixture
+def benchmarks(monkeypatch):
+    monkeypatch.syspath_prepend(str(FOLDER))
+
+
+def test_a_target_is_met_or_missed(benchmarks):
+    from measure import Row
+
+    assert Row("s", "w", 1.0, "s").met is None
+    assert Row("s", "w", 1.0, "s", 2.0).met is True
+    assert Row("s", "w", 3.0, "s", 2.0).met is False
+    assert Row("s", "w", 3.0, "×", 2.0, at_least=True).met is True
+    assert Row("s", "w", 1.0, "×", 2.0, at_least=True).met is False
+
+
+def test_a_command_is_charged_with_its_own_processor_time_alone(benchmarks):
+    from measure import spend
+
+    busy = "import time\nwhile time.process_time() < 0.3: pass"
+    before = spend([sys.executable, "-c", busy])
+    idle = spend([sys.executable, "-c", "import time; time.sleep(0.3); print('done')"])
+    assert idle.output == "done\n"
+    assert idle.code == 0
+    assert idle.cpu < before.cpu
+    assert idle.wall >= 0.3
+    assert 1.0 < idle.memory < 500.0
+
+
+def test_ratios_take_the_cheapest_of_ours_that_is_nowhere_worse(benchmarks):
+    from peers import Solved, ratios
+
+    exact = Solved("stonepass, reference", 9.0, (70.0, 100.0, 50.0))
+    found = [
+        Solved("stonepass, fast", 1.0, (70.0, 103.0, 50.0)),  # 3 % off in σ
+        Solved("stonepass, standard", 2.0, (70.0, 101.0, 50.0)),
+        Solved("CalculiX, CAX8", 100.0, (71.0, 102.0, 51.0)),
+    ]
+    fast, standard = ratios("pressed", found, exact)
+    assert (fast.value, fast.target) == (100.0, None)
+    assert (standard.value, standard.target, standard.met) == (50.0, 30.0, True)
+    # Where none is as good, the target is missed, and that is said.
+    *_, none = ratios("pressed", [found[0], found[2]], exact)
+    assert none.met is False
+
+
+def test_the_page_has_every_number(benchmarks):
+    from measure import Row
+    from page import page
+
+    rows = [
+        Row("peers", "one over the other", 123.0, "×", 100.0, at_least=True),
+        Row("memory", "largest", 345.0, "MB", 300.0),
+    ]
+    beside = {
+        "seating": "pressed",
+        "who": "CalculiX, CAX8",
+        "cpu_s": 31.5,
+        "contact_angle_error_deg": 0.4,
+        "equator_pressure_error": 0.005,
+        "critical_pressure_error": 0.001,
+    }
+    found = {
+        "date": "2026-01-01",
+        "code": "abc",
+        "machine": {"cores": "2"},
+        "beside": [beside],
+        "scaling": [{"what": "w", "dofs": [10, 20], "cpu_s": [1.0, 2.0], "exponent": 1.0}],
+        "rows": [row.record() for row in rows],
+        "phases": {"case": {"residual": "12%"}},
+    }
+    text = page(found, {"peers": "Peers", "scaling": "Growth", "memory": "Memory"})
+    for words in ("123 ×", "met", "**missed**", "31.50", "0.500%", "| residual | 12% |", "abc"):
+        assert words in text

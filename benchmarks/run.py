@@ -15,6 +15,7 @@ import json
 import os
 import subprocess
 import sys
+from itertools import chain
 from pathlib import Path
 
 from measure import ONE_THREAD, Row, machine
@@ -80,7 +81,7 @@ def measured(folder: Path) -> dict:
                        "exponent": scaling.exponent})  # fmt: skip
         tell(Row("scaling", f"power of the unknowns, {scaling.what}", scaling.exponent, "",
                  LARGEST_EXPONENT))  # fmt: skip
-    for row in (*single(), *many(processes()), *commands()):
+    for row in chain(single(), many(processes()), commands()):
         tell(row)
     return {
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),

@@ -251,8 +251,8 @@ def test_what_has_no_deck_is_refused(case, fine, words):
 # --- results
 
 
-def fake_results(s, state, path, pressures=True):
-    """A .dat as CalculiX writes it, from our own solved wall: no penetration but a hair."""
+def fake_results(s, state, path):
+    """A .dat as CalculiX writes it, from our own solved wall sunk in by pressure over penalty."""
     nodes = s.wall.row_line(0)
     Z = s.wall.points[nodes, 1]
     wall = state.wall
@@ -260,18 +260,17 @@ def fake_results(s, state, path, pressures=True):
     station, first = np.unique(wall.Z[on_inner], return_index=True)
     r = np.interp(Z, station, wall.r[on_inner][first])
     z = np.interp(Z, station, wall.z[on_inner][first])
-    inside = 1e-9 * (z < state.case.size_ratio * np.sin(state.downstream_angle - np.pi / 2))
+    sunk = state.pressure_at(np.arctan2(r, -z)) / s.penalty
     lines = ["", " displacements (vx,vy,vz) for set INNER and time  0.2000000E+01", ""]
-    for node, u, w in zip(nodes, r - inside - 1.0, z - Z, strict=True):
+    for node, u, w in zip(nodes, r - sunk - 1.0, z - Z, strict=True):
         lines.append(f"{node + 1:10d} {u: .12E} {w: .12E}  0.000000E+00")
-    if pressures:
-        lines += ["", " contact stress (slave element+face,press,tang1,tang2) for all contact", ""]
-        angle = np.arctan2(r, -z)[::2]
-        for column in range(s.facing.stop):
-            middle = np.linspace(angle[column], angle[column + 1], 9)[1::2]
-            p = state.pressure_at(middle) / 1e3
-            if p[0] > 0.0:
-                lines += [f"{column + 1:10d} 6 {each: .9E} 0.0 0.0" for each in p]
+    lines += ["", " contact stress (slave element+face,press) and time 0.2000000E+01", ""]
+    angle = np.arctan2(r, -z)[::2]
+    for column in range(s.facing.stop):
+        middle = np.linspace(angle[column], angle[column + 1], 9)[1::2]
+        p = state.pressure_at(middle) / 1e3
+        if p[0] > 0.0:
+            lines += [f"{column + 1:10d} 6 {each: .9E} 0.0 0.0" for each in p]
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -326,10 +325,32 @@ def test_damaged_results_are_refused_in_one_sentence(seated, tmp_path):
     assert read < len(spoilt) / 2
 
 
-def test_results_of_another_deck_are_refused(seated, tmp_path):
-    fake_results(seating(seated.case, 0.02), seated, tmp_path / "job.dat")
-    with pytest.raises(BadInput, match="this case's deck"):
-        read_contact(seating(seated.case, 0.025), tmp_path / "job.dat")
+@pytest.mark.parametrize(
+    "other_case",
+    [
+        latex("frictionless", 1.19),
+        latex("frictionless", aspect=1.1),
+        other(MooneyRivlin(1e5, 0.0), seating="frictionless"),
+    ],
+)
+def test_results_of_another_case_are_refused(seated, tmp_path, other_case):
+    # The same mesh: stone, shape or stiffness differ by some per cent only.
+    s = seating(other_case, 0.02)
+    path = tmp_path / "job.dat"
+    fake_results(replace(seating(seated.case, 0.02), wall=s.wall, facing=s.facing), seated, path)
+    with pytest.raises(BadInput, match="do not fit this stone|touches this case's stone"):
+        read_contact(s, path)
+
+
+def test_results_of_another_mesh_or_of_a_broken_run_are_refused(seated, tmp_path):
+    s, path = seating(seated.case, 0.02), tmp_path / "job.dat"
+    fake_results(s, seated, path)
+    with pytest.raises(BadInput, match="nodes on the inner wall"):
+        read_contact(seating(seated.case, 0.025), path)
+    broken = path.read_text(encoding="utf-8").replace("0.2000000E+01", "0.1475000E+01")
+    path.write_text(broken, encoding="utf-8")
+    with pytest.raises(BadInput, match="at time 2"):
+        read_contact(s, path)
 
 
 # --- the doors

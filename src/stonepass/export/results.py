@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.interpolate import PchipInterpolator
 
 from stonepass.errors import require
@@ -20,8 +20,10 @@ __all__ = ["read_contact"]
 DISPLACEMENTS, STRESSES = "displacements (vx,vy,vz) for set INNER", "contact stress (slave"
 COLUMNS = {DISPLACEMENTS: 4, STRESSES: 5}
 KIND = "a .dat of CalculiX"
+END_TIME = "0.2000000E+01"  # two steps, each of one
 SAMPLES = 9  # of each side of an element
 ANGLES = 1001
+SAME_CONTACT = 0.2  # of the pressure, median over elements
 MOST = 200_000_000  # bytes
 
 
@@ -43,10 +45,13 @@ def read_contact(seating: Seating, path: Path) -> Contact:
     touching = np.flatnonzero(overlap > 0.0)
     sound = len(touching) > 0 and touching[-1] < len(angle) - 1
     sound = sound and bool(np.all(np.diff(angle[touching[0] : touching[-1] + 2]) > 0.0))
-    require(sound, "results", path.name, "of a wall that touches the stone between its ends")
+    require(
+        sound, "results", path.name, "of a wall that touches this case's stone, and not its ends"
+    )
     low = angle[0] if touching[0] == 0 else _crossing(angle, overlap, touching[0])
     high = _crossing(angle, overlap, touching[-1] + 1)
-    theta, pressure = _means(seating, blocks[STRESSES], angle, (low, high), path)
+    columns, theta, pressure = _means(seating, blocks[STRESSES], angle, (low, high), path)
+    _check_penalty(seating, columns, pressure, overlap, path)
     if not seating.whole:
         theta = np.concatenate([np.pi - theta[::-1], theta])
         pressure = np.concatenate([pressure[::-1], pressure])
@@ -65,13 +70,15 @@ def _last_blocks(path: Path) -> dict[str, list[list[float]]]:
     for number, line in enumerate(read_text(path, MOST, KIND, "results").splitlines(), start=1):
         words = line.split()
         if any(word[0].isalpha() for word in words):
-            kind = next((kind for kind in COLUMNS if kind in line), None)
+            # A run that broke off leaves what it had: only the end of the second step counts.
+            ended = words[-1].startswith(END_TIME)
+            kind = next((kind for kind in COLUMNS if ended and kind in line), None)
             if kind is not None:
                 found[kind] = []
         elif words and kind is not None:
             found[kind].append(_numbers(words, COLUMNS[kind], f"{path.name}, line {number}"))
     for kind, what in ((DISPLACEMENTS, "displacements of INNER"), (STRESSES, "contact stresses")):
-        require(bool(found.get(kind)), "results", path.name, f"{KIND} with {what}",
+        require(bool(found.get(kind)), "results", path.name, f"{KIND} with {what} at time 2",
                 "the deck has to run to its end")  # fmt: skip
     return found
 
@@ -116,24 +123,43 @@ def _crossing(
     return float(angle[after - 1] + a / (a - b) * (angle[after] - angle[after - 1]))
 
 
+def _check_penalty(
+    seating: Seating,
+    columns: Int[np.ndarray, " m"],
+    pressure: Float[np.ndarray, " m"],
+    overlap: Float[np.ndarray, " samples"],
+    path: Path,
+) -> None:
+    """Refuse a contact that is not pressure = penalty × overlap with this stone and this wall."""
+    steps = SAMPLES - 1
+    law = [seating.penalty * overlap[c * steps : (c + 1) * steps + 1].mean() for c in columns]
+    off = float(np.median(np.abs(np.array(law) / np.maximum(pressure, 1.0) - 1.0)))
+    require(
+        off <= SAME_CONTACT,
+        "results",
+        path.name,
+        "those of this case's deck: pressures and overlaps do not fit this stone and this wall",
+        "export and compare with the same options",
+    )
+
+
 def _means(
     seating: Seating,
     rows: list[list[float]],
     angle: Float[np.ndarray, " samples"],
     edges: tuple[float, float],
     path: Path,
-) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
-    """Mean pressure in Pa of each element that touches, at the middle of its part in contact."""
+) -> tuple[Int[np.ndarray, " m"], Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
+    """Elements that touch, the middle of their part in contact, and their mean pressure in Pa."""
     columns = np.array([int(row[0]) - 1 for row in rows])
     pressures = np.array([row[2] for row in rows]) * KPA
     known = range(seating.facing.start, seating.facing.stop)
     inside = bool(known.start <= columns.min() and columns.max() < known.stop)
     require(inside, "results", path.name, "contact stresses on the inner wall of this case's deck")
     corners = angle[:: SAMPLES - 1]
-    theta, mean = [], []
-    for column in np.unique(columns):
-        low, high = max(corners[column], edges[0]), min(corners[column + 1], edges[1])
-        if low < high:
-            theta.append((low + high) / 2.0)
-            mean.append(pressures[columns == column].mean())
-    return np.array(theta), np.array(mean)
+    touching = np.unique(columns)
+    low = np.maximum(corners[touching], edges[0])
+    high = np.minimum(corners[touching + 1], edges[1])
+    mean = np.array([pressures[columns == column].mean() for column in touching])
+    kept = low < high
+    return touching[kept], ((low + high) / 2.0)[kept], mean[kept]

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from stonepass.export.comparison import Comparison
 from stonepass.report.record import record
-from stonepass.report.style import COLOURS, new_figure
+from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.report.table import case_title, significant
 
 __all__ = ["compare_figure", "compare_record", "compare_table"]
@@ -36,13 +36,13 @@ def compare_table(found: Comparison) -> Table:
     )
     rows = (
         (
-            "contact pressure at 90°, kPa",
+            "contact pressure, 90°",
             ours.equator_contact_pressure,
             None if error is None else error.equator_contact_pressure,
             theirs.equator_contact_pressure,
         ),
         (
-            "critical pressure, kPa",
+            "critical pressure",
             found.answer.pressure,
             None if error is None else error.critical_pressure,
             found.pressure,
@@ -51,11 +51,14 @@ def compare_table(found: Comparison) -> Table:
     for name, mine, uncertain, other in rows:
         table.add_row(
             name,
-            *("–" if value is None else significant(value / KPA) for value in (mine, uncertain)),
-            "–" if other is None else significant(other / KPA),
+            *(_kpa(value) for value in (mine, uncertain, other)),
             f"{other / mine - 1.0:+.2%}" if mine and other is not None else "–",
         )
     return table
+
+
+def _kpa(pressure: float | None) -> str:
+    return "–" if pressure is None else f"{significant(pressure / KPA)} kPa"
 
 
 def compare_record(found: Comparison) -> dict[str, Any]:
@@ -83,5 +86,6 @@ def compare_figure(found: Comparison) -> Figure:
         axes.plot(np.degrees(contact.theta), contact.contact_pressure / KPA, color=colour,
                   label=label, linewidth=width)  # fmt: skip
     axes.set(xlabel="θ in °", ylabel="contact pressure in kPa", ylim=(0.0, None))
-    axes.legend(frameon=False)
+    axes.legend()
+    tidy(axes)
     return figure

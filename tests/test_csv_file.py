@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import stonepass
 from stonepass.csv_file import LARGEST_FILE, read_columns
 from stonepass.errors import BadInput
 
@@ -66,3 +67,12 @@ def test_a_file_that_is_missing_or_too_large(tmp_path):
         read_columns(tmp_path, ("a",))
     with pytest.raises(BadInput, match="smaller than 10 MB"):
         read(tmp_path, b"a,b\n" + b"1,2\n" * (LARGEST_FILE // 4))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["read_shape", "read_points", "read_tension", "read_person", "read_picture", "read_untrusted"],
+)
+def test_the_front_door_takes_a_path_as_text(name):
+    with pytest.raises(BadInput, match=r"/nowhere\.csv"):
+        getattr(stonepass, name)("/nowhere.csv")

@@ -334,11 +334,11 @@ def test_damaged_results_are_refused_in_one_sentence(seated, tmp_path):
     ],
 )
 def test_results_of_another_case_are_refused(seated, tmp_path, other_case):
-    # The same mesh: stone, shape or stiffness differ by some per cent only.
+    # The same mesh, another stone, shape or stiffness.
     s = seating(other_case, 0.02)
     path = tmp_path / "job.dat"
     fake_results(replace(seating(seated.case, 0.02), wall=s.wall, facing=s.facing), seated, path)
-    with pytest.raises(BadInput, match="do not fit this stone|touches this case's stone"):
+    with pytest.raises(BadInput, match=r"do not fit this stone|touches this case's stone"):
         read_contact(s, path)
 
 

@@ -52,7 +52,7 @@ PLAIN = (1, 8, 32946)  # compressions of TIFF that need no codec: none, and defl
 READ, EXTRA = "read this file", "imaging"
 
 
-def read_picture(path: Path) -> Picture:
+def read_picture(path: str | Path) -> Picture:
     """Read a micrograph or a height map.
 
     Grey pictures saved as colour are grey; a palette or an opaque alpha channel is no matter. Of
@@ -64,6 +64,7 @@ def read_picture(path: Path) -> Picture:
         No such file, an unknown kind, one that is damaged or too large, colour, bits other than 8
         or 16, numbers that are not finite, or a library that is not installed.
     """
+    path = Path(path)
     check_file(path)
     with path.open("rb") as file:
         head = file.read(16)

@@ -27,7 +27,7 @@ LARGEST_BODY = DECODED + 1
 START = 30.0  # s, for the libraries to load
 
 
-def read_untrusted(path: Path, seconds: float = SECONDS, memory: int = MEMORY) -> Picture:
+def read_untrusted(path: str | Path, seconds: float = SECONDS, memory: int = MEMORY) -> Picture:
     """Read a picture as `readers.read_picture` does, in a child process that may be stopped.
 
     Parameters
@@ -44,6 +44,7 @@ def read_untrusted(path: Path, seconds: float = SECONDS, memory: int = MEMORY) -
         What `read_picture` refuses, and files that take too long, need too much memory or make
         their decoder crash. What the child sends back is JSON and plain numbers, never a pickle.
     """
+    path = Path(path)
     check_file(path)
     asked = json.dumps({"path": str(path.resolve()), "memory": memory, "seconds": seconds})
     # -P: nothing is imported from the folder that this runs in.

@@ -124,7 +124,7 @@ class Inflation:
 
 
 def read_tension(
-    path: Path, width: Length | None = None, thickness: Length | None = None
+    path: str | Path, width: Length | None = None, thickness: Length | None = None
 ) -> Tension:
     """Read ``stretch`` and ``nominal_stress_kPa`` or ``force_N``, and ``axis`` where it varies.
 
@@ -138,6 +138,7 @@ def read_tension(
     BadInput
         Naming the file, and row and column where one is at fault.
     """
+    path = Path(path)
     columns = read_columns(
         path,
         ("stretch",),
@@ -164,7 +165,7 @@ def read_tension(
     return Tension(columns["stretch"], stress, tuple(AXES[int(k)] for k in which))
 
 
-def read_inflation(path: Path, ureter: Ureter) -> Inflation:
+def read_inflation(path: str | Path, ureter: Ureter) -> Inflation:
     """Read ``pressure_kPa`` and ``inner_diameter_mm`` or ``outer_diameter_mm``.
 
     ``axial_stretch`` may stand beside them, 1 without. `ureter` has the diameters at rest; of an
@@ -175,6 +176,7 @@ def read_inflation(path: Path, ureter: Ureter) -> Inflation:
     BadInput
         Naming the file, and row and column where one is at fault.
     """
+    path = Path(path)
     columns = read_columns(
         path,
         ("pressure_kPa",),

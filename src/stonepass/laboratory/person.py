@@ -147,7 +147,7 @@ class _PersonFile(FileSection):
     method: MethodSection = MethodSection()
 
 
-def read_person(path: Path) -> Person:
+def read_person(path: str | Path) -> Person:
     """Read a person's file; files of materials and shapes are looked for beside it.
 
     Raises
@@ -156,6 +156,7 @@ def read_person(path: Path) -> Person:
         Naming the file and the key: an unknown key (with the nearest known one), a missing one, a
         length without its uncertainty or unit, values that no ureter has.
     """
+    path = Path(path)
     parsed = read_toml(path, _PersonFile)
     try:
         return _person(parsed, path.parent)

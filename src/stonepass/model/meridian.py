@@ -72,7 +72,7 @@ def _through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"])
     return found
 
 
-def read_shape(path: Path) -> Shape:
+def read_shape(path: str | Path) -> Shape:
     """Read a shape from a CSV file with the columns ``z`` and ``rho`` (see `shape_through`).
 
     Raises
@@ -80,6 +80,7 @@ def read_shape(path: Path) -> Shape:
     BadInput
         Naming the file, and row and column where one is at fault.
     """
+    path = Path(path)
     columns = read_columns(path, ("z", "rho"), bounds={"z": (-FAR, FAR), "rho": (0.0, FAR)})
     try:
         found = _through(*_meridian(columns["z"], columns["rho"], columns.place))

@@ -33,7 +33,7 @@ class Point:
     sd: Pressure | None = None
 
 
-def read_points(path: Path) -> tuple[Point, ...]:
+def read_points(path: str | Path) -> tuple[Point, ...]:
     """Read ``xi, eta, confining_kPa, pressure_kPa`` and, where it is there, ``sd_kPa``.
 
     Raises
@@ -41,6 +41,7 @@ def read_points(path: Path) -> tuple[Point, ...]:
     BadInput
         Naming the file, and row and column where one is at fault.
     """
+    path = Path(path)
     columns = read_columns(path, COLUMNS, ("sd_kPa",), BOUNDS)
     spread = columns.get("sd_kPa")
     return tuple(

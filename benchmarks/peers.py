@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from measure import Row, calculix, cpu_seconds, spend
+from measure import Row, calculix, cpu_seconds, spend, stonepass
 
 import stonepass as sp
 from stonepass.export.inp import write_inp
@@ -123,3 +123,13 @@ def ratios(kind: str, found: list[Solved], exact: Solved) -> Iterator[Row]:
         if best is None:
             yield Row("peers", f"{kind}: none of ours as accurate as {other.who}", 0.0, "×",
                       TARGETS[kind, element], at_least=True)  # fmt: skip
+
+
+def cold_ratios(kind: str, found: list[Solved]) -> Iterator[Row]:
+    """CalculiX's process over the whole command, which loads its libraries for one answer."""
+    command = ("pressure", "--xi", "1.2", "--eta", "1.5", "--material", "latex",
+               "--friction", "0.475", "--seating", kind)  # fmt: skip
+    cold = stonepass(*command).cpu
+    for other in (each for each in found if not each.who.startswith("stonepass")):
+        what = f"{kind}: {other.who} over a cold command, error estimated"
+        yield Row("peers", what, other.cpu / cold, "×")

@@ -51,7 +51,7 @@ def main() -> None:
 
 def measured(folder: Path) -> dict:
     """Run everything; each row is printed as it is known."""
-    from peers import peers, ratios
+    from peers import cold_ratios, peers, ratios
     from phases import phases
     from workloads import LARGEST_EXPONENT, commands, many, processes, scalings, single
 
@@ -74,7 +74,7 @@ def measured(folder: Path) -> dict:
                            "critical_pressure_error": critical})  # fmt: skip
             print(f"{kind}, {each.who:<23} {each.cpu:>8.2f} s CPU   errors: α₀ {angle:.3f}°, "
                   f"σ(90°) {sigma:.2%}, P_ucr {critical:.2%}")  # fmt: skip
-        for row in ratios(kind, solved, exact):
+        for row in chain(ratios(kind, solved, exact), cold_ratios(kind, solved)):
             tell(row)
     for scaling in scalings():
         growth.append({"what": scaling.what, "dofs": scaling.dofs, "cpu_s": scaling.seconds,

@@ -37,7 +37,6 @@ LAWS = {
     "mooney-rivlin": MooneyRivlin(2e5, -5e4),
     "yeoh": Yeoh(2e5, 3e4, 1e3),
     "fung": Fung(4e5, 0.7, 0.9, 0.2, 1.2e4),
-    "fung, no ground matrix": Fung(4e5, 0.7, 0.9, -0.2),
 }
 
 

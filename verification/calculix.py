@@ -89,13 +89,13 @@ def section() -> Section:
     rows, smooth, pressed = [], [], []
     for question, found in zip(asked, solved, strict=True):
         if found is None:
-            rows.append([question.what, question.element, "not converged", "", ""])
+            rows.append([question.what, question.element, "not converged", "", "", ""])
             continue
-        angle, sigma, critical = differences(found)
+        angle, sigma, inner, critical = differences(found)
         rows.append([question.what, question.element, f"{angle:+.2f}°", f"{sigma:+.2%}",
-                     f"{critical:+.2%}"])  # fmt: skip
+                     f"{inner:.2%}", f"{critical:+.2%}"])  # fmt: skip
         if question.case.method.seating == "frictionless":
-            smooth.append(abs(sigma))
+            smooth.append(inner)
         pressed.append(abs(critical))
     lost = sum(found is None for found in solved)
     return Section(
@@ -103,13 +103,14 @@ def section() -> Section:
         text=(
             "Exported decks, run by CalculiX 2.20, read back by `stonepass compare`: how far "
             "CalculiX is from our `standard` answer. Its contact is of penalty, so it reaches a "
-            "little farther; σ is its own contact stress, averaged over each element; P_ucr is the "
-            "same balance and closure on both contacts. Latex and friction 0.475 unless said."
+            "little farther; σ is its own contact stress, averaged over each element, at 90° and, by "
+            "the largest difference, over the inner half of the contact; P_ucr is the same balance "
+            "and closure on both contacts. Latex and friction 0.475 unless said."
         ),
-        tables=[("", ("case", "elements", "α₀", "σ(90°)", "P_ucr"), rows)],
+        tables=[("", ("case", "elements", "α₀", "σ(90°)", "σ, largest", "P_ucr"), rows)],
         checks=[
             Check("every deck converges", f"{len(asked) - lost} of {len(asked)}", lost == 0),
-            Check("frictionless: σ(90°) within 2 %", f"{max(smooth):.2%}", max(smooth) < 0.02),
+            Check("frictionless: σ within 2 %", f"{max(smooth):.2%}", max(smooth) < 0.02),
             Check("P_ucr within 4 %", f"{max(pressed):.2%}", max(pressed) < 0.04),
         ],
     )
@@ -124,18 +125,25 @@ def solver(folder: Path) -> Callable[[int, Question], Comparison | None]:
         done = subprocess.run(["ccx", job], cwd=folder, env=environment, capture_output=True)
         if done.returncode:
             return None
-        found = compare(question.case, read_contact(model, folder / f"{job}.dat"))
+        try:
+            found = compare(question.case, read_contact(model, folder / f"{job}.dat"))
+        except sp.BadInput:  # it broke off without saying so
+            return None
         return found if isinstance(found, Comparison) else None
 
     return solve
 
 
-def differences(found: Comparison) -> tuple[float, float, float]:
+def differences(found: Comparison) -> tuple[float, float, float, float]:
     ours, theirs = found.seated, found.contact
     assert found.answer.pressure is not None
     assert found.pressure is not None
+    half = (ours.downstream_angle - ours.contact_angle) / 4.0
+    inner = (ours.downstream_angle + ours.contact_angle) / 2.0 + np.linspace(-half, half, 101)
+    off = theirs.pressure_at(inner) / ours.pressure_at(inner) - 1.0
     return (
         float(np.degrees(theirs.contact_angle - ours.contact_angle)),
         theirs.equator_contact_pressure / ours.equator_contact_pressure - 1.0,
+        float(np.abs(off).max()),
         found.pressure / found.answer.pressure - 1.0,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 FORMATS = ("inp", "feb", "vtu")
+ENDINGS = tuple(f".{each}" for each in FORMATS)
 
 
 @takes_settings()
@@ -50,6 +52,9 @@ def command(
     Lengths are in millimetres, with an inner radius of 1 mm where only ratios are given; stresses
     in a deck or model in kPa, in a VTU in Pa. Give the stone as for pressure.
     """
+    if format is None and out.suffix.lower() not in ENDINGS:
+        raise BadInput("ending of --out", out.name, "one of " + ", ".join(ENDINGS),
+                       "or give a --format")  # fmt: skip
     kind = out.suffix.lower().removeprefix(".") if format is None else format
     if kind not in FORMATS:
         refuse_unknown("--format", kind, list(FORMATS))
@@ -70,14 +75,15 @@ def command(
     if kind == "feb":
         from stonepass.export.feb import write_feb
 
-        text, way_on = write_feb(model), f"run it with: febio4 -i {out.name}"
+        text, way_on = write_feb(model), f"run it with: febio4 -i {shlex.quote(out.name)}"
     else:
         from stonepass.export.inp import write_inp
 
-        text = write_inp(model, element or "CAX8", flavour or "calculix")
-        job = out.stem
+        chosen = "CAX8" if element is None else element
+        text = write_inp(model, chosen, "calculix" if flavour is None else flavour)
+        job = shlex.quote(out.stem)
         way_on = (
-            f"run it with: abaqus job={job} input={out.name}"
+            f"run it with: abaqus job={job} input={shlex.quote(out.name)}"
             if flavour == "abaqus"
             else f"run it with: ccx {job}; then: stonepass compare … {job}.dat"
         )
@@ -100,6 +106,10 @@ def _write_wall(case: Case, out: Path) -> int:
     from stonepass.model.critical import solve
     from stonepass.units import METRE_PER_MM
 
+    if case.method.model == "beam":
+        raise BadInput(
+            "model", "beam", "'paper' or 'direct' for a VTU", "a beam has no solved wall"
+        )
     with working("solving for the wall"):
         answer = solve(case)
     warn(answer.warnings)

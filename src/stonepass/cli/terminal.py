@@ -63,7 +63,12 @@ def writable(path: Path | None, endings: tuple[str, ...]) -> None:
         return
     if path.suffix.lower() not in endings:
         raise BadInput("output file", str(path), "a name ending in " + ", ".join(endings))
-    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+    try:
+        fits = not path.is_dir()
+        fits = fits and os.access(path if path.exists() else path.parent, os.W_OK)
+    except (OSError, ValueError):  # a name too long for the system, or with a NUL
+        fits = False
+    if not fits:
         raise BadInput("output file", str(path), "in a folder that can be written to")
 
 

@@ -71,13 +71,11 @@ def add_wall_material(parent: Element, law: Law, **attributes: str) -> None:
         _solid(parent, "Mooney-Rivlin", {"c1": law.C10, "c2": law.C01} | k, attributes)
     elif isinstance(law, Yeoh):
         _solid(parent, "Yeoh", {"c1": law.C10, "c2": law.C20, "c3": law.C30} | k, attributes)
-    elif isinstance(law, Fung) and law.G > 0.0:
+    elif isinstance(law, Fung):  # without a ground matrix it is no solid, and no deck is made
         # FEBio takes the bulk modulus of a mixture from the mixture alone.
         mixture = _solid(parent, "uncoupled solid mixture", k, attributes)
         _along_cylinder(_solid(mixture, "Fung orthotropic", fung_constants(law)))
         _solid(mixture, "Mooney-Rivlin", {"c1": law.G / 2.0, "c2": 0.0})
-    elif isinstance(law, Fung):
-        _along_cylinder(_solid(parent, "Fung orthotropic", fung_constants(law) | k, attributes))
     else:
         named = name_of_law(law) or "a law of one's own"
         allowed = "neo-hookean, mooney-rivlin, yeoh or fung in a file for FEBio"

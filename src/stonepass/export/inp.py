@@ -31,6 +31,11 @@ __all__ = ["ELEMENTS", "FLAVOURS", "write_inp"]
 FLAVOURS = ("calculix", "abaqus")
 ELEMENTS = ("CAX8", "CAX8R")
 A_LINE = 12  # numbers
+LONGEST_NAME = 60
+# Of a ground matrix laid over a hybrid wall: its bulk modulus over G. The wall keeps the volume.
+MATRIX_BULK = 20.0
+ELASTIC_SLIP, SLIP_SHARE = 1e-3, 5e-3  # over R_a, and of the strip's travel, at most
+ONLY_LAST = 1_000_000  # output every so many increments, and at the end of a step
 
 
 def write_inp(
@@ -63,9 +68,8 @@ def write_inp(
 def _header(s: Seating, element: str, flavour: str) -> Iterator[str]:
     case = s.case
     yield f"** Seated state of a stone in a ureter, stonepass {VERSION}"
-    yield f"** size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}, material " + (
-        case.ureter.material.name
-    )
+    name = "".join(c if c.isprintable() else "?" for c in case.ureter.material.name)[:LONGEST_NAME]
+    yield f"** size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}, material {name}"
     yield f"** half-length {case.method.half_length:g} R_a, R_a = {s.inner_radius / MM:.6g} mm"
     yield f"** {element} for {flavour}; mm, mN, kPa; r along x, the tube's axis along y"
     yield f"** {DISCLAIMER}"
@@ -82,9 +86,9 @@ def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
     yield f"*ELEMENT, TYPE={element}{hybrid}, ELSET=WALL"
     yield from _elements(s.wall, 1, 1)
     first = len(s.wall.cells) + 1
-    if _matrix(s.case.ureter.material.law):
-        yield "** the ground matrix: the same elements again"
-        yield f"*ELEMENT, TYPE={element}{hybrid}, ELSET=MATRIX"
+    if isinstance(s.case.ureter.material.law, Fung):
+        yield "** the ground matrix: the same elements again; those of the wall keep the volume"
+        yield f"*ELEMENT, TYPE={element}, ELSET=MATRIX"
         yield from _elements(s.wall, first, 1)
         first += len(s.wall.cells)
     yield "*ELEMENT, TYPE=CAX8, ELSET=STRIP"
@@ -101,7 +105,7 @@ def _sets(s: Seating) -> Iterator[str]:
     inner = s.wall.row_line(0)
     yield from _set("FIRST", s.wall.column_line(0))
     yield from _set("LAST", s.wall.column_line(-1))
-    yield from _set("INNER", inner)
+    yield from _set(f"INNER_{s.mark}", inner)
     yield from _set("STONE", count + np.arange(len(s.strip.points)))
     yield "*SURFACE, NAME=LUMEN, TYPE=ELEMENT"
     for column in range(s.facing.start, s.facing.stop):
@@ -111,7 +115,7 @@ def _sets(s: Seating) -> Iterator[str]:
     for column in range(s.wall.columns):
         yield _row(last_row + column + 1, "S2")
     yield "*SURFACE, NAME=STONE, TYPE=ELEMENT"
-    copies = 2 if _matrix(s.case.ureter.material.law) else 1
+    copies = 2 if isinstance(s.case.ureter.material.law, Fung) else 1
     before = copies * len(s.wall.cells) + (s.strip.rows - 1) * s.strip.columns
     for column in range(s.strip.columns):
         yield _row(before + column + 1, "S2")
@@ -127,25 +131,23 @@ def _set(name: str, nodes: Any) -> Iterator[str]:
 def _materials(s: Seating, flavour: str) -> Iterator[str]:
     law = s.case.ureter.material.law
     D1 = 0.0 if flavour == "abaqus" else 2.0 / (bulk_modulus(law) / KPA)
+    oriented = isinstance(law, Fung)
+    if oriented:
+        yield "** directions 1, 2, 3 are r, z and around"
+        yield "*ORIENTATION, NAME=CYLINDER"
+        yield "1., 0., 0., 0., 1., 0."
     yield "*MATERIAL, NAME=WALL"
     yield from _law(law, D1, flavour)
-    yield "*SOLID SECTION, ELSET=WALL, MATERIAL=WALL" + (
-        ", ORIENTATION=CYLINDER" if isinstance(law, Fung) else ""
-    )
-    if _matrix(law):
+    yield "*SOLID SECTION, ELSET=WALL, MATERIAL=WALL" + ", ORIENTATION=CYLINDER" * oriented
+    if isinstance(law, Fung):
         yield "*MATERIAL, NAME=MATRIX"
-        assert isinstance(law, Fung)
-        yield from _law(NeoHookean(law.G / 2.0), D1, flavour)
+        yield from _law(NeoHookean(law.G / 2.0), 2.0 / (MATRIX_BULK * law.G / KPA), flavour)
         yield "*SOLID SECTION, ELSET=MATRIX, MATERIAL=MATRIX"
     yield "** its nodes all have prescribed motions"
     yield "*MATERIAL, NAME=STONE"
     yield "*ELASTIC"
     yield _row(25.0 * hoop_modulus(law) / KPA, 0.3)
     yield "*SOLID SECTION, ELSET=STRIP, MATERIAL=STONE"
-
-
-def _matrix(law: Law) -> bool:
-    return isinstance(law, Fung) and law.G > 0.0
 
 
 def _law(law: Law, D1: float, flavour: str) -> Iterator[str]:
@@ -159,10 +161,7 @@ def _law(law: Law, D1: float, flavour: str) -> Iterator[str]:
         yield "*HYPERELASTIC, YEOH"
         yield _row(law.C10 / KPA, law.C20 / KPA, law.C30 / KPA, D1, 0.0, 0.0)
     elif isinstance(law, Fung) and flavour == "abaqus":
-        # Directions 1, 2, 3 are r, z, θ. Constants b1111, b1122, b2222, b1133, b2233, b3333,
-        # b1212, b1313; b2323, c, D.
-        yield "*ORIENTATION, NAME=CYLINDER"
-        yield "1., 0., 0., 0., 1., 0."
+        # b1111, b1122, b2222, b1133, b2233, b3333, b1212, b1313; b2323, c, D.
         yield "*ANISOTROPIC HYPERELASTIC, FUNG-ORTHOTROPIC"
         yield _row(0.0, 0.0, law.a2222, 0.0, law.a1122, law.a1111, 0.0, 0.0)
         yield _row(0.0, law.C / KPA, D1)
@@ -183,7 +182,8 @@ def _contact(s: Seating, flavour: str) -> Iterator[str]:
         yield "*FRICTION"
         yield _row(friction, stiffness)
     elif friction > 0.0:
-        yield f"*FRICTION, ELASTIC SLIP={1e-3 * s.inner_radius / MM:.12g}"
+        slip = min(ELASTIC_SLIP, SLIP_SHARE * s.length) * s.inner_radius / MM
+        yield f"*FRICTION, ELASTIC SLIP={slip:.12g}"
         yield _row(friction)
     yield "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE"
     yield "LUMEN, STONE"
@@ -195,8 +195,11 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield from ("FIRST, 2, 2", "LAST, 2, 2")
     if _radial(s):
         yield "STONE, 2, 2"
+    way = increment / s.length
+    unsymmetric = ", UNSYMM=YES" if flavour == "abaqus" else ""
+    step = f"*STEP, NLGEOM, INC={max(1000, 20 * int(np.ceil(1.0 / way)))}{unsymmetric}"
     yield "** first: ends and load, the strip still clear of the wall"
-    yield "*STEP, NLGEOM, INC=1000"
+    yield step
     yield "*STATIC"
     yield _row(*((0.1, 1.0, 1e-4, 0.2) if _loaded(s) else (1.0, 1.0)))
     if pull:
@@ -207,13 +210,12 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield from _motion(s, s.first_share)
     yield from _load(s)
     yield "*END STEP"
-    way = increment / s.length
     yield "** then: the strip presses the wall open"
-    yield "*STEP, NLGEOM, INC=1000"
+    yield step
     yield "*STATIC"
     yield _row(min(way, 1.0), 1.0, 1e-6, min(way, 1.0))
     yield from _motion(s, 1.0)
-    yield from _output(flavour)
+    yield from _output(s, flavour)
     yield "*END STEP"
 
 
@@ -254,7 +256,7 @@ def _load(s: Seating) -> Iterator[str]:
         yield _row(int(node) + 1, 1, -float(force))
 
 
-def _output(flavour: str) -> Iterator[str]:
+def _output(s: Seating, flavour: str) -> Iterator[str]:
     if flavour == "abaqus":
         yield "*OUTPUT, FIELD"
         yield "*NODE OUTPUT"
@@ -265,16 +267,16 @@ def _output(flavour: str) -> Iterator[str]:
         yield "CSTRESS, CDISP"
         return
     yield "** read back by: stonepass compare"
-    yield "*NODE PRINT, NSET=INNER, FREQUENCY=1000"
+    yield f"*NODE PRINT, NSET=INNER_{s.mark}, FREQUENCY={ONLY_LAST}"
     yield "U"
-    yield "*CONTACT PRINT, FREQUENCY=1000"
+    yield f"*CONTACT PRINT, FREQUENCY={ONLY_LAST}"
     yield "CSTR"
     yield "** to look at: cgx"
-    yield "*NODE FILE, FREQUENCY=1000"
+    yield f"*NODE FILE, FREQUENCY={ONLY_LAST}"
     yield "U"
-    yield "*EL FILE, FREQUENCY=1000"
+    yield f"*EL FILE, FREQUENCY={ONLY_LAST}"
     yield "S"
-    yield "*CONTACT FILE, FREQUENCY=1000"
+    yield f"*CONTACT FILE, FREQUENCY={ONLY_LAST}"
     yield "CDIS, CSTR"
 
 

@@ -6,6 +6,7 @@ that moves radially no rigid body can be made.
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,15 +18,18 @@ from stonepass.fe.grading import growing
 from stonepass.fe.profile import Profile
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import Law
+from stonepass.materials.stability import check
 from stonepass.model.case import Case
 from stonepass.model.far_field import stuck_lumen
 from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.tube import profile_of
+from stonepass.origin import VERSION
 from stonepass.units import Length
 
 __all__ = ["COARSEST", "INCREMENT", "KPA", "MM", "Seating", "bulk_modulus", "seating"]
 
 FINE = (0.002, 0.5)  # element length in the fine zone over R_a
+SMALLEST_OVERSIZE = 1e-4  # over the lumen
 COARSEST, PER_CONTACT = 0.025, 16  # by default: over R_a, and elements on the guessed contact
 BEYOND = 1.3  # largest ratio of neighbouring elements outside it
 CLEARANCE = 1e-3  # of the strip from the lumen at the start, over R_a
@@ -88,6 +92,26 @@ class Seating:
         return PENALTY * hoop_modulus(self.case.ureter.material.law) / self.fine
 
     @property
+    def mark(self) -> str:
+        """Eight letters and digits that tell the deck of one case and mesh from others."""
+        case, load = self.case, self.case.load
+        shape, method = case.stone.shape, case.method
+        numbers = (
+            case.size_ratio, case.wall_ratio, case.seating_friction, load.confining_pressure,
+            load.prestretch, method.half_length, shape.aspect, *shape.outline, self.inner_radius,
+            self.fine,
+        )  # fmt: skip
+        law = case.ureter.material.law
+        told = [
+            VERSION,
+            method.seating,
+            load.confinement,
+            repr(law),
+            *(f"{x:.9g}" for x in numbers),
+        ]
+        return hashlib.sha256("|".join(told).encode()).hexdigest()[:8].upper()
+
+    @property
     def length(self) -> float:
         """How far the strip travels, at most."""
         return float(np.linalg.norm(self.travel, axis=1).max())
@@ -125,15 +149,19 @@ def seating(case: Case, fine: float | None = None) -> Seating:
     Raises
     ------
     BadInput
-        The stone is not larger than the lumen, the case is of another model than the paper's, or
-        the stone's surface would begin beyond the axis.
+        The stone is hardly larger than the lumen, the law is unstable, the case is of another model
+        than the paper's, or the stone's surface would begin beyond the axis.
     """
     low, high = FINE
     require(fine is None or low <= fine <= high, "fine", fine, f"{low:g} to {high:g}, in R_a")
     if case.method.model != "paper":
         why = "a deck is of the seated state, which is the paper's model"
         raise BadInput("model", case.method.model, "'paper'", why)
+    check(case.ureter.material)
     lumen = stuck_lumen(case)
+    least = lumen * (1.0 + SMALLEST_OVERSIZE)
+    require(case.size_ratio >= least, "size ratio", case.size_ratio, f"at least {least:.6g}, so "
+            "that the stone is held by more than a touch")  # fmt: skip
     place = profile_of(case)
     first, last = wrap_round_arc(case, lumen, 1.0, place).contact
     if fine is None:

@@ -103,9 +103,9 @@ def section() -> Section:
         text=(
             "Exported decks, run by CalculiX 2.20, read back by `stonepass compare`: how far "
             "CalculiX is from our `standard` answer. Its contact is of penalty, so it reaches a "
-            "little farther; σ is its own contact stress, averaged over each element, at 90° and, by "
-            "the largest difference, over the inner half of the contact; P_ucr is the same balance "
-            "and closure on both contacts. Latex and friction 0.475 unless said."
+            "little farther; σ is its own contact stress, averaged over each element, at 90° and, "
+            "by the largest difference, over the inner half of the contact; P_ucr is the same "
+            "balance and closure on both contacts. Latex and friction 0.475 unless said."
         ),
         tables=[("", ("case", "elements", "α₀", "σ(90°)", "σ, largest", "P_ucr"), rows)],
         checks=[

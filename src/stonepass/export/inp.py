@@ -110,10 +110,6 @@ def _sets(s: Seating) -> Iterator[str]:
     yield "*SURFACE, NAME=LUMEN, TYPE=ELEMENT"
     for column in range(s.facing.start, s.facing.stop):
         yield _row(column + 1, "S4")
-    yield "*SURFACE, NAME=OUTSIDE, TYPE=ELEMENT"
-    last_row = (s.wall.rows - 1) * s.wall.columns
-    for column in range(s.wall.columns):
-        yield _row(last_row + column + 1, "S2")
     yield "*SURFACE, NAME=STONE, TYPE=ELEMENT"
     copies = 2 if isinstance(s.case.ureter.material.law, Fung) else 1
     before = copies * len(s.wall.cells) + (s.strip.rows - 1) * s.strip.columns

@@ -20,16 +20,16 @@ from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import Law
 from stonepass.materials.stability import check
 from stonepass.model.case import Case
+from stonepass.model.critical import SMALLEST_OVERSIZE
 from stonepass.model.far_field import stuck_lumen
 from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.tube import profile_of
 from stonepass.origin import VERSION
 from stonepass.units import Length
 
-__all__ = ["COARSEST", "INCREMENT", "KPA", "MM", "Seating", "bulk_modulus", "seating"]
+__all__ = ["CLEARANCE", "KPA", "MM", "Seating", "bulk_modulus", "seating"]
 
 FINE = (0.002, 0.5)  # element length in the fine zone over R_a
-SMALLEST_OVERSIZE = 1e-4  # over the lumen
 COARSEST, PER_CONTACT = 0.025, 16  # by default: over R_a, and elements on the guessed contact
 BEYOND = 1.3  # largest ratio of neighbouring elements outside it
 CLEARANCE = 1e-3  # of the strip from the lumen at the start, over R_a
@@ -52,7 +52,7 @@ KPA, MM = 1e3, 1e-3
 class Seating:
     """Wall, strip and motions; lengths in inner radii, the stone's widest place at z = 0.
 
-    First the ends are pulled to `stretch` and the load is put on, while the strip closes half of
+    First the ends are pulled to the pre-stretch and the load is put on, while the strip closes half of
     its `CLEARANCE`; then the strip goes the rest of its `travel`, which presses the wall open.
 
     Attributes
@@ -209,9 +209,7 @@ def _strip(
     """The strip at its start, tangent to a lumen `open_to` but for the clearance, and its way."""
     stretch, xi = case.load.prestretch, case.size_ratio
     start = open_to - CLEARANCE
-    first, last = (
-        _angle_at(place, STRIP_REACH * stretch * edge) if edge else 0.0 for edge in edges
-    )
+    first, last = (_angle_at(place, STRIP_REACH * stretch * edge) for edge in edges)
     if not whole:
         first = np.pi / 2.0 - 1.5 * COLUMN  # a little beyond the plane of symmetry
     count = int(np.ceil((last - first) / COLUMN))

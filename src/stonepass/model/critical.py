@@ -15,9 +15,9 @@ from stonepass.model.far_field import lumen_ratio
 if TYPE_CHECKING:  # loads the finite elements
     from stonepass.fe.problem import Resolution
 
-__all__ = ["critical_pressure", "solve"]
+__all__ = ["SMALLEST_OVERSIZE", "critical_pressure", "solve"]
 
-SMALLEST_OVERSIZE = 1e-4
+SMALLEST_OVERSIZE = 1e-4  # of a stone over the lumen that is held by more than a touch
 # Each model loads what it needs when it is first asked: the beam needs no finite elements.
 MODELS = {
     "paper": ("by_balance", "solve_by_balance"),

@@ -52,8 +52,8 @@ KPA, MM = 1e3, 1e-3
 class Seating:
     """Wall, strip and motions; lengths in inner radii, the stone's widest place at z = 0.
 
-    First the ends are pulled to the pre-stretch and the load is put on, while the strip closes half of
-    its `CLEARANCE`; then the strip goes the rest of its `travel`, which presses the wall open.
+    First the ends are pulled to the pre-stretch and the load is put on, while the strip closes half
+    of its `CLEARANCE`; then the strip goes the rest of its `travel`, which presses the wall open.
 
     Attributes
     ----------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 import resource
@@ -60,28 +61,29 @@ def cpu_seconds(call: Callable[[], object], repeats: int = 7) -> float:
     return statistics.median(seconds)
 
 
+# A small process that runs a command and reports on it: a child's largest memory counts from before
+# it became itself, when it was still a copy of its parent, and this one is large.
+LAUNCHER = """
+import json, resource, subprocess, sys, time
+started = time.perf_counter()
+done = subprocess.run(sys.argv[1:], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+json.dump([used.ru_utime + used.ru_stime, time.perf_counter() - started, used.ru_maxrss / 1024.0,
+           done.stdout, done.returncode], sys.stdout)
+"""
+
+
 def spend(command: list[str], folder: Path | None = None) -> Spent:
-    """Run a command on one thread; what it took is its own, not that of commands before it."""
-    started = time.perf_counter()
-    with subprocess.Popen(
-        command,
+    """Run a command on one thread; what it took is its own alone."""
+    launched = subprocess.run(
+        [sys.executable, "-S", "-c", LAUNCHER, *command],
         cwd=folder,
         env=os.environ | ONE_THREAD,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
+        capture_output=True,
         text=True,
-    ) as process:
-        assert process.stdout is not None
-        output = process.stdout.read()
-        _, status, used = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    return Spent(
-        cpu=used.ru_utime + used.ru_stime,
-        wall=time.perf_counter() - started,
-        memory=used.ru_maxrss / 1024.0,
-        output=output,
-        code=process.returncode,
+        check=True,
     )
+    return Spent(*json.loads(launched.stdout))
 
 
 def stonepass(*arguments: str, repeats: int = 3) -> Spent:

@@ -33,7 +33,8 @@ def test_a_command_is_charged_with_its_own_processor_time_alone(benchmarks):
     assert idle.code == 0
     assert idle.cpu < before.cpu
     assert idle.wall >= 0.3
-    assert 1.0 < idle.memory < 500.0
+    # Python alone, however large this process is.
+    assert 3.0 < idle.memory < 40.0
 
 
 def test_ratios_take_the_cheapest_of_ours_that_is_nowhere_worse(benchmarks):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from cases import tube
 from measure import Row, calculix, cpu_seconds, spend, stonepass
 
 import stonepass as sp
@@ -49,11 +50,7 @@ class Solved:
 
 def latex(kind: str, accuracy: str = "standard") -> sp.Case:
     """The paper's latex tube and a stone 1.2 times its lumen."""
-    return sp.Case(
-        sp.Stone(size_ratio=1.2, friction=0.475),
-        sp.Ureter(wall_ratio=1.5, material="latex"),
-        method=sp.Method(seating=kind, accuracy=accuracy),
-    )
+    return tube(kind, "latex", 1.5, 1.2, 0.475, accuracy=accuracy)
 
 
 def peers(folder: Path) -> Iterator[tuple[str, list[Solved], Solved]]:

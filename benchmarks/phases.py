@@ -6,6 +6,10 @@ import cProfile
 import os
 import pstats
 
+from cases import tube
+
+import stonepass as sp
+
 REPEATS = 5
 # Phase to the functions that do it, by the ends of their names as the profiler writes them.
 PHASES = {
@@ -26,20 +30,11 @@ PHASES = {
 
 def phases() -> dict[str, dict[str, str]]:
     """By case, then by phase: its share of the time; the last entry is seconds per solve."""
-    import stonepass as sp
-
-    def case(seating: str, material: str, eta: float, xi: float) -> sp.Case:
-        return sp.Case(
-            sp.Stone(size_ratio=xi),
-            sp.Ureter(wall_ratio=eta, material=material),
-            method=sp.Method(seating=seating),
-        )
-
     cases = {
-        "frictionless latex, η 1.5, ξ 1.2": case("frictionless", "latex", 1.5, 1.2),
-        "frictionless ureter, η 1.3, ξ 1.21": case("frictionless", "ureter", 1.3, 1.21),
-        "pressed latex, η 1.5, ξ 1.2": case("pressed", "latex", 1.5, 1.2),
-        "pressed ureter, η 1.3, ξ 1.21": case("pressed", "ureter", 1.3, 1.21),
+        "frictionless latex, η 1.5, ξ 1.2": tube("frictionless", "latex", 1.5, 1.2),
+        "frictionless ureter, η 1.3, ξ 1.21": tube("frictionless", "ureter", 1.3, 1.21),
+        "pressed latex, η 1.5, ξ 1.2": tube("pressed", "latex", 1.5, 1.2),
+        "pressed ureter, η 1.3, ξ 1.21": tube("pressed", "ureter", 1.3, 1.21),
     }
     return {what: shares(lambda case=case: sp.solve(case)) for what, case in cases.items()}
 

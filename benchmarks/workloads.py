@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from cases import tube
 from measure import Row, cpu_seconds, memory, stonepass
 
 import stonepass as sp
@@ -40,7 +41,7 @@ def scalings() -> Iterator[Scaling]:
         ("pressed", "latex", 1.5, 1.2),
         ("pressed", "ureter", 1.3, 1.21),
     ):
-        case = _case(kind, material, eta, xi)
+        case = tube(kind, material, eta, xi)
         dofs, seconds = [], []
         for factor in REFINEMENTS:
             fine = replace(Resolution().refined(factor), increments=Resolution().increments)
@@ -59,13 +60,13 @@ def single() -> Iterator[Row]:
     """One answer after import, error estimate included."""
     ureter, latex = ("pressed", "ureter"), ("pressed", "latex", 1.5, 1.2, 0.475)
     for what, target, case in (
-        ("frictionless latex, η 1.5, ξ 1.2", 0.3, _case("frictionless", "latex", 1.5, 1.2)),
-        ("pressed latex, η 1.5, ξ 1.2, μ 0.475", 1.2, _case(*latex)),
-        ("pressed ureter, η 1.3, ξ 1.212", 4.0, _case(*ureter, 1.3, 1.212)),
-        ("pressed ureter, η 3.4, ξ 1.109", 4.0, _case(*ureter, 3.4, 1.109)),
-        ("direct latex, η 1.5, ξ 1.2, μ 0.475", 2.0, _case(*latex, "direct")),
-        ("direct ureter, η 1.3, ξ 1.212", 6.0, _case(*ureter, 1.3, 1.212, model="direct")),
-        ("direct ureter, η 3.4, ξ 1.109", 6.0, _case(*ureter, 3.4, 1.109, model="direct")),
+        ("frictionless latex, η 1.5, ξ 1.2", 0.3, tube("frictionless", "latex", 1.5, 1.2)),
+        ("pressed latex, η 1.5, ξ 1.2, μ 0.475", 1.2, tube(*latex)),
+        ("pressed ureter, η 1.3, ξ 1.212", 4.0, tube(*ureter, 1.3, 1.212)),
+        ("pressed ureter, η 3.4, ξ 1.109", 4.0, tube(*ureter, 3.4, 1.109)),
+        ("direct latex, η 1.5, ξ 1.2, μ 0.475", 2.0, tube(*latex, "direct")),
+        ("direct ureter, η 1.3, ξ 1.212", 6.0, tube(*ureter, 1.3, 1.212, model="direct")),
+        ("direct ureter, η 3.4, ξ 1.109", 6.0, tube(*ureter, 3.4, 1.109, model="direct")),
     ):
         yield Row("one answer", what, cpu_seconds(lambda case=case: sp.solve(case)), "s", target)
 
@@ -77,7 +78,7 @@ def many(workers: int) -> Iterator[Row]:
         ("frictionless", "ureter", 1.3, 1.3, 8.0),
         ("pressed", "ureter", 1.3, 1.3, None),
     ):
-        case = _case(kind, material, eta, top)
+        case = tube(kind, material, eta, top)
         sizes = np.linspace(1.0, top, 31).tolist()
         seconds = _clock(lambda case=case, sizes=sizes: curve(case, sizes))
         yield Row("many", f"P_ucr of 31 sizes, {kind} {material}, η {eta}", seconds, "s", target)
@@ -114,16 +115,6 @@ def commands() -> Iterator[Row]:
 def processes() -> int:
     """Two, as the target says, or one where there are no two cores."""
     return min(2, os.cpu_count() or 1)
-
-
-def _case(
-    kind: str, material: str, eta: float, xi: float, friction: float = 0.5, model: str = "paper"
-) -> sp.Case:
-    return sp.Case(
-        sp.Stone(size_ratio=xi, friction=friction),
-        sp.Ureter(wall_ratio=eta, material=material),
-        method=sp.Method(seating=kind, model=model),
-    )
 
 
 def _clock(call: Callable[[], object]) -> float:

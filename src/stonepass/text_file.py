@@ -1,4 +1,5 @@
-"""Files of text from outside: there, small enough, readable, or refused in one sentence."""
+"""Files of text: read if there, small enough, readable, written if writable, else refused in one
+sentence."""
 
 from __future__ import annotations
 
@@ -6,7 +7,7 @@ from pathlib import Path
 
 from stonepass.errors import BadInput, require
 
-__all__ = ["existing", "read_text"]
+__all__ = ["existing", "read_text", "write_text"]
 
 
 def existing(path: Path, what: str = "file") -> Path:
@@ -38,3 +39,17 @@ def read_text(path: Path, largest: int, kind: str, what: str = "file") -> str:
         return raw.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as problem:
         raise BadInput(what, path, f"{kind} ({problem})") from problem
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file in UTF-8.
+
+    Raises
+    ------
+    BadInput
+        It cannot be written.
+    """
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as problem:
+        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem

@@ -10,6 +10,7 @@ import typer
 
 from stonepass.cli.options import Settings, takes_settings
 from stonepass.errors import BadInput, refuse_unknown
+from stonepass.text_file import write_text
 
 if TYPE_CHECKING:
     from stonepass.model.case import Case
@@ -87,17 +88,10 @@ def command(
             if flavour == "abaqus"
             else f"run it with: ccx {job}; then: stonepass compare … {job}.dat"
         )
-    _write(text, out)
+    write_text(out, text)
     size = f"{len(model.wall.cells)} elements, {model.length:.4g} R_a of travel"
     show(f"{out.name}: {size}; {way_on}")
     return 0
-
-
-def _write(text: str, path: Path) -> None:
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as problem:
-        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
 
 
 def _write_wall(case: Case, out: Path) -> int:

@@ -19,7 +19,7 @@ from stonepass.export.feb_material import add_wall_material
 from stonepass.export.grid import Grid
 from stonepass.export.seating import KPA, MM, Seating
 from stonepass.materials.derivatives import hoop_modulus
-from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.origin import DISCLAIMER
 
 __all__ = ["CONTACT_FILE", "INNER_FILE", "WEDGE", "write_feb"]
 
@@ -127,16 +127,13 @@ def write_feb(seating: Seating) -> str:
 
 
 def _header(s: Seating) -> str:
-    case = s.case
-    name = case.ureter.material.name.encode("ascii", "replace").decode().replace("--", "- -")
     lines = (
-        f"Seated state of a stone in a ureter, stonepass {VERSION}",
-        f"size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}, material {name}",
-        f"half-length {case.method.half_length:g} R_a, R_a = {s.inner_radius / MM:.6g} mm",
+        *s.heading(),
         f"units mm, mN, kPa; a wedge of {np.degrees(WEDGE):g} degrees about z, in front of y = 0",
         DISCLAIMER,
     )
-    return "\n    " + "\n    ".join(lines) + "\n  "
+    plain = (line.encode("ascii", "replace").decode().replace("--", "- -") for line in lines)
+    return "\n    " + "\n    ".join(plain) + "\n  "
 
 
 def _materials(root: Element, s: Seating) -> None:
@@ -192,7 +189,7 @@ def _travel(root: Element, s: Seating, strip: _Wedge) -> None:
 def _boundary(root: Element, s: Seating, wall: _Wedge) -> None:
     section = SubElement(root, "Boundary")
     _hold(section, "side", "y")
-    pull = (s.case.load.prestretch - 1.0) * s.case.method.half_length * s.inner_radius / MM
+    pull = s.pull * s.inner_radius / MM
     for end, way in (("first", -pull if s.whole else 0.0), ("last", pull)):
         if way == 0.0:
             _hold(section, end, "z")
@@ -251,9 +248,7 @@ def _contact(root: Element, s: Seating) -> None:
 
 def _steps(root: Element, s: Seating) -> None:
     section = SubElement(root, "Step")
-    load = s.case.load
-    loaded = load.prestretch != 1.0 or load.confining_pressure > 0.0
-    counts = (LOAD_INCREMENTS if loaded else 1, int(np.ceil(s.length / s.increment)))
+    counts = (LOAD_INCREMENTS if s.loaded else 1, int(np.ceil(s.length / s.increment)))
     for number, (name, count) in enumerate(zip(("load", "press"), counts, strict=True), start=1):
         step = SubElement(section, "step", id=str(number), name=name)
         _control(SubElement(step, "Control"), count)

@@ -24,14 +24,13 @@ from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Law
 from stonepass.materials.yeoh import Yeoh
-from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.origin import DISCLAIMER
 
 __all__ = ["ELEMENTS", "FLAVOURS", "write_inp"]
 
 FLAVOURS = ("calculix", "abaqus")
 ELEMENTS = ("CAX8", "CAX8R")
 A_LINE = 12  # numbers
-LONGEST_NAME = 60
 # Of a ground matrix laid over a hybrid wall: its bulk modulus over G. The wall keeps the volume.
 MATRIX_BULK = 20.0
 ELASTIC_SLIP, SLIP_SHARE = 1e-3, 5e-3  # over R_a, and of the strip's travel, at most
@@ -66,11 +65,7 @@ def write_inp(
 
 
 def _header(s: Seating, element: str, flavour: str) -> Iterator[str]:
-    case = s.case
-    yield f"** Seated state of a stone in a ureter, stonepass {VERSION}"
-    name = "".join(c if c.isprintable() else "?" for c in case.ureter.material.name)[:LONGEST_NAME]
-    yield f"** size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}, material {name}"
-    yield f"** half-length {case.method.half_length:g} R_a, R_a = {s.inner_radius / MM:.6g} mm"
+    yield from (f"** {line}" for line in s.heading())
     yield f"** {element} for {flavour}; mm, mN, kPa; r along x, the tube's axis along y"
     yield f"** {DISCLAIMER}"
     yield "*HEADING"
@@ -186,7 +181,7 @@ def _contact(s: Seating, flavour: str) -> Iterator[str]:
 
 
 def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
-    pull = (s.case.load.prestretch - 1.0) * s.case.method.half_length * s.inner_radius / MM
+    pull = s.pull * s.inner_radius / MM
     yield "*BOUNDARY"
     yield from ("FIRST, 2, 2", "LAST, 2, 2")
     if _radial(s):
@@ -197,7 +192,7 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield "** first: ends and load, the strip still clear of the wall"
     yield step
     yield "*STATIC"
-    yield _row(*((0.1, 1.0, 1e-4, 0.2) if _loaded(s) else (1.0, 1.0)))
+    yield _row(*((0.1, 1.0, 1e-4, 0.2) if s.loaded else (1.0, 1.0)))
     if pull:
         yield "*BOUNDARY"
         yield _row("LAST", 2, 2, pull)
@@ -213,10 +208,6 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield from _motion(s, 1.0)
     yield from _output(s, flavour)
     yield "*END STEP"
-
-
-def _loaded(s: Seating) -> bool:
-    return s.case.load.prestretch != 1.0 or s.case.load.confining_pressure > 0.0
 
 
 def _radial(s: Seating) -> bool:

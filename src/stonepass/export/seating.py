@@ -25,7 +25,7 @@ from stonepass.model.far_field import stuck_lumen
 from stonepass.model.first_guess import wrap_round_arc
 from stonepass.model.tube import profile_of
 from stonepass.origin import VERSION
-from stonepass.units import Length
+from stonepass.units import METRE_PER_MM, PASCAL_PER, Length
 
 __all__ = ["CLEARANCE", "KPA", "MM", "Seating", "bulk_modulus", "seating"]
 
@@ -45,7 +45,8 @@ PENALTY = 2.0
 POISSON = 0.499  # of programs that cannot keep volume exactly
 INCREMENT, FEWEST = 0.4, 8  # of the strip over the element length, and how many at least
 # Pa and m: decks are in kilopascals, millimetres, and so millinewtons.
-KPA, MM = 1e3, 1e-3
+KPA, MM = PASCAL_PER["kPa"], METRE_PER_MM
+LONGEST_NAME = 60
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,26 @@ class Seating:
     def penalty(self) -> float:
         """Contact pressure over penetration, in Pa per inner radius."""
         return PENALTY * hoop_modulus(self.case.ureter.material.law) / self.fine
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the first step does anything but move the strip."""
+        return self.case.load.prestretch != 1.0 or self.case.load.confining_pressure > 0.0
+
+    @property
+    def pull(self) -> float:
+        """How far an end is pulled to the pre-stretch, over R_a."""
+        return (self.case.load.prestretch - 1.0) * self.case.method.half_length
+
+    def heading(self) -> tuple[str, ...]:
+        """What a file says of itself, in lines that no name of a material can end."""
+        case, name = self.case, self.case.ureter.material.name
+        name = "".join(c if c.isprintable() else "?" for c in name)[:LONGEST_NAME]
+        return (
+            f"Seated state of a stone in a ureter, stonepass {VERSION}",
+            f"size ratio {case.size_ratio:.6g}, wall ratio {case.wall_ratio:.6g}, material {name}",
+            f"half-length {case.method.half_length:g} R_a, R_a = {self.inner_radius / MM:.6g} mm",
+        )
 
     @property
     def mark(self) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from stonepass.errors import BadInput
+from stonepass.text_file import write_text
 
 __all__ = ["inline_svg", "write_html"]
 
@@ -35,10 +35,7 @@ def write_html(path: Path, title: str, style: str, body: str) -> None:
         f"<title>{escape(title)}</title><style>{_STYLE}{style}</style></head><body>\n"
         f"{body}\n</body></html>\n"
     )
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as problem:
-        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
+    write_text(path, text)
 
 
 def inline_svg(figure: Figure, text: str) -> str:

@@ -1,0 +1,22 @@
+"""The cases that are timed."""
+
+from __future__ import annotations
+
+import stonepass as sp
+
+
+def tube(
+    kind: str,
+    material: str,
+    eta: float,
+    xi: float,
+    friction: float = 0.5,
+    model: str = "paper",
+    accuracy: str = "standard",
+) -> sp.Case:
+    """A sphere in a tube, by ratios."""
+    return sp.Case(
+        sp.Stone(size_ratio=xi, friction=friction),
+        sp.Ureter(wall_ratio=eta, material=material),
+        method=sp.Method(seating=kind, model=model, accuracy=accuracy),
+    )

@@ -102,7 +102,7 @@ def machine() -> dict[str, str]:
     import ngsolve
     import numpy
 
-    from stonepass.origin import VERSION
+    from stonepass.about import VERSION
 
     return {
         "processor": _processor(),

@@ -16,8 +16,8 @@ from stonepass.export.inp import write_inp
 from stonepass.export.results import read_contact
 from stonepass.export.seating import seating
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.by_balance import balance_pressure
-from stonepass.model.seated import Contact
+from stonepass.model.models.seated_balance import balance_pressure
+from stonepass.model.states.seated import Contact
 
 FINE = 0.025
 OURS = ("fast", "standard")

@@ -13,8 +13,8 @@ from cases import tube
 from measure import Row, cpu_seconds, memory, stonepass
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
-from stonepass.model.seated import NoSeat, seat
+from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.model.states.seated import NoSeat, seat
 from stonepass.paper.fig8 import SIZES, WALLS
 from stonepass.paper.inputs import ureter_case
 from stonepass.studies.curve import curve

@@ -28,7 +28,7 @@ hook = install_import_hook(CHECKED, "beartype.beartype")
 @pytest.fixture
 def solved(monkeypatch):
     """Names of what was solved afresh."""
-    from stonepass.model.afresh import AFRESH
+    from stonepass.model.states.uncached import AFRESH
 
     found = []
     for name in ("seat", "push", "pairs"):

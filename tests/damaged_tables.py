@@ -17,16 +17,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from stonepass.bench.test_data import read_inflation, read_tension
+from stonepass.clinic.patient import read_person
 from stonepass.errors import BadInput
-from stonepass.laboratory.bench import read_inflation, read_tension
-from stonepass.laboratory.person import read_person
-from stonepass.materials.user_law import load_material
+from stonepass.inputs.case_file import read_case
+from stonepass.inputs.friction_file import read_friction
+from stonepass.inputs.material_file import load_material
+from stonepass.inputs.measured_pressures import read_points
+from stonepass.inputs.opening_curve_file import read_pairs
+from stonepass.inputs.shape_file import read_shape
 from stonepass.model.case import Ureter
-from stonepass.model.case_file import read_case
-from stonepass.model.friction_file import read_friction
-from stonepass.model.meridian import read_shape
-from stonepass.model.opening import read_pairs
-from stonepass.model.points import read_points
 from stonepass.units import length
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

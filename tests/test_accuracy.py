@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 
 import stonepass as sp
-from stonepass.fe.problem import Failure, Resolution
-from stonepass.model import seated
+from stonepass.fe.axisymmetric.problem import Failure, Resolution
 from stonepass.model.accuracy import LEVELS
+from stonepass.model.states import seated
 
 LATEX = sp.Ureter(wall_ratio=1.5, material="latex")
 FRICTIONLESS = sp.Method(seating="frictionless")

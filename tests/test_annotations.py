@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from jaxtyping import TypeCheckError
 
-from stonepass.fe.grading import graded
+from stonepass.fe.core.grading import graded
 from stonepass.model.far_field import inflation_by_quadrature
 
 

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from stonepass.cli import run
+from stonepass.clinic.assessment import FEWER, MORE, Share, assess, contradiction
+from stonepass.clinic.cohorts import COHORTS, rows_for
+from stonepass.clinic.patient import read_person
+from stonepass.clinic.pressure_limits import LIMITS, limit_told
 from stonepass.errors import BadInput, Outcome
-from stonepass.laboratory.assess import FEWER, MORE, Share, assess, contradiction
-from stonepass.laboratory.cohorts import COHORTS, rows_for
-from stonepass.laboratory.limits import LIMITS, limit_told
-from stonepass.laboratory.measured import measured_length, measured_number
-from stonepass.laboratory.person import read_person
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
@@ -24,6 +23,7 @@ from stonepass.report.assess_page import write_assessment
 from stonepass.report.assess_report import assess_record, range_told
 from stonepass.studies.jobs import PooledSolver
 from stonepass.studies.response import Conditions, lumen_ratios, response_surface
+from stonepass.studies.uncertain_quantity import measured_length, measured_number
 from stonepass.units import Pressure
 
 PERSON = """

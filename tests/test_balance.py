@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from stonepass.model.balance import drive, resistance
 from stonepass.model.case import Case, Method, Stone, Ureter
 from stonepass.model.closure import linear_closure
-from stonepass.model.seated import Contact
+from stonepass.model.force_balance import drive, resistance
 from stonepass.model.shape import Shape
+from stonepass.model.states.seated import Contact
 
 EDGE = np.pi / 3
 

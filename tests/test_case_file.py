@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import stonepass as sp
-from stonepass.model.case_file import read_case, write_case
+from stonepass.inputs.case_file import read_case, write_case
 
 GOOD = """
 [stone]
@@ -52,7 +52,7 @@ def test_material_files_are_found_beside_the_case(tmp_path):
     )
     case = sp.Case(
         sp.Stone(size_ratio=1.2),
-        sp.Ureter(wall_ratio=1.3, material=str(folder / "soft.toml")),
+        sp.Ureter(wall_ratio=1.3, material=sp.load_material(str(folder / "soft.toml"))),
     )
     write_case(case, tmp_path / "case.toml")
     assert 'material = "laws/soft.toml"' in (tmp_path / "case.toml").read_text()

@@ -13,7 +13,7 @@ import pytest
 import stonepass
 from stonepass.cli import run
 from stonepass.cli.curve import size_range
-from stonepass.model.case_file import read_case
+from stonepass.inputs.case_file import read_case
 
 PRESSURE_KEYS = [
     "outcome", "message", "critical_pressure_kPa", "critical_pressure_error_kPa",

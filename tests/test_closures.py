@@ -9,12 +9,13 @@ import pytest
 import stonepass as sp
 from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
-from stonepass.model.advance import opening_pressure
-from stonepass.model.case_file import read_case, write_case
+from stonepass.inputs.case_file import read_case, write_case
+from stonepass.inputs.opening_curve_file import read_pairs
 from stonepass.model.closure import Series, fit_series, linear_closure
-from stonepass.model.direct_pairs import opening_pairs
+from stonepass.model.energy_balance import opening_pressure
 from stonepass.model.far_field import urine_pressure
-from stonepass.model.opening import Pairs, read_pairs
+from stonepass.model.opening_curve import Pairs
+from stonepass.model.states.opening import opening_pairs
 from stonepass.studies.closures import CLOSURES, compare_closures
 from stonepass.studies.rising import contact_deviation, raise_pressure
 

@@ -8,8 +8,8 @@ import pytest
 import stonepass as sp
 from stonepass.materials.fung import Fung
 from stonepass.materials.neo_hookean import NeoHookean
-from stonepass.model.balance import drive, resistance
-from stonepass.model.by_balance import pressure_of_angle
+from stonepass.model.force_balance import drive, resistance
+from stonepass.model.models.seated_balance import pressure_of_angle
 
 THIN = sp.Ureter(wall_ratio=1.3)
 LATEX = sp.Ureter(wall_ratio=1.5, material="latex")

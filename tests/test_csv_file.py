@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import stonepass
-from stonepass.csv_file import LARGEST_FILE, read_columns
 from stonepass.errors import BadInput
+from stonepass.io.csv_file import LARGEST_FILE, read_columns
 
 
 def read(tmp_path, text, required=("a", "b"), optional=("c",)):

@@ -28,7 +28,7 @@ def test_a_law_that_cannot_travel_is_solved_here(tmp_path):
     (tmp_path / "law.py").write_text(
         "def energy(C_rr, C_tt, C_zz, C_rz, xp):\n    return 146.5e3 * (C_rr + C_tt + C_zz - 3.0)\n"
     )
-    wall = sp.Ureter(wall_ratio=1.5, material=f"{tmp_path / 'law.py'}:energy")
+    wall = sp.Ureter(wall_ratio=1.5, material=sp.load_material(f"{tmp_path / 'law.py'}:energy"))
     case = sp.Case(CASE.stone, wall, method=CASE.method)
     answers = curve(case, [1.1, 1.2], workers=2)
     assert answers[1].pressure == pytest.approx(sp.solve(CASE).pressure, rel=1e-9)

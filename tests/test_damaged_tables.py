@@ -24,10 +24,10 @@ from damaged_tables import (
 )
 
 from stonepass.cli import run
-from stonepass.csv_file import MOST_ROWS
 from stonepass.errors import BadInput
-from stonepass.model.case_file import read_case
-from stonepass.model.meridian import read_shape
+from stonepass.inputs.case_file import read_case
+from stonepass.inputs.shape_file import read_shape
+from stonepass.io.csv_file import MOST_ROWS
 
 SEED = 20250
 COUNT = dict.fromkeys(KINDS, 150) | {"shape": 20}  # a shape that is nearly one takes 0.3 s

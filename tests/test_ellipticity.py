@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass.fe.waves import unstable_wave
+from stonepass.fe.axisymmetric.buckling import unstable_wave
 from stonepass.materials.catalogue import CATALOGUE, material
 from stonepass.materials.derivatives import energy_derivatives
 from stonepass.materials.ellipticity import shear_stiffness, weakest
 from stonepass.materials.fung import Fung
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.soundness import folding_warning, waves
-from stonepass.model.tube import tube_of
+from stonepass.model.states.nondimensional import tube_of
+from stonepass.model.states.stability_report import folding_warning, waves
 
 REST = np.array([[1.0, 0.0, 0.0, 1.0, 1.0]])
 

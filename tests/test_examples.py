@@ -11,8 +11,8 @@ import pytest
 
 import stonepass
 from stonepass.cli import run
+from stonepass.records.answer import record, size_record
 from stonepass.report.friction_report import friction_record
-from stonepass.report.record import record, size_record
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = sorted((ROOT / "examples").iterdir())

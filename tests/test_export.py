@@ -23,9 +23,9 @@ from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.protocol import Material
 from stonepass.materials.yeoh import Yeoh
-from stonepass.model.by_balance import balance_pressure
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.tube import profile_of
+from stonepass.model.models.seated_balance import balance_pressure
+from stonepass.model.states.nondimensional import profile_of
 
 XI, ETA, MU = 1.2, 1.5, 0.475
 EXAMPLES = Path(__file__).parents[1] / "examples"

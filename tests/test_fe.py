@@ -7,21 +7,27 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.special import ellipeinc
 
-from stonepass.fe.contact import Arc, lobatto, unilateral
-from stonepass.fe.discrete import discretise, free_unknowns, inner_wall, set_at_nodes, wall_form
-from stonepass.fe.friction import open_contact
-from stonepass.fe.grading import graded, growing, intervals
-from stonepass.fe.mesh import Layout, place, structured_mesh
-from stonepass.fe.newton import Plain, newton
-from stonepass.fe.problem import Tube
-from stonepass.fe.profile import Profile
-from stonepass.fe.wall import SYMBOLS, cauchy_stress, wall_energy
-from stonepass.fe.waves import unstable_motions
+from stonepass.fe.axisymmetric.buckling import unstable_motions
+from stonepass.fe.axisymmetric.contact import Arc, lobatto, unilateral
+from stonepass.fe.axisymmetric.discrete import (
+    discretise,
+    free_unknowns,
+    inner_wall,
+    set_at_nodes,
+    wall_form,
+)
+from stonepass.fe.axisymmetric.friction import open_contact
+from stonepass.fe.axisymmetric.mesh import Layout, place, structured_mesh
+from stonepass.fe.axisymmetric.problem import Tube
+from stonepass.fe.axisymmetric.profile import Profile
+from stonepass.fe.axisymmetric.wall import SYMBOLS, cauchy_stress, wall_energy
+from stonepass.fe.core.grading import graded, growing, intervals
+from stonepass.fe.core.newton import Plain, newton
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import NAMESPACE
 from stonepass.model.case import Load
-from stonepass.model.tube import tube_of
+from stonepass.model.states.nondimensional import tube_of
 
 LAYOUT = Layout(np.array([1.0, 1.2, 1.5]), np.array([0.0, 0.4, 1.0, 2.0]), closed=1)
 

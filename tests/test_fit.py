@@ -7,18 +7,18 @@ import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass import extras
+from stonepass.bench.law_fit import fit_law
+from stonepass.bench.test_data import Inflation, Tension, read_inflation, read_tension
 from stonepass.cli import run
 from stonepass.errors import BadInput
-from stonepass.laboratory.bench import Inflation, Tension, read_inflation, read_tension
-from stonepass.laboratory.fit import fit_law
+from stonepass.inputs.material_file import load_material, write_law
+from stonepass.io import optional_imports
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.materials.known_laws import KNOWN_LAWS, name_of_law
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.uniaxial import AXES, nominal_stress
-from stonepass.materials.user_law import load_material, write_law
 from stonepass.materials.yeoh import Yeoh
 from stonepass.model.far_field import inflation, inflation_by_quadrature
 from stonepass.report.fit_figure import fit_figure
@@ -168,7 +168,7 @@ def test_too_few_points_and_no_library(monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    monkeypatch.setattr(extras, "import_module", missing)
+    monkeypatch.setattr(optional_imports, "import_module", missing)
     with pytest.raises(
         BadInput, match=r"library is lmfit, .*pip install 'stonepass\[laboratory\]'"
     ):

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass.fe.folds import crossing, self_contact
-from stonepass.fe.profile import Profile
-from stonepass.fe.tube import seat_on_stone
+from stonepass.fe.axisymmetric.profile import Profile
+from stonepass.fe.axisymmetric.seating import seat_on_stone
+from stonepass.fe.axisymmetric.self_intersection import crossing, self_contact
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_modulus
-from stonepass.model.first_guess import wrap_round_arc
-from stonepass.model.tube import tube_of
+from stonepass.model.states.first_guess import wrap_round_arc
+from stonepass.model.states.nondimensional import tube_of
 
 
 def test_a_polyline_that_crosses_itself_by_hand():
@@ -37,7 +37,7 @@ def test_a_fold_that_bends_back_without_touching_is_none():
 
 
 def test_a_state_that_touches_itself_is_no_answer(monkeypatch):
-    import stonepass.fe.tube as module
+    import stonepass.fe.axisymmetric.seating as module
 
     monkeypatch.setattr(module, "self_contact", lambda solved: 1.5)
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"))

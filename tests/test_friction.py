@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
-from stonepass.model.seated import SeatedState, seat
+from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.model.states.seated import SeatedState, seat
 
 LATEX = sp.Case(
     sp.Stone(size_ratio=1.2, friction=0.475), sp.Ureter(wall_ratio=1.5, material="latex")
@@ -105,7 +105,7 @@ def test_the_result_does_not_depend_on_the_increments(case):
 
 def test_an_increment_that_fails_is_halved(monkeypatch):
     """Make the first attempt of the second increment fail and see the path end all the same."""
-    import stonepass.fe.press as module
+    import stonepass.fe.axisymmetric.loading_path as module
 
     calls = {"count": 0}
     original = module.newton_or_homotopy
@@ -124,8 +124,8 @@ def test_an_increment_that_fails_is_halved(monkeypatch):
 
 
 def test_a_path_that_cannot_go_on_is_named(monkeypatch):
-    import stonepass.fe.press as module
-    from stonepass.fe.newton import Report
+    import stonepass.fe.axisymmetric.loading_path as module
+    from stonepass.fe.core.newton import Report
 
     monkeypatch.setattr(module, "newton_or_homotopy", lambda *_: Report(1, 1.0, "made to fail"))
     answer = sp.solve(LATEX)
@@ -135,8 +135,8 @@ def test_a_path_that_cannot_go_on_is_named(monkeypatch):
 
 def test_where_no_smooth_edge_is_found_the_state_says_so(monkeypatch):
     """The fallback on an ordinary case: same answer, with the slack of its edge stated."""
-    import stonepass.fe.tube as module
-    from stonepass.fe.problem import Failure
+    import stonepass.fe.axisymmetric.seating as module
+    from stonepass.fe.axisymmetric.problem import Failure
 
     good = sp.solve(LATEX)
     monkeypatch.setattr(module, "fit", lambda *_: Failure("made to fail", 1))

@@ -7,17 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from stonepass.bench.comparison import Setting, compare, size_curves
+from stonepass.bench.invitro import fit_friction
+from stonepass.bench.least_squares import profile_level
 from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
-from stonepass.laboratory.comparison import Setting, compare, size_curves
-from stonepass.laboratory.invitro import fit_friction
-from stonepass.laboratory.least_squares import profile_level
+from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.catalogue import material
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Material
 from stonepass.model.answer import Answer
 from stonepass.model.case import Method
-from stonepass.model.points import Point
 from stonepass.report.invitro_figure import invitro_figure
 from stonepass.report.invitro_report import invitro_record
 from stonepass.studies.jobs import PooledSolver

@@ -28,18 +28,18 @@ from picture_files import (
 from PIL import Image
 from SurfaceTopography import Topography
 
-from stonepass import extras
 from stonepass.cli import run
 from stonepass.errors import BadInput
-from stonepass.imaging import child
-from stonepass.imaging.baseline import fit_baseline
-from stonepass.imaging.friction import friction_of_slopes, surface_friction
-from stonepass.imaging.paths import StraightPath, evenly_spaced, profiles_along, read_path
-from stonepass.imaging.picture import Area, Picture
-from stonepass.imaging.pixel_size import tescan_scan, zeiss_scan
-from stonepass.imaging.readers import read_picture
-from stonepass.imaging.untrusted import read_untrusted
+from stonepass.io import optional_imports
 from stonepass.report.friction_figure import friction_figure
+from stonepass.surface import worker
+from stonepass.surface.baseline import fit_baseline
+from stonepass.surface.friction import friction_of_slopes, surface_friction
+from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along, read_path
+from stonepass.surface.pixel_size import tescan_scan, zeiss_scan
+from stonepass.surface.readers import read_picture
+from stonepass.surface.surface_image import Area, Picture
+from stonepass.surface.untrusted import read_untrusted
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
@@ -406,7 +406,7 @@ def test_without_the_extra_it_says_what_to_install(tmp_path, monkeypatch):
         raise ImportError(name)
 
     save_tiff(tmp_path / "a.tif", some_grey())
-    monkeypatch.setattr(extras, "import_module", missing)
+    monkeypatch.setattr(optional_imports, "import_module", missing)
     with pytest.raises(BadInput, match=r"library is tifffile, but must be installed.*pip install"):
         read_picture(tmp_path / "a.tif")
     Image.fromarray(some_grey()).save(tmp_path / "a.png")
@@ -445,9 +445,12 @@ def test_a_file_that_needs_more_memory_than_it_may_is_refused(tmp_path):
         ("echo ready; echo nonsense", "its reader made no sense"),
         ("echo ready; echo '[1]'", "its reader made no sense"),
         ('echo ready; echo \'{"refused": ["a"]}\'', "its reader made no sense"),
-        ('echo ready; echo \'{"shape": [20, 20], "area": [0, 0, 20, 20]}\'', "20 × 20 numbers"),
         (
-            'echo ready; echo \'{"shape": [16, 16], "area": [0, 0, 99, 16]}\'; printf %0256d 0',
+            'echo ready; echo \'{"header": {"shape": [20, 20], "type": "uint8", "area": [0, 0, 20, 20]}}\'',
+            "20 × 20 numbers",
+        ),
+        (
+            'echo ready; echo \'{"header": {"shape": [16, 16], "type": "uint8", "area": [0, 0, 99, 16]}}\'; printf %0256d 0',
             "area",
         ),
         (
@@ -562,13 +565,14 @@ def test_steepest_at_the_edge_of_where_it_is_looked_at():
 
 def test_the_child_writes_numbers_and_json(tmp_path):
     path = save_tiff(tmp_path / "a.tif", some_grey())
-    asked = json.dumps({"path": str(path), "memory": 400_000_000, "seconds": 4.0}).encode()
+    request = {"path": str(path)}
+    asked = json.dumps({"request": request, "memory": 400_000_000, "seconds": 4.0}).encode()
     done = subprocess.run(
-        [sys.executable, "-m", child.__name__], input=asked, capture_output=True, check=True
+        [sys.executable, "-m", worker.__name__], input=asked, capture_output=True, check=True
     )
     ready, header, body = done.stdout.split(b"\n", 2)
     assert json.loads(ready) == {"ready": True}
-    assert json.loads(header)["shape"] == [60, 80]
+    assert json.loads(header)["header"]["shape"] == [60, 80]
     assert body == some_grey().tobytes()
 
 

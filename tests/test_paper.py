@@ -13,13 +13,13 @@ import pytest
 import stonepass as sp
 from stonepass.cli import run
 from stonepass.errors import BadInput
+from stonepass.export.vtu import write_vtu
+from stonepass.inputs.measured_pressures import Point, read_points
 from stonepass.model.case import Method
-from stonepass.model.points import Point, read_points
 from stonepass.paper import fig6, fig8, fig9, inputs, seated_figures
 from stonepass.paper.run import PARTS, WITH_CLAIMS, chosen, reproduce
 from stonepass.paper.section import Asked, Claim
 from stonepass.paper.sensitivity import Sensitivity, choices
-from stonepass.report.revolve import write_vtu
 from stonepass.studies.jobs import PressureJob, Results, SizeJob, run_jobs
 from stonepass.units import Pressure
 

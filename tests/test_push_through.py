@@ -5,16 +5,16 @@ import pytest
 
 import stonepass as sp
 from stonepass.errors import Outcome
-from stonepass.fe.problem import Failure, Resolution
-from stonepass.fe.slide import Slid
+from stonepass.fe.axisymmetric.problem import Failure, Resolution
+from stonepass.fe.axisymmetric.sliding_contact import Slid
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import energy_derivatives, hoop_modulus
-from stonepass.materials.kinks import KEPT, Relaxed, relaxed
 from stonepass.materials.protocol import Material
+from stonepass.materials.relaxed_energy import KEPT, Relaxed, relaxed
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.advance import advance_force, opened_radius, strained_force
+from stonepass.model.energy_balance import advance_force, opened_radius, strained_force
 from stonepass.model.far_field import urine_pressure
-from stonepass.model.push_through import (
+from stonepass.model.states.loaded import (
     Critical,
     NoPush,
     PushedState,
@@ -274,7 +274,7 @@ def test_what_is_kept_of_the_ground_matrix_hardly_changes_the_answer(monkeypatch
     question, found = case("ureter", 1.3, 1.2, 0.5), []
     for kept, resolution in ((0.1, COARSE), (0.2, COARSE), (0.2, Resolution())):
         monkeypatch.setattr(
-            "stonepass.model.push_through.relaxed", lambda law, kept=kept: relaxed(law, kept)
+            "stonepass.model.states.loaded.relaxed", lambda law, kept=kept: relaxed(law, kept)
         )
         found.append(sp.solve(question, resolution))
     pressures = np.array([answer.pressure for answer in found])
@@ -314,7 +314,7 @@ def test_urine_passes_first_only_where_the_seal_was_followed_to_its_end(
 ):
     """No wall we know does; so the decision is tested on a made-up one."""
     monkeypatch.setattr(
-        "stonepass.model.push_through._state", lambda case, ready, found, started: found
+        "stonepass.model.states.loaded._state", lambda case, ready, found, started: found
     )
     ready = _Ready(Clearing(force, last), modulus=100.0, guess=5.0, opening=8.0, steps=0)
     found = _critical(case(), ready, None, 0.0, leak=True)

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
-from stonepass.fe.readout import contact_profile, stored_energy
-from stonepass.fe.tube import seat_on_stone
+from stonepass.fe.axisymmetric.postprocessing import contact_profile, stored_energy
+from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.fe.axisymmetric.seating import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.first_guess import wrap_round_arc
-from stonepass.model.seated import NoSeat, SeatedState, seat
 from stonepass.model.shape import Shape
-from stonepass.model.tube import profile_of, tube_of
+from stonepass.model.states.first_guess import wrap_round_arc
+from stonepass.model.states.nondimensional import profile_of, tube_of
+from stonepass.model.states.seated import NoSeat, SeatedState, seat
 
 FRICTIONLESS = Method(seating="frictionless")
 LATEX = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material="latex"), method=FRICTIONLESS)

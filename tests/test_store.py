@@ -11,9 +11,9 @@ import pytest
 import stonepass as sp
 from stonepass.errors import BadInput
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.elements import Elements
-from stonepass.studies.plain import from_plain, to_plain
-from stonepass.studies.store import Store, default_folder
+from stonepass.model.states.state_solver import Elements
+from stonepass.studies.serialisation import from_plain, to_plain
+from stonepass.studies.solution_cache import Store, default_folder
 
 FAST = sp.Method(accuracy="fast")
 
@@ -151,7 +151,7 @@ def test_a_file_of_another_kind_is_corrupt(tmp_path, content):
 def test_another_solver_solves_again(tmp_path, solved, monkeypatch):
     store = Store(tmp_path)
     sp.solve(case(), elements=store)
-    monkeypatch.setattr("stonepass.studies.store._solver", lambda: "another")
+    monkeypatch.setattr("stonepass.studies.solution_cache._solver", lambda: "another")
     sp.solve(case(), elements=store)
     assert len(solved) == 2
 
@@ -159,7 +159,7 @@ def test_another_solver_solves_again(tmp_path, solved, monkeypatch):
 def test_a_law_that_cannot_be_written_down_is_not_remembered(tmp_path, solved):
     law = Path(__file__).parents[1] / "examples" / "own_law.py"
     question = sp.Case(
-        sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=f"{law}:energy"),
+        sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=sp.load_material(f"{law}:energy")),
         method=sp.Method(accuracy="fast", seating="frictionless"),
     )  # fmt: skip
     for _ in range(2):

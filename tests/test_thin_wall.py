@@ -12,7 +12,7 @@ import stonepass as sp
 from stonepass.errors import BadInput, Outcome
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.secant import secant_moduli
-from stonepass.model.thin_wall import beam_state, largest_beam_size
+from stonepass.model.models.elastic_foundation import beam_state, largest_beam_size
 
 PUBLISHED = {"circumferential_modulus": "0.465 MPa", "longitudinal_modulus": "0.02 MPa"}
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import stonepass as sp
+from stonepass.inputs.material_file import load_material
 from stonepass.materials.derivatives import hoop_energy_slope
-from stonepass.materials.user_law import load_material
 
 RUBBER = """
 source = "a bench"

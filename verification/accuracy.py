@@ -6,7 +6,7 @@ import numpy as np
 from page import Check, Section
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
+from stonepass.fe.axisymmetric.problem import Resolution
 
 REFERENCE = Resolution(order=6, closed=12, edge=0.004, growth=1.5)
 CASES = (

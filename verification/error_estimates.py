@@ -12,7 +12,7 @@ from page import Check, Section
 from robustness import describe, families
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
+from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import LEVELS
 
 SEED, CASES = 20247, 120  # the claims were tuned on another seed

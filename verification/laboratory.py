@@ -15,12 +15,13 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from page import Check, Section
 
-from stonepass.laboratory.assess import assess
-from stonepass.laboratory.bench import Tension
-from stonepass.laboratory.comparison import Setting, compare
-from stonepass.laboratory.fit import fit_law
-from stonepass.laboratory.invitro import fit_friction
-from stonepass.laboratory.person import read_person
+from stonepass.bench.comparison import Setting, compare
+from stonepass.bench.invitro import fit_friction
+from stonepass.bench.law_fit import fit_law
+from stonepass.bench.test_data import Tension
+from stonepass.clinic.assessment import assess
+from stonepass.clinic.patient import read_person
+from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.materials.mooney_rivlin import MooneyRivlin
@@ -28,7 +29,6 @@ from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Material
 from stonepass.materials.yeoh import Yeoh
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
-from stonepass.model.points import Point
 from stonepass.report.assess_page import write_assessment
 from stonepass.studies.jobs import PooledSolver
 from stonepass.studies.response import Conditions, response_surface

@@ -17,10 +17,10 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from page import Check, Section
 
-from stonepass.imaging.baseline import fit_baseline
-from stonepass.imaging.friction import surface_friction
-from stonepass.imaging.paths import StraightPath
-from stonepass.imaging.picture import Area, Picture
+from stonepass.surface.baseline import fit_baseline
+from stonepass.surface.friction import surface_friction
+from stonepass.surface.paths import StraightPath
+from stonepass.surface.surface_image import Area, Picture
 
 ROOT = Path(__file__).parents[1]
 MICRO = 1e-6
@@ -182,7 +182,7 @@ def fuzz_some(share: tuple[int, int]) -> Counter:
     from picture_files import valid
 
     from stonepass.errors import BadInput
-    from stonepass.imaging.readers import read_picture
+    from stonepass.surface.readers import read_picture
 
     resource.setrlimit(resource.RLIMIT_DATA, (2_000_000_000, 2_000_000_000))
     generator = np.random.default_rng(seed)

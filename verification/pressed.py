@@ -8,7 +8,7 @@ import numpy as np
 from page import Check, Section
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
+from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import LEVELS
 
 ACCURACY = (

@@ -12,10 +12,10 @@ from cores import on_all_cores
 from page import Check, Section
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
-from stonepass.materials.kinks import relaxed
+from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.materials.relaxed_energy import relaxed
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.advance import advance_force, opened_radius, strained_force
+from stonepass.model.energy_balance import advance_force, opened_radius, strained_force
 from stonepass.units import Pressure
 
 SEED, GRID, REFERENCED = 20248, 100, 40
@@ -220,7 +220,7 @@ def kept_row(material: str, eta: float, xi: float, mu: float):
     case, found = case_of(material, eta, xi, mu=mu), []
     margin = 0.0
     for kept in (0.1, 0.2, 0.3):
-        with patch("stonepass.model.push_through.relaxed", lambda law, k=kept: relaxed(law, k)):
+        with patch("stonepass.model.states.loaded.relaxed", lambda law, k=kept: relaxed(law, k)):
             answer = sp.solve(case, LEVELS["fast"].resolution)
         assert answer.pressure is not None
         assert answer.pushed is not None

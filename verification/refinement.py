@@ -8,8 +8,8 @@ import numpy as np
 from page import Check, Section
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
-from stonepass.model.seated import SeatedState
+from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.model.states.seated import SeatedState
 
 LIMIT = Resolution(order=6, closed=16, edge=0.002, growth=1.4)
 LADDER = (

@@ -16,7 +16,7 @@ from stonepass.errors import Outcome
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.soundness import waves
+from stonepass.model.states.stability_report import waves
 
 SEED, FAMILIES, SIZES = 20244, 200, 3
 TOP = {"latex": 0.6, "ureter": 0.35}  # largest ξ − 1

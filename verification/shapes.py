@@ -11,10 +11,10 @@ from page import Check, Section
 
 import stonepass as sp
 from stonepass.errors import BadInput
-from stonepass.fe.problem import Resolution
+from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.advance import advance_force, opening_pressure
-from stonepass.model.push_through import PushedState
+from stonepass.model.energy_balance import advance_force, opening_pressure
+from stonepass.model.states.loaded import PushedState
 from stonepass.units import Pressure
 
 SEED, GRID = 20249, 60

@@ -12,7 +12,7 @@ from page import Check, Section
 from robustness import describe, families
 
 import stonepass as sp
-from stonepass.fe.problem import Resolution
+from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.far_field import lumen_ratio
 
 SEED, RANDOM_LINES = 20246, 14

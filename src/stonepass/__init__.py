@@ -9,72 +9,75 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from stonepass.origin import VERSION
+from stonepass.about import VERSION
 
 if TYPE_CHECKING:
+    from stonepass.bench.comparison import Setting
+    from stonepass.bench.invitro import fit_friction
+    from stonepass.bench.law_fit import fit_law
+    from stonepass.bench.test_data import read_inflation, read_tension
+    from stonepass.clinic.assessment import Assessment, assess
+    from stonepass.clinic.patient import read_person
     from stonepass.errors import BadInput, Outcome, StonepassError
-    from stonepass.imaging.friction import SurfaceFriction, surface_friction
-    from stonepass.imaging.paths import StraightPath
-    from stonepass.imaging.picture import Picture
-    from stonepass.imaging.readers import read_picture
-    from stonepass.imaging.untrusted import read_untrusted
-    from stonepass.laboratory.assess import Assessment, assess
-    from stonepass.laboratory.bench import read_inflation, read_tension
-    from stonepass.laboratory.comparison import Setting
-    from stonepass.laboratory.fit import fit_law
-    from stonepass.laboratory.invitro import fit_friction
-    from stonepass.laboratory.person import read_person
+    from stonepass.inputs.material_file import load_material
+    from stonepass.inputs.measured_pressures import read_points
+    from stonepass.inputs.shape_file import read_shape
     from stonepass.materials.protocol import Material
     from stonepass.model.answer import Answer
     from stonepass.model.case import Case, Load, Method, Stone, Ureter
     from stonepass.model.critical import critical_pressure, solve
-    from stonepass.model.meridian import read_shape, shape_through
-    from stonepass.model.points import read_points
-    from stonepass.model.push_through import PushedState, push_through
-    from stonepass.model.seated import SeatedState, seat
     from stonepass.model.shape import Shape
+    from stonepass.model.shape_fit import shape_through
     from stonepass.model.size import SizeAnswer, critical_size
+    from stonepass.model.states.loaded import PushedState, push_through
+    from stonepass.model.states.seated import SeatedState, seat
+    from stonepass.surface.friction import SurfaceFriction, surface_friction
+    from stonepass.surface.paths import StraightPath
+    from stonepass.surface.readers import read_picture
+    from stonepass.surface.surface_image import Picture
+    from stonepass.surface.untrusted import read_untrusted
 
 __version__ = VERSION
 
 # Every public name and the module it lives in; nothing is imported before it is used.
 _HOME = {
     "Answer": "model.answer",
-    "Assessment": "laboratory.assess",
+    "Assessment": "clinic.assessment",
     "BadInput": "errors",
     "Case": "model.case",
     "Load": "model.case",
     "Material": "materials.protocol",
     "Method": "model.case",
     "Outcome": "errors",
-    "Picture": "imaging.picture",
-    "PushedState": "model.push_through",
-    "SeatedState": "model.seated",
-    "Setting": "laboratory.comparison",
+    "Picture": "surface.surface_image",
+    "PushedState": "model.states.loaded",
+    "SeatedState": "model.states.seated",
+    "Setting": "bench.comparison",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
     "Stone": "model.case",
     "StonepassError": "errors",
-    "StraightPath": "imaging.paths",
-    "SurfaceFriction": "imaging.friction",
+    "StraightPath": "surface.paths",
+    "SurfaceFriction": "surface.friction",
     "Ureter": "model.case",
-    "assess": "laboratory.assess",
+    "assess": "clinic.assessment",
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
-    "fit_friction": "laboratory.invitro",
-    "fit_law": "laboratory.fit",
-    "push_through": "model.push_through",
-    "read_inflation": "laboratory.bench",
-    "read_person": "laboratory.person",
-    "read_picture": "imaging.readers",
-    "read_points": "model.points",
-    "read_shape": "model.meridian",
-    "read_tension": "laboratory.bench",
-    "read_untrusted": "imaging.untrusted",
-    "seat": "model.seated",
-    "shape_through": "model.meridian",
+    "fit_friction": "bench.invitro",
+    "fit_law": "bench.law_fit",
+    "load_material": "inputs.material_file",
+    "push_through": "model.states.loaded",
+    "read_inflation": "bench.test_data",
+    "read_person": "clinic.patient",
+    "read_picture": "surface.readers",
+    "read_points": "inputs.measured_pressures",
+    "read_shape": "inputs.shape_file",
+    "read_tension": "bench.test_data",
+    "read_untrusted": "surface.untrusted",
+    "seat": "model.states.seated",
+    "shape_through": "model.shape_fit",
     "solve": "model.critical",
-    "surface_friction": "imaging.friction",
+    "surface_friction": "surface.friction",
 }
 
 __all__ = [
@@ -102,6 +105,7 @@ __all__ = [
     "critical_size",
     "fit_friction",
     "fit_law",
+    "load_material",
     "push_through",
     "read_inflation",
     "read_person",

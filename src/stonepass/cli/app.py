@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from stonepass.about import VERSION
 from stonepass.cli import (
     assess,
     closures,
@@ -22,7 +23,6 @@ from stonepass.cli import (
     push,
     size,
 )
-from stonepass.origin import VERSION
 
 __all__ = ["app"]
 

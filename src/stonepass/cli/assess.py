@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from stonepass.about import DISCLAIMER
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
-from stonepass.origin import DISCLAIMER
 
 __all__ = ["command"]
 
@@ -41,8 +41,8 @@ def command(
     from stonepass.cli.terminal import counting, print_json, show, warn, writable
 
     writable(html, (".html", ".htm"))
-    from stonepass.laboratory.assess import assess
-    from stonepass.laboratory.person import read_person
+    from stonepass.clinic.assessment import assess
+    from stonepass.clinic.patient import read_person
     from stonepass.report.assess_report import CAUTION, assess_record, assess_tables
     from stonepass.studies.jobs import PooledSolver
 

@@ -43,7 +43,7 @@ def command(
     writable(out, (".csv",))
     writable(figure, FIGURES)
     from stonepass.model.case import Case, Stone
-    from stonepass.report.record import curve_rows, write_curve
+    from stonepass.records.answer import curve_rows, write_curve
     from stonepass.studies.curve import curve
 
     stone = Stone(

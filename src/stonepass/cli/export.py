@@ -10,7 +10,7 @@ import typer
 
 from stonepass.cli.options import Settings, takes_settings
 from stonepass.errors import BadInput, refuse_unknown
-from stonepass.text_file import write_text
+from stonepass.io.text_file import write_text
 
 if TYPE_CHECKING:
     from stonepass.model.case import Case
@@ -111,7 +111,7 @@ def _write_wall(case: Case, out: Path) -> int:
         show(f"{answer.outcome.name}: {answer.message}")
         warn(["there is no solved wall, so nothing was written"])
         return 1
-    from stonepass.report.revolve import write_vtu
+    from stonepass.export.vtu import write_vtu
 
     diameter = case.ureter.inner_diameter
     radius = 1.0 if diameter is None else diameter / 2.0 / METRE_PER_MM

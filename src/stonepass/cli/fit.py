@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stonepass.about import DISCLAIMER
 from stonepass.cli.options import Json
-from stonepass.origin import DISCLAIMER
 
 if TYPE_CHECKING:
-    from stonepass.laboratory.fit import Data
+    from stonepass.bench.law_fit import Data
 
 __all__ = ["app"]
 
@@ -58,7 +58,7 @@ def tensile(
     json: Json = False,
 ) -> int:
     """Fit to strips in tension: stretch, nominal_stress_kPa or force_N[, axis]."""
-    from stonepass.laboratory.bench import read_tension
+    from stonepass.bench.test_data import read_tension
     from stonepass.units import length
 
     sides = [
@@ -86,7 +86,7 @@ def inflation(
     json: Json = False,
 ) -> int:
     """Fit to a tube under pressure: pressure_kPa, inner_ or outer_diameter_mm[, axial_stretch]."""
-    from stonepass.laboratory.bench import read_inflation
+    from stonepass.bench.test_data import read_inflation
     from stonepass.model.case import Ureter
 
     tube = Ureter(inner, outer)
@@ -108,8 +108,8 @@ def _fit(
     json: bool,
     inputs: dict[str, Any],
 ) -> int:
+    from stonepass.bench.law_fit import fit_law
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
-    from stonepass.laboratory.fit import fit_law
     from stonepass.report.fit_report import fit_record, fit_table
 
     writable(out, (".toml",))
@@ -132,7 +132,7 @@ def _fit(
             warn([f"{out} is not written, since the law is not stable"])
         return 1
     if out is not None:
-        from stonepass.materials.user_law import write_law
+        from stonepass.inputs.material_file import write_law
 
         write_law(found.material, out)
     return 0

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from stonepass.about import DISCLAIMER
 from stonepass.cli.options import Json
-from stonepass.origin import DISCLAIMER
 
 if TYPE_CHECKING:
-    from stonepass.imaging.paths import StraightPath
+    from stonepass.surface.paths import StraightPath
     from stonepass.units import Length
 
 __all__ = ["command"]
@@ -75,8 +75,8 @@ def command(
     writable(figure, FIGURES)
     scale = _relief(relief, crystal)
     lines = _paths(paths, path)
-    from stonepass.imaging.friction import surface_friction
-    from stonepass.imaging.untrusted import read_untrusted
+    from stonepass.surface.friction import surface_friction
+    from stonepass.surface.untrusted import read_untrusted
     from stonepass.units import length
 
     size = None if pixel is None else length(pixel, "--pixel")
@@ -106,7 +106,7 @@ def command(
 
 def _relief(relief: str | None, crystal: str | None) -> Length | None:
     from stonepass.errors import BadInput, require
-    from stonepass.imaging.friction import CRYSTAL_DIAGONAL, RELIEF
+    from stonepass.surface.friction import CRYSTAL_DIAGONAL, RELIEF
     from stonepass.units import Length, length
 
     if relief is not None and crystal is not None:
@@ -120,7 +120,7 @@ def _relief(relief: str | None, crystal: str | None) -> Length | None:
 
 def _paths(count: int | None, given: list[str] | None) -> int | list[StraightPath]:
     from stonepass.errors import BadInput
-    from stonepass.imaging.paths import read_path
+    from stonepass.surface.paths import read_path
 
     if count is not None and given:
         raise BadInput("combination of --paths and --path", "ambiguous", "one of the two")

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from stonepass.origin import DISCLAIMER
+from stonepass.about import DISCLAIMER
 
 __all__ = ["command"]
 

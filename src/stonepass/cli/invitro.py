@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from stonepass.about import DISCLAIMER
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
-from stonepass.origin import DISCLAIMER
 
 __all__ = ["command"]
 
@@ -54,10 +54,11 @@ def command(
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
-    from stonepass.laboratory.comparison import Setting, size_curves
-    from stonepass.laboratory.invitro import fit_friction
-    from stonepass.model.case import Load, Method, Stone, find_material
-    from stonepass.model.points import read_points
+    from stonepass.bench.comparison import Setting, size_curves
+    from stonepass.bench.invitro import fit_friction
+    from stonepass.inputs.material_file import find_material
+    from stonepass.inputs.measured_pressures import read_points
+    from stonepass.model.case import Load, Method, Stone
     from stonepass.report.invitro_report import (
         answers_warnings,
         invitro_record,

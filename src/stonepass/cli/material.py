@@ -44,7 +44,7 @@ def show_material(name: Name) -> int:
     from dataclasses import asdict, is_dataclass
 
     from stonepass.cli.terminal import show
-    from stonepass.model.case import find_material
+    from stonepass.inputs.material_file import find_material
 
     entry = find_material(name)
     law = entry.law
@@ -74,9 +74,9 @@ def secant_of_material(
 ) -> int:
     """Show the secant moduli of a law, as the beam model takes them (E1 round, E2 along)."""
     from stonepass.cli.terminal import show
+    from stonepass.inputs.material_file import find_material
     from stonepass.materials.secant import secant_moduli
     from stonepass.materials.stability import check
-    from stonepass.model.case import find_material
 
     entry = find_material(name)
     check(entry)
@@ -95,8 +95,8 @@ def secant_of_material(
 def check_material(name: Name) -> int:
     """Check that a law describes a solid; exit code 2 and the reason where it does not."""
     from stonepass.cli.terminal import show
+    from stonepass.inputs.material_file import find_material
     from stonepass.materials.stability import check
-    from stonepass.model.case import find_material
 
     entry = find_material(name)
     state = check(entry)

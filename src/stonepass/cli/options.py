@@ -63,7 +63,7 @@ _METHOD_OPTIONS = (
 
 def cache_folder(cache: Path | None, no_cache: bool) -> Path | None:
     """The folder of remembered results that the options name; None for none."""
-    from stonepass.studies.store import default_folder
+    from stonepass.studies.solution_cache import default_folder
 
     if no_cache and cache is not None:
         raise BadInput("combination of --cache and --no-cache", "ambiguous", "one of the two")
@@ -255,9 +255,8 @@ class Settings:
                 raise BadInput(
                     "size of the ureter", "missing", "given as --inner and --outer, or as --eta"
                 )
-            named = "ureter" if self.material is None else self.material
-            return Ureter(self.inner, self.outer, named, self.eta)
-        material = kept.material if self.material is None else self.material
+            return Ureter(self.inner, self.outer, self.material_value(), self.eta)
+        material = self.material_value()
         inner = kept.inner_diameter if self.inner is None else self.inner
         if self.eta is not None:
             return Ureter(inner, None, material, self.eta)
@@ -270,7 +269,7 @@ class Settings:
             allowed = "one of the two"
             raise BadInput("combination of --friction and --friction-from", "ambiguous", allowed)
         if self.friction_from is not None:
-            from stonepass.model.friction_file import read_friction
+            from stonepass.inputs.friction_file import read_friction
 
             return read_friction(self.friction_from)
         if self.friction is not None:
@@ -278,14 +277,16 @@ class Settings:
         return 0.5 if self._base is None else self._base.stone.friction
 
     def material_value(self) -> str | Material:
-        """Material of the options, of the case file, or the default."""
+        """Material of the options, of the case file, or the default; a named file is loaded."""
         if self.material is not None:
-            return self.material
+            from stonepass.inputs.material_file import find_material
+
+            return find_material(self.material)
         return "ureter" if self._base is None else self._base.ureter.material
 
     def shape_value(self) -> Shape:
         """Shape of the stone of the options, of the case file, or the default."""
-        from stonepass.model.meridian import read_shape
+        from stonepass.inputs.shape_file import read_shape
         from stonepass.model.shape import Shape
 
         if self.shape is not None and self.aspect is not None:
@@ -308,7 +309,7 @@ class Settings:
 
         merged = self._merged(_METHOD_OPTIONS, "method", self._displaced())
         if self.pairs is not None:
-            from stonepass.model.opening import read_pairs
+            from stonepass.inputs.opening_curve_file import read_pairs
 
             merged["pairs"] = read_pairs(self.pairs)
         return Method(**merged)
@@ -347,7 +348,7 @@ class Settings:
 
 @lru_cache(maxsize=1)
 def _read(path: Path) -> Case:
-    from stonepass.model.case_file import read_case
+    from stonepass.inputs.case_file import read_case
 
     return read_case(path)
 

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from stonepass.about import DISCLAIMER
 from stonepass.cli.options import Cache, NoCache, Workers, cache_folder
-from stonepass.origin import DISCLAIMER
 
 __all__ = ["command"]
 
@@ -46,11 +46,11 @@ def command(
     claim that can be judged is reproduced, else 1.
     """
     from stonepass.cli.terminal import counting, show, warn
-    from stonepass.model.points import read_points
+    from stonepass.inputs.measured_pressures import read_points
     from stonepass.paper.claims_table import claims_table
     from stonepass.paper.run import chosen, reproduce
     from stonepass.paper.section import Asked
-    from stonepass.studies.store import Store
+    from stonepass.studies.solution_cache import Store
     from stonepass.units import pressure
 
     names = chosen(parts or [])

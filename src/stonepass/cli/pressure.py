@@ -45,10 +45,10 @@ def command(
     writable(save, (".toml",))
     case = settings.case()
     from stonepass.model.critical import solve
-    from stonepass.report.record import record
+    from stonepass.records.answer import record
 
     if save is not None:
-        from stonepass.model.case_file import write_case
+        from stonepass.inputs.case_file import write_case
 
         write_case(case, save)
     with working("solving for the wall"):
@@ -71,7 +71,7 @@ def _write(answer: Answer, profile: Path | None, figure: Path | None) -> list[st
     if answer.touch is None:
         return ["no stone is seated, so neither profile nor figure was written"]
     if profile is not None:
-        from stonepass.report.record import write_profile
+        from stonepass.records.answer import write_profile
 
         write_profile(answer.touch, profile)
     if figure is not None:

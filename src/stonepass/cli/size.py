@@ -27,7 +27,7 @@ def command(
     ureter, load, method = settings.ureter(), settings.load(), settings.method()
     from stonepass.cli.terminal import print_json, show, warn, working
     from stonepass.model.size import critical_size
-    from stonepass.report.record import size_record
+    from stonepass.records.answer import size_record
 
     with working("searching the critical size"):
         answer = critical_size(

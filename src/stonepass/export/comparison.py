@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 from stonepass.errors import require
 from stonepass.model.answer import Answer
-from stonepass.model.by_balance import balance_pressure
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
-from stonepass.model.seated import Contact, SeatedState
+from stonepass.model.models.seated_balance import balance_pressure
+from stonepass.model.states.seated import Contact, SeatedState
 
 __all__ = ["Comparison", "compare"]
 

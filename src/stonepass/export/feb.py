@@ -15,11 +15,11 @@ from xml.etree.ElementTree import Comment, Element, SubElement, indent, tostring
 import numpy as np
 from jaxtyping import Float, Int, Num
 
+from stonepass.about import DISCLAIMER
 from stonepass.export.feb_material import add_wall_material
 from stonepass.export.grid import Grid
 from stonepass.export.seating import KPA, MM, Seating
 from stonepass.materials.derivatives import hoop_modulus
-from stonepass.origin import DISCLAIMER
 
 __all__ = ["CONTACT_FILE", "INNER_FILE", "WEDGE", "write_feb"]
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.about import DISCLAIMER
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.export.grid import Grid
 from stonepass.export.seating import KPA, MM, Seating, bulk_modulus
@@ -24,7 +25,6 @@ from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Law
 from stonepass.materials.yeoh import Yeoh
-from stonepass.origin import DISCLAIMER
 
 __all__ = ["ELEMENTS", "FLAVOURS", "write_inp"]
 

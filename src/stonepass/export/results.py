@@ -12,9 +12,9 @@ from scipy.interpolate import PchipInterpolator
 
 from stonepass.errors import require
 from stonepass.export.seating import KPA, MM, Seating
-from stonepass.model.seated import Contact
-from stonepass.model.tube import profile_of
-from stonepass.text_file import read_text
+from stonepass.io.text_file import read_text
+from stonepass.model.states.nondimensional import profile_of
+from stonepass.model.states.seated import Contact
 
 __all__ = ["read_contact"]
 

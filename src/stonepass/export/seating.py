@@ -12,19 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from stonepass.about import VERSION
 from stonepass.errors import BadInput, require
 from stonepass.export.grid import Grid, grid
-from stonepass.fe.grading import growing
-from stonepass.fe.profile import Profile
+from stonepass.fe.axisymmetric.profile import Profile
+from stonepass.fe.core.grading import growing
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import Law
 from stonepass.materials.stability import check
 from stonepass.model.case import Case
 from stonepass.model.critical import SMALLEST_OVERSIZE
 from stonepass.model.far_field import stuck_lumen
-from stonepass.model.first_guess import wrap_round_arc
-from stonepass.model.tube import profile_of
-from stonepass.origin import VERSION
+from stonepass.model.states.first_guess import wrap_round_arc
+from stonepass.model.states.nondimensional import profile_of
 from stonepass.units import METRE_PER_MM, PASCAL_PER, Length
 
 __all__ = ["CLEARANCE", "KPA", "MM", "Seating", "bulk_modulus", "seating"]

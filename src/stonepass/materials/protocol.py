@@ -13,7 +13,7 @@ from typing import Any, Protocol, runtime_checkable
 from stonepass.errors import BadInput, require
 from stonepass.units import Values
 
-__all__ = ["NAMESPACE", "ClosedForm", "Law", "Material"]
+__all__ = ["NAMESPACE", "ClosedForm", "Law", "Material", "names_a_file"]
 
 NAMESPACE = (
     "exp", "log", "sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "arctan",
@@ -98,3 +98,8 @@ class Material:
             list(self.strain_range),
             "two circumferential stretches [low, high] with 0 < low <= 1 < high <= 3",
         )
+
+
+def names_a_file(text: str) -> bool:
+    """Whether the name of a material is that of a file, ``law.toml`` or ``file.py:name``."""
+    return text.endswith(".toml") or ".py:" in text or text.endswith(".py")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from stonepass.fe.problem import Resolution
+from stonepass.fe.axisymmetric.problem import Resolution
 
 __all__ = ["LEVELS", "ErrorEstimate", "Level"]
 

@@ -14,9 +14,9 @@ from stonepass.model.case import Case
 if TYPE_CHECKING:  # each loads the finite elements
     from stonepass.model.accuracy import ErrorEstimate
     from stonepass.model.closure import Series
-    from stonepass.model.push_through import PushedState
-    from stonepass.model.seated import SeatedState
-    from stonepass.model.thin_wall import BeamState
+    from stonepass.model.models.elastic_foundation import BeamState
+    from stonepass.model.states.loaded import PushedState
+    from stonepass.model.states.seated import SeatedState
 
 __all__ = ["Answer", "Touch", "unanswered"]
 

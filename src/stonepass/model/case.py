@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from numbers import Real
-from pathlib import Path
 from typing import Any
 
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.catalogue import material as catalogued
-from stonepass.materials.protocol import Material
-from stonepass.materials.user_law import load_material, looks_like_file
+from stonepass.materials.protocol import Material, names_a_file
 from stonepass.model.closure import ORDER
-from stonepass.model.opening import Pairs
+from stonepass.model.opening_curve import Pairs
 from stonepass.model.shape import ASPECT, Shape
 from stonepass.units import Length, Pressure, format_length, length, pressure
 
-__all__ = ["Case", "Load", "Method", "Stone", "Ureter", "find_material"]
+__all__ = ["Case", "Load", "Method", "Stone", "Ureter"]
 
 SIZE_RATIO = (0.1, 3.0)
 WALL_RATIO = (1.02, 10.0)
@@ -29,15 +27,6 @@ MODULUS = (1e2, 1e10)
 MODULI = ("circumferential_modulus", "longitudinal_modulus")  # of the beam
 SECANT_STRETCH = (1.001, 2.0)
 _BY_RATIO = "give both diameters, or the ratio alone"
-
-
-def find_material(value: str | Material, folder: Path | None = None) -> Material:
-    """Turn a catalogue name, ``law.toml`` or ``file.py:name`` into a material."""
-    if isinstance(value, Material):
-        return value
-    if not isinstance(value, str):
-        raise BadInput("material", value, "a name, a file or a Material")
-    return load_material(value, folder) if looks_like_file(value) else catalogued(value)
 
 
 @dataclass(frozen=True, init=False)
@@ -99,7 +88,8 @@ class Ureter:
     inner_diameter, outer_diameter : str or Length, optional
         Text with a unit, e.g. ``"3.5 mm"``; in metres once read.
     material : str or Material
-        Catalogue name (human wall by default), ``law.toml``, ``file.py:name`` or a `Material`.
+        Catalogue name (human wall by default) or a `Material`; `load_material` reads one from a
+        file.
     wall_ratio : float, optional
         η, where no lengths are known (also beside `inner_diameter` alone); 1.02 to 10.
     """
@@ -137,7 +127,7 @@ class Ureter:
             ratio = wall_ratio
         _set(self, "inner_diameter", inner)
         _set(self, "outer_diameter", outer)
-        _set(self, "material", find_material(material))
+        _set(self, "material", _material(material))
         _set(self, "wall_ratio", _number(ratio, "wall_ratio", *WALL_RATIO))
 
 
@@ -377,6 +367,17 @@ class Case:
             raise BadInput("pairs", "given", "left out where the size varies", why)
         stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, shape=self.stone.shape)
         return Case(stone, self.ureter, self.load, self.method)
+
+
+def _material(value: str | Material) -> Material:
+    if isinstance(value, Material):
+        return value
+    if not isinstance(value, str):
+        raise BadInput("material", value, "a name of the catalogue or a Material")
+    if names_a_file(value):
+        raise BadInput("material", value, "a name of the catalogue or a Material",
+                       "read the file first, with stonepass.load_material")  # fmt: skip
+    return catalogued(value)
 
 
 def _set(target: Any, name: str, value: Any) -> None:

@@ -9,20 +9,20 @@ from stonepass.errors import Outcome
 from stonepass.materials.stability import check
 from stonepass.model.answer import Answer, unanswered
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
-from stonepass.model.elements import Elements
 from stonepass.model.far_field import lumen_ratio
+from stonepass.model.states.state_solver import Elements
 
 if TYPE_CHECKING:  # loads the finite elements
-    from stonepass.fe.problem import Resolution
+    from stonepass.fe.axisymmetric.problem import Resolution
 
 __all__ = ["SMALLEST_OVERSIZE", "critical_pressure", "solve"]
 
 SMALLEST_OVERSIZE = 1e-4  # of a stone over the lumen that is held by more than a touch
 # Each model loads what it needs when it is first asked: the beam needs no finite elements.
 MODELS = {
-    "paper": ("by_balance", "solve_by_balance"),
-    "direct": ("by_push", "solve_by_push"),
-    "beam": ("thin_wall", "solve_by_beam"),
+    "paper": ("models.seated_balance", "solve_by_balance"),
+    "direct": ("models.push_through", "solve_by_push"),
+    "beam": ("models.elastic_foundation", "solve_by_beam"),
 }
 
 
@@ -58,7 +58,8 @@ def solve(
     """Answer one case; every way it can end is an `Outcome` (model: section 6).
 
     With a `resolution` the finite elements use that mesh alone, and no error is estimated.
-    `elements` says where their results come from (`studies.store`); by default they are solved.
+    `elements` says where their results come from (`studies.solution_cache`); by default they are
+    solved.
     """
     check(case.ureter.material)
     lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.errors import BadInput, require
-from stonepass.fe.profile import ROUND, Profile
+from stonepass.fe.axisymmetric.profile import ROUND, Profile
 
 __all__ = ["ASPECT", "Shape"]
 

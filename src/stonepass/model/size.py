@@ -14,14 +14,14 @@ from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.critical import solve
-from stonepass.model.elements import Elements
 from stonepass.model.far_field import lumen_ratio
+from stonepass.model.models.elastic_foundation import largest_beam_size
 from stonepass.model.shape import Shape
-from stonepass.model.thin_wall import largest_beam_size
+from stonepass.model.states.state_solver import Elements
 from stonepass.units import Length, Pressure, pressure
 
 if TYPE_CHECKING:  # loads the finite elements
-    from stonepass.fe.problem import Resolution
+    from stonepass.fe.axisymmetric.problem import Resolution
 
 __all__ = ["SizeAnswer", "critical_size"]
 
@@ -93,7 +93,8 @@ def critical_size(
     shape : Shape, optional
         Of the stone; a sphere by default, ``Shape(1.4)`` a spheroid 1.4 times as long as wide.
     elements : Elements, optional
-        Where finite-element results come from (`studies.store`); by default they are solved.
+        Where finite-element results come from (`studies.solution_cache`); by default they are
+        solved.
     """
     bound = pressure(limit, "limit")
     require(LIMIT[0] <= bound <= LIMIT[1], "limit", limit, "0.001 kPa to 1000 kPa")

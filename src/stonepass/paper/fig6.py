@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
+from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Load
-from stonepass.model.points import Point
 from stonepass.paper.inputs import LATEX_WALLS, WATER, latex_case
 from stonepass.paper.section import Asked, Claim, Picture, Section, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from stonepass.imaging.friction import friction_of_slopes
 from stonepass.paper.inputs import SLOPES
 from stonepass.paper.section import Asked, Claim, Section
 from stonepass.studies.jobs import Job, Results
+from stonepass.surface.friction import friction_of_slopes
 
 __all__ = ["Eq18"]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.about import DISCLAIMER, VERSION
 from stonepass.paper.section import Asked, Claim, Section
 from stonepass.report.html import write_html
 

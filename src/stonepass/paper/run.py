@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from stonepass.errors import refuse_unknown
-from stonepass.folder import require_writable
+from stonepass.io.folder import require_writable
 from stonepass.paper.fig6 import Fig6
 from stonepass.paper.fig8 import Fig8
 from stonepass.paper.fig9 import Fig9

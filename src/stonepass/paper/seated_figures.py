@@ -9,12 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc as Curve
 
-from stonepass.fe.readout import Field
+from stonepass.export.vtu import write_vtu
+from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.case import Case
-from stonepass.model.seated import SeatedState
+from stonepass.model.states.seated import SeatedState
 from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_case
 from stonepass.paper.section import Asked, Claim, Picture, Section, Table
-from stonepass.report.revolve import revolved_figure, write_vtu
+from stonepass.report.revolve import revolved_figure
 from stonepass.report.section import draw_section, element_rim
 from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy

@@ -10,9 +10,9 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from stonepass.errors import require
+from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
-from stonepass.model.points import Point
-from stonepass.report.record import record, write_csv
+from stonepass.records.answer import record, write_csv
 from stonepass.report.style import save
 from stonepass.units import Pressure
 

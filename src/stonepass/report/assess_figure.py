@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from stonepass.laboratory.assess import Assessment
-from stonepass.laboratory.cohorts import COHORTS
-from stonepass.laboratory.limits import LIMITS
+from stonepass.clinic.assessment import Assessment
+from stonepass.clinic.cohorts import COHORTS
+from stonepass.clinic.pressure_limits import LIMITS
 from stonepass.report.style import COLOURS, new_figure, tidy
 
 __all__ = ["cohorts_figure", "drivers_figure", "pressures_figure"]

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
-from stonepass.laboratory.assess import FEWER, MORE, Assessment, contradiction
-from stonepass.laboratory.cohorts import Cohort, Row
-from stonepass.laboratory.limits import LIMITS, limit_told
-from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.about import DISCLAIMER, VERSION
+from stonepass.clinic.assessment import FEWER, MORE, Assessment, contradiction
+from stonepass.clinic.cohorts import Cohort, Row
+from stonepass.clinic.pressure_limits import LIMITS, limit_told
 from stonepass.report.assess_figure import cohorts_figure, drivers_figure, pressures_figure
 from stonepass.report.assess_report import CAUTION, measured_told, range_told
 from stonepass.report.html import inline_svg, write_html

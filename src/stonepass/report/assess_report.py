@@ -8,11 +8,11 @@ from typing import Any
 from rich import box
 from rich.table import Table
 
-from stonepass.laboratory.assess import Assessment, Range, Share, contradiction
-from stonepass.laboratory.limits import limit_told
-from stonepass.laboratory.person import INPUTS
-from stonepass.origin import DISCLAIMER, VERSION
-from stonepass.report.record import record
+from stonepass.about import DISCLAIMER, VERSION
+from stonepass.clinic.assessment import Assessment, Range, Share, contradiction
+from stonepass.clinic.patient import INPUTS
+from stonepass.clinic.pressure_limits import limit_told
+from stonepass.records.answer import record
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
 __all__ = ["CAUTION", "assess_record", "assess_tables", "measured_told", "range_told"]

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput
 from stonepass.model.answer import Answer
-from stonepass.model.thin_wall import BeamState
+from stonepass.model.models.elastic_foundation import BeamState
 from stonepass.report.balance import draw_balance
 from stonepass.report.stone import draw_radii, draw_stone
 from stonepass.report.style import COLOURS, new_figure, tidy

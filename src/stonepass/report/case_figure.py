@@ -7,11 +7,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput
-from stonepass.fe.readout import Field
+from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.answer import Answer
-from stonepass.model.balance import drive, resistance
-from stonepass.model.by_balance import pressure_of_angle
-from stonepass.model.seated import SeatedState
+from stonepass.model.force_balance import drive, resistance
+from stonepass.model.models.seated_balance import pressure_of_angle
+from stonepass.model.states.seated import SeatedState
 from stonepass.report.balance import draw_balance
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from rich import box
 from rich.table import Table
 
-from stonepass.origin import DISCLAIMER, VERSION
-from stonepass.report.record import write_csv
+from stonepass.about import DISCLAIMER, VERSION
+from stonepass.records.answer import write_csv
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 

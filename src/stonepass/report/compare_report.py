@@ -10,7 +10,7 @@ from rich import box
 from rich.table import Table
 
 from stonepass.export.comparison import Comparison
-from stonepass.report.record import record
+from stonepass.records.answer import record
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.report.table import case_title, significant
 

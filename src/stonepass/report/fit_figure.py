@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from stonepass.laboratory.fit import FittedLaw
+from stonepass.bench.law_fit import FittedLaw
 from stonepass.materials.known_laws import name_of_law
 from stonepass.report.style import COLOURS, new_figure, tidy
 

@@ -8,9 +8,9 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from stonepass.laboratory.fit import Constant, FittedLaw
+from stonepass.about import DISCLAIMER, VERSION
+from stonepass.bench.law_fit import Constant, FittedLaw
 from stonepass.materials.known_laws import name_of_law
-from stonepass.origin import DISCLAIMER, VERSION
 
 __all__ = ["fit_record", "fit_table"]
 

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from stonepass.imaging.friction import SurfaceFriction
 from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.surface.friction import SurfaceFriction
 
 __all__ = ["friction_figure"]
 

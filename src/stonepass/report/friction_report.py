@@ -8,8 +8,8 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from stonepass.imaging.friction import SurfaceFriction
-from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.about import DISCLAIMER, VERSION
+from stonepass.surface.friction import SurfaceFriction
 
 __all__ = ["friction_record", "friction_table"]
 

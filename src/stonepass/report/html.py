@@ -9,7 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from stonepass.text_file import write_text
+from stonepass.io.text_file import write_text
 
 __all__ = ["inline_svg", "write_html"]
 

@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from stonepass.laboratory.comparison import SizeCurve
-from stonepass.laboratory.invitro import LARGEST, SMALLEST, STIFFNESS, InVitro, JointFit
+from stonepass.bench.comparison import SizeCurve
+from stonepass.bench.invitro import LARGEST, SMALLEST, STIFFNESS, InVitro, JointFit
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 
 __all__ = ["invitro_figure"]

@@ -9,11 +9,11 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from stonepass.laboratory.comparison import Comparison
-from stonepass.laboratory.invitro import Estimate, InVitro
-from stonepass.laboratory.least_squares import LEVEL
-from stonepass.origin import DISCLAIMER, VERSION
-from stonepass.report.record import write_csv
+from stonepass.about import DISCLAIMER, VERSION
+from stonepass.bench.comparison import Comparison
+from stonepass.bench.invitro import Estimate, InVitro
+from stonepass.bench.least_squares import LEVEL
+from stonepass.records.answer import write_csv
 from stonepass.report.table import significant
 
 __all__ = ["invitro_record", "invitro_table", "write_invitro"]

@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput, Outcome
-from stonepass.fe.readout import Field
+from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.answer import Answer
-from stonepass.model.push_through import PushedState
+from stonepass.model.states.loaded import PushedState
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy

@@ -1,62 +1,30 @@
-"""The wall turned round its axis: a VTU file of it, and a picture with a quarter cut away."""
+"""A picture of the wall turned round its axis, with a quarter cut away."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from pathlib import Path
-
-import meshio
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float
 from matplotlib import colormaps
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from stonepass.errors import BadInput
-from stonepass.fe.readout import STRESSES, Field
+from stonepass.export.vtu import SEGMENTS, meridian
+from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.case import Case
 from stonepass.report.style import COLOURS, new_figure
 
-__all__ = ["revolved_figure", "write_vtu"]
+__all__ = ["revolved_figure"]
 
-SEGMENTS = 48  # round the axis
 CUT = 0.75  # of a turn that the picture shows
 LIGHT = np.array([-0.45, 0.9, 0.25])
 STONE_RINGS = 40
 
 
-def write_vtu(path: Path, wall: Field, *, mirrored: bool, inner_radius: float = 1.0) -> None:
-    """Write the deformed wall as hexahedra: displacement, and Cauchy stress in Pa.
-
-    Lengths are in units of which the inner radius has `inner_radius`, z along the tube; `mirrored`
-    adds the other half of a half tube. Stress components are cylindrical, tension positive: rr,
-    tt (hoop), zz, rz.
-    """
-    half = _meridian(wall, mirrored=mirrored)
-    quads, count = half.quads, len(half.r)
-    angles = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
-
-    def turned(r: Float[np.ndarray, " n"], z: Float[np.ndarray, " n"]) -> Float[np.ndarray, "m 3"]:
-        rings = [np.c_[r * np.cos(t), r * np.sin(t), z] for t in angles]
-        return inner_radius * np.concatenate(rings)
-
-    near = quads[None] + count * np.arange(SEGMENTS)[:, None, None]
-    far = quads[None] + count * ((np.arange(SEGMENTS) + 1) % SEGMENTS)[:, None, None]
-    cells = np.concatenate([far, near], axis=2).reshape(-1, 8)
-    data = {name: np.tile(values, SEGMENTS) for name, values in half.stress.items()}
-    data["displacement"] = turned(half.r - half.R, half.z - half.Z)
-    try:
-        mesh = meshio.Mesh(turned(half.r, half.z), [("hexahedron", cells)], point_data=data)
-        mesh.write(path)
-    except OSError as problem:
-        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
-
-
 def revolved_figure(wall: Field, case: Case, top: float, extent: float = 3.0) -> Figure:
     """Draw wall and stone in space, coloured by radial compression in Pa from 0 to `top`."""
     mirrored = case.stone.shape.symmetric
-    half = _meridian(wall, mirrored=mirrored)
+    half = meridian(wall, mirrored=mirrored)
     r, z = half.r, half.z
     quads = half.quads[np.abs(z[half.quads]).max(axis=1) <= extent]
     compression = -half.stress["stress_rr"]
@@ -103,46 +71,6 @@ def revolved_figure(wall: Field, case: Case, top: float, extent: float = 3.0) ->
     axes.view_init(elev=24.0, azim=-62.0)
     axes.set_axis_off()
     return figure
-
-
-@dataclass(frozen=True)
-class _Meridian:
-    """Points of the meridian with stresses, and quadrilaterals between them, four to an element."""
-
-    R: Float[np.ndarray, " points"]
-    Z: Float[np.ndarray, " points"]
-    r: Float[np.ndarray, " points"]
-    z: Float[np.ndarray, " points"]
-    stress: dict[str, Float[np.ndarray, " points"]]
-    quads: Int[np.ndarray, "quads 4"]
-
-    def edges(
-        self, quads: Int[np.ndarray, "quads 4"], along: Float[np.ndarray, " points"], at: float
-    ) -> Int[np.ndarray, "edges 2"]:
-        """Edges of some quadrilaterals whose points both have the reference coordinate `at`."""
-        edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
-        return edges[np.all(np.abs(along[edges] - at) < 1e-9, axis=1)]
-
-
-def _meridian(wall: Field, *, mirrored: bool) -> _Meridian:
-    count = round(np.sqrt(wall.r.shape[1]))
-    kept = np.array([0, count // 2, count - 1])
-    some = (kept[:, None] * count + kept[None, :]).ravel()
-    corner = np.array([[0, 3, 4, 1], [1, 4, 5, 2], [3, 6, 7, 4], [4, 7, 8, 5]])
-    quads = (corner[None] + 9 * np.arange(len(wall.r))[:, None, None]).reshape(-1, 4)
-    R, Z, r, z = (getattr(wall, name)[:, some].ravel() for name in ("R", "Z", "r", "z"))
-    stress = {name: getattr(wall, name)[:, some].ravel() for name in STRESSES}
-    if not mirrored:
-        return _Meridian(R, Z, r, z, stress, quads)
-    sign = {name: -1.0 if name == "stress_rz" else 1.0 for name in STRESSES}
-    return _Meridian(
-        np.tile(R, 2),
-        np.concatenate([Z, -Z]),
-        np.tile(r, 2),
-        np.concatenate([z, -z]),
-        {name: np.concatenate([each, sign[name] * each]) for name, each in stress.items()},
-        np.concatenate([quads, quads[:, ::-1] + len(r)]),
-    )
 
 
 def _in_space(

@@ -14,12 +14,12 @@ from PIL import Image
 from rich import box
 from rich.table import Table
 
+from stonepass.about import DISCLAIMER, VERSION
 from stonepass.errors import BadInput
-from stonepass.model.advance import advance_force
-from stonepass.model.push_through import PushedState
-from stonepass.origin import DISCLAIMER, VERSION
+from stonepass.model.energy_balance import advance_force
+from stonepass.model.states.loaded import PushedState
+from stonepass.records.answer import write_csv
 from stonepass.report.push_figure import draw_pressure, draw_wall
-from stonepass.report.record import write_csv
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.report.table import case_title, significant
 from stonepass.studies.rising import Rising

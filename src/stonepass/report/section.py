@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.tri import Triangulation
 
-from stonepass.fe.readout import Field
+from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.case import Case
 from stonepass.report.stone import draw_stone
 

@@ -9,15 +9,15 @@ from typing import Any
 
 from stonepass.errors import Outcome, require
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.advance import advance_force
 from stonepass.model.answer import Answer
-from stonepass.model.by_balance import balance_pressure, with_whole_law
 from stonepass.model.case import Case
 from stonepass.model.closure import ORDER, Series
 from stonepass.model.critical import solve
-from stonepass.model.direct_pairs import opening_pairs, series_through
-from stonepass.model.opening import Pairs
-from stonepass.model.push_through import PushedState, push_along
+from stonepass.model.energy_balance import advance_force
+from stonepass.model.models.seated_balance import balance_pressure, with_whole_law
+from stonepass.model.opening_curve import Pairs
+from stonepass.model.states.loaded import PushedState, push_along
+from stonepass.model.states.opening import opening_pairs, series_through
 from stonepass.studies.executor import can_travel, executor
 from stonepass.units import Pressure
 

@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from stonepass.folder import require_writable
+from stonepass.io.folder import require_writable
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
 from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.studies.executor import can_travel, executor
-from stonepass.studies.store import Store
+from stonepass.studies.solution_cache import Store
 from stonepass.units import Pressure
 
 __all__ = ["Job", "PooledSolver", "PressureJob", "Results", "SizeJob", "Solver", "run_jobs"]

@@ -9,12 +9,12 @@ from jaxtyping import Float
 
 from stonepass.errors import Outcome, require
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.advance import opening_pressure
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
-from stonepass.model.push_through import NoPush, PushedState, push_along
-from stonepass.model.seated import NoSeat, SeatedState, seat
+from stonepass.model.energy_balance import opening_pressure
+from stonepass.model.states.loaded import NoPush, PushedState, push_along
+from stonepass.model.states.seated import NoSeat, SeatedState, seat
 from stonepass.units import Pressure
 
 __all__ = ["Rising", "contact_deviation", "raise_pressure"]

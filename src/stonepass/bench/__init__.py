@@ -1,0 +1,1 @@
+"""Laboratory: material constants from tests, friction from in-vitro series."""

@@ -1,0 +1,1 @@
+"""Patients: assessment of one stone, published cohorts, pressure limits."""

@@ -1,0 +1,1 @@
+"""Axisymmetric finite elements: seated contact, sliding contact, post-processing."""

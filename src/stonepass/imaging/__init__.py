@@ -1,1 +1,0 @@
-"""Pictures to numbers: micrographs and height maps to a friction coefficient."""

@@ -1,0 +1,1 @@
+"""Readers of the files that describe a question: cases, materials, shapes, measurements."""

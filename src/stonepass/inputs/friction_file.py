@@ -1,0 +1,43 @@
+"""The friction coefficient of a surface, handed on as JSON by ``stonepass friction``."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+from stonepass.errors import BadInput, require
+from stonepass.io.text_file import read_text
+from stonepass.model.case import FRICTION
+
+__all__ = ["read_friction"]
+
+LARGEST_FILE = 10_000_000  # bytes
+KEY = "friction_coefficient"
+
+
+def read_friction(path: Path) -> float:
+    """Read ``friction_coefficient`` from a JSON file.
+
+    Raises
+    ------
+    BadInput
+        No such file, one that is too large or no JSON object, or none that friction can be.
+    """
+    text = read_text(path, LARGEST_FILE, "valid JSON", "friction file")
+    try:
+        document = json.loads(text)
+    except (ValueError, RecursionError) as problem:
+        raise BadInput("friction file", path, f"valid JSON ({problem})") from problem
+    if not isinstance(document, dict) or KEY not in document:
+        allowed = "as 'stonepass friction IMAGE --json' writes it"
+        raise BadInput(f"in {path.name}, '{KEY}'", "missing", allowed)
+    value = document[KEY]
+    try:
+        number = math.nan if isinstance(value, bool | str) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    low, high = FRICTION
+    require(low <= number <= high, f"in {path.name}, '{KEY}'", value,
+            f"a number from {low:g} to {high:g}")  # fmt: skip
+    return number

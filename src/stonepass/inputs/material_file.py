@@ -1,0 +1,205 @@
+"""Files of materials: a Python function of the user, or constants of a known law in TOML."""
+
+from __future__ import annotations
+
+import runpy
+import sys
+from contextlib import redirect_stdout
+from pathlib import Path
+
+import autograd.numpy as anp
+import numpy as np
+import tomli_w
+from pydantic import BaseModel, ConfigDict, Field
+
+from stonepass.errors import BadInput, refuse_unknown
+from stonepass.io.text_file import existing
+from stonepass.io.toml_file import read_toml
+from stonepass.materials.catalogue import material as catalogued
+from stonepass.materials.known_laws import KNOWN_LAWS, name_of_law
+from stonepass.materials.protocol import Law, Material, names_a_file
+from stonepass.materials.user_law import UserLaw
+from stonepass.units import format_pressure, pressure
+
+__all__ = ["find_material", "load_material", "write_law"]
+
+# Stretches (circumferential, axial) on which a user's function is tried before any solve.
+_TRIAL = tuple((t, z) for t in (0.9, 1.0, 1.1, 1.3) for z in (0.95, 1.0, 1.05))
+_CONSTANTS = tuple(dict.fromkeys(n for law in KNOWN_LAWS.values() for n in law.constants))
+
+
+class _Constants(BaseModel):
+    """The TOML file of a known law."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    law: str
+    source: str = Field(min_length=1)
+    strain_range: tuple[float, float] = Field(strict=False)
+    name: str | None = None
+    test: str = "not stated"
+    C10: str | None = None
+    C01: str | None = None
+    C20: str | None = None
+    C30: str | None = None
+    C: str | None = None
+    a1111: float | None = None
+    a2222: float | None = None
+    a1122: float | None = None
+    G: str | None = None
+
+
+def find_material(value: str | Material, folder: Path | None = None) -> Material:
+    """Turn a catalogue name, ``law.toml`` or ``file.py:name`` into a material.
+
+    This is for the command line and for case files; a Python file that is named is executed.
+    """
+    if isinstance(value, Material):
+        return value
+    return load_material(value, folder) if names_a_file(value) else catalogued(value)
+
+
+def load_material(text: str, folder: Path | None = None) -> Material:
+    """Read ``law.toml`` or ``file.py:name``; relative paths start at `folder`.
+
+    Raises
+    ------
+    BadInput
+        The file is missing or not readable, a key is unknown or missing, a constant has the
+        wrong unit, or the function raises or returns something that is not a finite energy.
+    """
+    if text.endswith(".toml"):
+        path = _existing(text, folder)
+        return _from_toml(path, str(path))
+    path_text, separator, name = text.rpartition(":")
+    if not separator or not path_text.endswith(".py") or not name.isidentifier():
+        raise BadInput("material", text, "written file.py:name, name being the energy function")
+    path = _existing(path_text, folder)
+    return _from_python(path, name, f"{path}:{name}")
+
+
+def _existing(text: str, folder: Path | None) -> Path:
+    path = Path(text) if folder is None else folder / text
+    return existing(path, "material")
+
+
+def _from_python(path: Path, name: str, text: str) -> Material:
+    folder = str(path.resolve().parent)
+    sys.path.insert(0, folder)  # a law may import what lies beside it
+    try:
+        with redirect_stdout(sys.stderr):
+            module = runpy.run_path(str(path))
+    except (Exception, SystemExit) as problem:
+        raise BadInput(
+            "material", text, f"Python that runs, not {type(problem).__name__}: {problem}"
+        ) from problem
+    finally:
+        sys.path.remove(folder)
+    function = module.get(name)
+    if name in module and not callable(function):
+        raise BadInput(f"'{name}' in {path.name}", function, "a function")
+    if not callable(function):
+        known = [key for key, value in module.items() if callable(value) and key[:1] != "_"]
+        refuse_unknown(f"function in {path.name}", name, known or ["energy"])
+    law = UserLaw(function, name)
+    _try_out(law)
+    interval = module.get("strain_range", (1.0, 1.5))
+    try:
+        low, high = (float(bound) for bound in interval)
+    except (TypeError, ValueError) as problem:
+        raise BadInput(
+            f"strain_range in {path.name}", interval, "two circumferential stretches"
+        ) from problem
+    return Material(
+        name=text,
+        reference=text,
+        law=law,
+        source=str(module.get("source", "not stated by the file")),
+        test="not stated by the file",
+        verified="a user's law: not verified",
+        strain_range=(low, high),
+    )
+
+
+def _try_out(law: UserLaw) -> None:
+    """Evaluate the law on arrays of plausible strains and refuse what is not a finite energy."""
+    t, z = (np.array(column) for column in zip(*_TRIAL, strict=True))
+    with np.errstate(all="ignore"):  # what is not finite is refused below
+        value = law.energy(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t, anp)
+    try:
+        if np.iscomplexobj(value):
+            raise TypeError("complex energies")
+        energies = np.broadcast_to(np.asarray(value, dtype=float), t.shape)
+    except (TypeError, ValueError) as problem:
+        raise BadInput(
+            f"value of law '{law.label}'", value, "one real energy in J/m³ per strain"
+        ) from problem
+    if not np.all(np.isfinite(energies)):
+        bad = int(np.flatnonzero(~np.isfinite(energies))[0])
+        raise BadInput(
+            f"value of law '{law.label}'",
+            f"{energies[bad]} at circumferential stretch {t[bad]:g}, axial stretch {z[bad]:g}",
+            "a finite energy in J/m³",
+        )
+    if np.ptp(energies) == 0.0:
+        raise BadInput(
+            f"value of law '{law.label}'", f"{energies[0]:g} at every strain", "strain-dependent"
+        )
+
+
+def _from_toml(path: Path, text: str) -> Material:
+    constants = read_toml(path, _Constants)
+    try:
+        return Material(
+            name=constants.name or text,
+            law=_known_law(constants),
+            source=constants.source,
+            test=constants.test,
+            verified="a user's constants: not verified",
+            strain_range=constants.strain_range,
+            reference=text,
+        )
+    except BadInput as problem:
+        raise problem.within(path.name) from problem
+
+
+def _known_law(constants: _Constants) -> Law:
+    if constants.law not in KNOWN_LAWS:
+        refuse_unknown("law", constants.law, list(KNOWN_LAWS))
+    known = KNOWN_LAWS[constants.law]
+    given = {name: getattr(constants, name) for name in _CONSTANTS}
+    values: dict[str, float] = dict(known.optional)
+    for name in known.constants:
+        if given[name] is not None:
+            values[name] = float(
+                given[name] if name in known.numbers else pressure(given[name], name)
+            )
+        elif name not in values:
+            raise BadInput(f"'{name}'", "missing", f"given for law '{constants.law}'")
+    for name, value in given.items():
+        if value is not None and name not in known.constants:
+            raise BadInput(f"'{name}'", "given", f"absent for law '{constants.law}'")
+    return known.make(**values)
+
+
+def write_law(material: Material, path: Path) -> None:
+    """Write a material of a known law so that `load_material` gives it back."""
+    name_of = name_of_law(material.law)
+    if not name_of:
+        raise BadInput("law", material.name, "a known one to be written", ", ".join(KNOWN_LAWS))
+    law = KNOWN_LAWS[name_of]
+    shown = {name: getattr(material.law, name) for name in law.constants}
+    document = {
+        "law": name_of,
+        **{
+            name: value if name in law.numbers else format_pressure(value)
+            for name, value in shown.items()
+        },
+        "name": material.name,
+        "source": material.source,
+        "test": material.test,
+        "strain_range": list(material.strain_range),
+    }
+    try:
+        path.write_text(tomli_w.dumps(document), encoding="utf-8")
+    except OSError as problem:
+        raise BadInput("law file", str(path), f"writable ({problem.strerror})") from problem

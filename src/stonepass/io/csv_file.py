@@ -1,0 +1,147 @@
+"""Tables of numbers from outside: CSV files, refused in one sentence that says where."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.errors import BadInput, refuse_unknown, require
+from stonepass.io.text_file import read_text
+
+__all__ = ["Columns", "read_columns"]
+
+LARGEST_FILE = 10_000_000  # bytes
+MOST_ROWS = 100_000  # empty ones too
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
+
+
+class Columns(dict[str, Float[np.ndarray, " rows"]]):
+    """Columns by name; `lines` has the line of the file that each row stands in."""
+
+    def __init__(
+        self, lines: tuple[int, ...], columns: Mapping[str, Float[np.ndarray, " rows"]]
+    ) -> None:
+        super().__init__(columns)
+        self.lines = lines
+
+    def place(self, row: int, column: str) -> str:
+        """Where a cell stands, in words."""
+        return f"row {self.lines[row]}, column '{column}'"
+
+
+def read_columns(
+    path: Path,
+    required: Sequence[str],
+    optional: Sequence[str] = (),
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    words: Mapping[str, Sequence[str]] | None = None,
+) -> Columns:
+    """Read columns of numbers by the names in the first row, in any order.
+
+    `bounds` has the least and the largest number allowed in a column, `words` the words allowed in
+    one that has no numbers; a word is returned as its place among them.
+
+    Empty lines and those that begin with ``#`` are left out; rows count as an editor's lines do.
+
+    Raises
+    ------
+    BadInput
+        Naming the file, and row and column where one is at fault: a missing file, one larger than
+        10 MB, of more than 100 000 rows or not of text, a column that is missing, unknown (with the
+        nearest known one) or there twice, a row of another length or the same as an earlier one, a
+        cell that is no finite number or out of bounds or none of the words, no rows at all.
+    """
+    rows = _rows(path)
+    if not rows:
+        raise BadInput("file", path, f"a table with the columns {', '.join(required)}")
+    header = [name.strip() for name in rows[0][1]]
+    _check_header(path, header, required, optional)
+    if len(rows) == 1:
+        raise BadInput("file", path, "a table with at least one row under its header")
+    cells = _Cells(path, header, bounds or {}, words or {})
+    values = [cells.numbers(line, row) for line, row in rows[1:]]
+    lines = tuple(line for line, _ in rows[1:])
+    _check_repeated(path, lines, values)
+    return Columns(lines, dict(zip(header, np.array(values).T, strict=True)))
+
+
+def _rows(path: Path) -> list[tuple[int, list[str]]]:
+    """Line number and cells of every row that says something."""
+    text = read_text(path, LARGEST_FILE, "a CSV file of text")
+    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+    try:
+        rows = [(reader.line_num, cells) for cells in islice(reader, MOST_ROWS + 1)]
+    except csv.Error as problem:
+        where = f"in {path.name}, row {reader.line_num}"
+        raise BadInput(where, str(problem), "a row of a CSV file") from problem
+    require(len(rows) <= MOST_ROWS, f"number of rows of {path.name}", f"more than {MOST_ROWS}",
+            "fewer")  # fmt: skip
+    return [
+        (line, cells)
+        for line, cells in rows
+        if any(cell.strip() for cell in cells) and not cells[0].lstrip().startswith("#")
+    ]
+
+
+def _check_header(
+    path: Path, header: list[str], required: Sequence[str], optional: Sequence[str]
+) -> None:
+    known = [*required, *optional]
+    for name in header:
+        if name not in known:
+            refuse_unknown(f"in {path.name}, column", name, known)
+    for name in known:
+        if header.count(name) > 1:
+            raise BadInput(f"in {path.name}, column", name, "given once")
+    for name in required:
+        if name not in header:
+            raise BadInput(f"in {path.name}, column '{name}'", "missing", "given")
+
+
+def _check_repeated(path: Path, lines: Sequence[int], rows: Sequence[Sequence[float]]) -> None:
+    first: dict[tuple[float, ...], int] = {}
+    for line, numbers in zip(lines, rows, strict=True):
+        same = first.setdefault(tuple(numbers), line)
+        if same != line:
+            raise BadInput(f"in {path.name}, row {line}", f"the same as row {same}",
+                           "there once", "leave one of them out")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """What the cells of a table may say."""
+
+    path: Path
+    header: list[str]
+    bounds: Mapping[str, tuple[float, float]]
+    words: Mapping[str, Sequence[str]]
+
+    def numbers(self, line: int, cells: list[str]) -> list[float]:
+        """The numbers of one row."""
+        if len(cells) != len(self.header):
+            allowed = f"{len(self.header)}, as in the header"
+            raise BadInput(f"in {self.path.name}, row {line}", f"{len(cells)} cells", allowed)
+        return [self._number(line, *pair) for pair in zip(self.header, cells, strict=True)]
+
+    def _number(self, line: int, name: str, cell: str) -> float:
+        where = f"in {self.path.name}, row {line}, column '{name}'"
+        if name in self.words:
+            known = list(self.words[name])
+            if cell.strip() not in known:
+                refuse_unknown(where, cell.strip(), known)
+            return float(known.index(cell.strip()))
+        value = float(cell) if _NUMBER.fullmatch(cell) else math.nan
+        low, high = self.bounds.get(name, (-math.inf, math.inf))
+        if not (math.isfinite(value) and low <= value <= high):
+            within = f" from {low:g} to {high:g}" if name in self.bounds else ""
+            raise BadInput(where, cell, f"a number{within}")
+        return value

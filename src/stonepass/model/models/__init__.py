@@ -1,0 +1,1 @@
+"""The models that answer a case, one file each."""

@@ -1,0 +1,242 @@
+"""A stone's shape from points of its meridian: a short series through them, convex and smooth."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from jaxtyping import Float
+from numpy.polynomial import chebyshev
+from scipy.optimize import brentq, linprog
+
+from stonepass.errors import BadInput, require
+from stonepass.fe.axisymmetric.profile import ROUND
+from stonepass.model.shape import ASPECT, Shape
+
+__all__ = ["shape_through"]
+
+FEWEST_POINTS, MOST_POINTS = 9, 2000
+MOST_TERMS = 24
+NOTHING = 1e-12  # last terms of a series that say nothing
+EXACT = 1e-7  # of the radius: nearer to the points no series need come
+CLEARLY = 2.0  # a lopsided or a held shape must be nearer by this factor to be taken
+GRID, LEAST = np.linspace(0.0, np.pi, 721), 1e-3  # where g + g″ is held, and above what
+SAME = 1.2  # fewer terms are taken where they come as near but for this factor
+# As shares of the radius: a series farther from its points is refused, mirror images nearer to each
+# other are one shape, and a point nearer to the axis lies on it.
+FARTHEST, MIRRORED, ON_AXIS = 0.05, 1e-3, 1e-4
+
+Outline = Float[np.ndarray, " coefficients"]
+Points = tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]
+_SMOOTHER = "smooth the points, or leave out those of a dent"
+
+
+def shape_through(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    place: Callable[[int, str], str] | None = None,
+) -> Shape:
+    """Put a smooth convex shape through points of a meridian, in any one unit of length.
+
+    Parameters
+    ----------
+    z, rho : arrays
+        Axial coordinate, downstream, and half-width of at least 9 points in order from the
+        upstream pole to the downstream one; both poles on the axis, ρ = 0.
+    place : callable, optional
+        Names a number in a refusal by its index and column, e.g. as a row of a file.
+
+    Raises
+    ------
+    BadInput
+        Where the points are no meridian, or no smooth convex shape comes within 5 % of the
+        radius of all of them.
+    """
+    return _through(*_meridian(z, rho, place or (lambda k, name: f"point {k + 1}, {name}")))
+
+
+def _through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"]) -> Shape:
+    mirrored = _fit(z, rho, symmetric=True)
+    found = mirrored
+    if mirrored is None or mirrored.deviation > MIRRORED:
+        found = _fit(z, rho, symmetric=False)
+        # Noise makes no stone lopsided: only where that brings it much nearer to its points.
+        nearer = np.inf if found is None else found.deviation
+        if mirrored is not None and mirrored.deviation <= CLEARLY * nearer:
+            found = mirrored
+    if found is None or found.deviation > FARTHEST:
+        raise BadInput(
+            "shape of the stone",
+            f"{len(z)} points",
+            f"within {FARTHEST:.0%} of the radius of a smooth convex meridian",
+            _SMOOTHER,
+        )
+    return found
+
+
+def _meridian(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    place: Callable[[int, str], str],
+) -> Points:
+    """Refuse what is no meridian from pole to pole; `place` says where a number stands."""
+    z, rho = np.asarray(z, dtype=float), np.asarray(rho, dtype=float)
+    name = "shape of the stone"
+    require(z.ndim == 1 and z.shape == rho.shape, name, f"{z.shape} and {rho.shape}", "two columns")
+    require(FEWEST_POINTS <= len(z) <= MOST_POINTS, name, f"{len(z)} points",
+            f"at least {FEWEST_POINTS} points and at most {MOST_POINTS}")  # fmt: skip
+    require(bool(np.isfinite([z, rho]).all()), name, "a number that is not finite", "finite")
+    least, most = float(rho.min()), float(rho.max())
+    require(least >= 0.0 and most > 0.0, name, f"rho = {least:g}", "zero or positive")
+    for which, at in (("first", 0), ("last", len(rho) - 1)):
+        allowed = f"on the axis (rho = 0), being the {which} point"
+        require(rho[at] <= ON_AXIS * most, place(at, "rho"), f"{rho[at]:g}", allowed)
+    falls = np.flatnonzero(np.diff(z) < 0.0)
+    if falls.size:
+        at = int(falls[0])
+        raise BadInput(
+            place(at + 1, "z"),
+            f"{z[at + 1]:g} after {z[at]:g}",
+            "in order from the upstream pole to the downstream one, z never falling",
+        )
+    low, high = ASPECT
+    aspect = float(z[-1] - z[0]) / (2.0 * most)
+    require(low <= aspect <= high, "aspect of the stone", f"{aspect:.3g}", f"{low} to {high}")
+    return z, rho
+
+
+def _fit(
+    z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"], *, symmetric: bool
+) -> Shape | None:
+    """The convex shape nearest to the points, with few terms; None where there is none.
+
+    Least squares of the distance along rays, each point counted by the angle that it stands for;
+    where that is far off or has dents, as with flat sides, the largest distance under convexity.
+    """
+    middle = float(z[0] + z[-1]) / 2.0
+
+    def nearest(terms: int, find: Callable[..., Outline | None], most: int) -> Shape | None:
+        origin = middle if symmetric else _widest(z, rho, min(terms, most))
+        return _nearest(z, rho, origin, _basis(terms, symmetric), find)
+
+    found: list[Shape] = []
+    most = min(MOST_TERMS, len(z) // 2)
+    for terms in range(2, most + 1):
+        shape = nearest(terms, _series, terms)
+        if shape is not None:
+            found.append(shape)
+            if shape.deviation <= EXACT:
+                break
+    best = min((shape.deviation for shape in found), default=np.inf)
+    if best > MIRRORED:
+        held = nearest(MOST_TERMS, _held_convex, min(8, len(z) // 2))
+        # It follows noise, so only where it comes much nearer.
+        if held is not None and CLEARLY * held.deviation < best:
+            found.append(held)
+    if not found:
+        return None
+    enough = max(EXACT, SAME * min(shape.deviation for shape in found))
+    return next(shape for shape in found if shape.deviation <= enough)
+
+
+def _widest(
+    z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"], terms: int
+) -> float:
+    """Where the series nearest to the points is widest; between the neighbours of their largest."""
+    at, free = int(np.argmax(rho)), np.eye(terms + 1)
+
+    def slope(origin: float) -> float:
+        outline = _series(*_polar(z, rho, origin, float(rho.max())), free)
+        return float(chebyshev.chebval(0.0, chebyshev.chebder(outline)))
+
+    low, high = float(z[at - 1]), float(z[at + 1])
+    if not slope(low) * slope(high) < 0.0:
+        return float(z[at])
+    return float(brentq(slope, low, high, xtol=1e-13 * float(z[-1] - z[0])))
+
+
+def _nearest(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    origin: float,
+    basis: Float[np.ndarray, "unknowns coefficients"],
+    find: Callable[..., Outline | None],
+) -> Shape | None:
+    """The shape whose g `find` gives; None where it is none, as with a dent."""
+    radius, widest = float(rho.max()), 1.0
+    for _ in range(3):  # the widest place may lie between two points
+        radius = radius / widest
+        size, tau = _polar(z, rho, origin, radius)
+        found = find(size, tau, basis)
+        if found is None:
+            return None
+        outline, widest = found, float(chebyshev.chebval(0.0, found))
+        if not widest > 0.0:
+            return None
+    deviation = float(np.abs(size * chebyshev.chebval(np.cos(tau), outline) - 1.0).max())
+    trimmed = chebyshev.chebtrim(outline / widest, NOTHING)
+    kept = ROUND if len(trimmed) == 1 else tuple(trimmed.tolist())
+    aspect = float(z[-1] - z[0]) / (2.0 * radius)
+    try:
+        return Shape(aspect, kept, deviation)
+    except BadInput:
+        return None
+
+
+def _polar(
+    z: Float[np.ndarray, " points"],
+    rho: Float[np.ndarray, " points"],
+    origin: float,
+    radius: float,
+) -> Points:
+    """Distance from the origin over the radius, and angle τ, with z shrunk as of a spheroid."""
+    s = (z - origin) * 2.0 * radius / float(z[-1] - z[0])
+    return np.hypot(rho, s) / radius, np.arctan2(rho, -s)
+
+
+def _series(
+    size: Float[np.ndarray, " points"],
+    tau: Float[np.ndarray, " points"],
+    basis: Float[np.ndarray, "unknowns coefficients"],
+) -> Float[np.ndarray, " coefficients"]:
+    """The g in the span of the basis that makes size × g(τ) nearest to 1."""
+    weight = size * np.sqrt(np.abs(np.gradient(tau)))
+    rows = basis @ chebyshev.chebvander(np.cos(tau), basis.shape[1] - 1).T * size * weight
+    solved: Float[np.ndarray, " unknowns"] = np.linalg.lstsq(rows.T, weight, rcond=None)[0]
+    return solved @ basis
+
+
+def _held_convex(
+    size: Float[np.ndarray, " points"],
+    tau: Float[np.ndarray, " points"],
+    basis: Float[np.ndarray, "unknowns coefficients"],
+) -> Outline | None:
+    """The g with g + g″ above zero whose largest distance from the points is least.
+
+    By linear programming, the distance along rays one more unknown; None where it fails.
+    """
+    k = np.arange(basis.shape[1])
+    curvature = np.cos(GRID[:, None] * k) @ (basis * (1.0 - k**2)).T
+    rays = (basis @ chebyshev.chebvander(np.cos(tau), len(k) - 1).T * size).T
+    one, none = np.ones((len(size), 1)), np.zeros((len(GRID), 1))
+    bounds = np.block([[rays, -one], [-rays, -one], [-curvature, none]])
+    limits = np.concatenate([np.ones(len(size)), -np.ones(len(size)), np.full(len(GRID), -LEAST)])
+    solved = linprog(np.append(np.zeros(len(basis)), 1.0), bounds, limits, bounds=(None, None))
+    return solved.x[:-1] @ basis if solved.success else None
+
+
+def _basis(terms: int, symmetric: bool) -> Float[np.ndarray, "unknowns coefficients"]:
+    """Series in cos kτ that are widest at τ = π/2: rows of Chebyshev coefficients.
+
+    cos kτ for even k; for odd k it has the slope −k sin(kπ/2) there, which cos τ takes away.
+    """
+    rows = []
+    for k in range(terms + 1):
+        row = np.zeros(terms + 1)
+        row[k] = 1.0
+        if k % 2:
+            if symmetric or k == 1:
+                continue
+            row[1] = -k * np.sin(k * np.pi / 2)
+        rows.append(row)
+    return np.array(rows)

@@ -1,0 +1,1 @@
+"""Finite-element states of one case: seated, loaded, and who solves them."""

@@ -1,0 +1,61 @@
+"""Where Newton's method starts: the wall wrapped round the arc, a uniform tube at every station."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.fe.axisymmetric.problem import Wrap
+from stonepass.fe.axisymmetric.profile import Profile
+from stonepass.model.case import Case
+from stonepass.model.far_field import inflation
+
+__all__ = ["wrap_round_arc"]
+
+REACH = 1.2  # of the place where the wall leaves the arc: so far the contact is guessed to go
+MERIDIAN = 2001  # samples of the arc
+
+
+def wrap_round_arc(case: Case, lumen: float, modulus: float, place: Profile) -> Wrap:
+    """Inner radius and pressure along the tube round an arc at a place.
+
+    The wall is taken to leave the arc where the axial coordinate is half that of the place at
+    which the arc has the radius of the lumen, with the slope it has there, and to return to the
+    lumen exponentially. The inner pressure is that of a uniform tube of the local radius.
+    """
+    stretch, law = case.load.prestretch, case.ureter.material.law
+    end = case.method.half_length * stretch
+    z, inner, last = _side(place, lumen, end)
+    first = last
+    if not place.symmetric:
+        upstream, radius, first = _side(place.turned(), lumen, end)
+        z, inner = np.append(-upstream[:0:-1], z), np.append(radius[:0:-1], inner)
+    pressure = np.asarray(inflation(inner, case.wall_ratio, law, stretch)) / modulus
+    return Wrap(
+        station=z / stretch,
+        inner_radius=inner,
+        pressure=pressure,
+        contact=(-REACH * first / stretch, REACH * last / stretch),
+    )
+
+
+def _side(
+    place: Profile, lumen: float, end: float
+) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], float]:
+    """Deformed z and inner radius downstream of the widest place, and where the wall leaves."""
+    tau = np.pi / 2 * (1.0 + np.linspace(0.0, 1.0, MERIDIAN))
+    rho, along = place.meridian(tau)
+    arc, axial = place.offset + place.radius * rho, place.radius * along
+    leave = 0.5 * float(np.interp(-lumen, -arc, axial))
+    rim = float(np.interp(leave, axial, arc))
+    n_r, n_z = place.normal(rim, leave)
+    rate = float(n_z / n_r) / (rim - lumen)
+    z = np.concatenate(
+        [
+            np.linspace(0.0, leave, 200, endpoint=False),
+            leave + np.geomspace(1.0, 1.0 + 40.0 / rate, 800) - 1.0,
+        ]
+    )
+    z = np.append(z[z < end], end)
+    away = lumen + (rim - lumen) * np.exp(-rate * np.maximum(z - leave, 0.0))
+    return z, np.where(z < leave, np.interp(z, axial, arc), away), leave

@@ -1,0 +1,1 @@
+"""Results as typed, versioned records: what every door shows."""

@@ -1,0 +1,1 @@
+"""Parsing of untrusted files in a child process with limited memory and time."""

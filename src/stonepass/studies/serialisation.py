@@ -1,0 +1,79 @@
+"""Results as plain JSON and arrays, and back: no pickle, no type that is not named here."""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from stonepass.fe.axisymmetric.postprocessing import Field, Volume
+from stonepass.model.accuracy import ErrorEstimate
+from stonepass.model.case import Case
+from stonepass.model.opening_curve import Pairs
+from stonepass.model.states.loaded import Critical, NoPush, PushedState, PushReport
+from stonepass.model.states.seated import Contact, NoSeat, SeatedState, SolverReport
+from stonepass.model.states.stability_report import Soundness
+
+__all__ = ["from_plain", "to_plain"]
+
+TYPES = {
+    each.__name__: each
+    for each in (
+        Contact, Critical, ErrorEstimate, Field, NoPush, NoSeat, Pairs, PushReport, PushedState,
+        SeatedState, SolverReport, Soundness, Volume,
+    )
+}  # fmt: skip
+
+
+def to_plain(value: Any) -> tuple[Any, dict[str, Any]]:
+    """Take a result apart: a JSON document that names arrays, and the arrays.
+
+    A case is left out: who asks for a result has it.
+    """
+    arrays: dict[str, Any] = {}
+
+    def plain(part: Any) -> Any:
+        """One part as JSON, its arrays put aside."""
+        if part is None or isinstance(part, str | bool | int):
+            return part
+        if isinstance(part, np.bool_):
+            return bool(part)
+        if isinstance(part, np.integer):
+            return int(part)
+        if isinstance(part, float):  # NumPy's too
+            if not np.isfinite(part):
+                raise FloatingPointError("a number that is not finite is no result")
+            return float(part)
+        if isinstance(part, np.ndarray):
+            name = f"array_{len(arrays)}"
+            arrays[name] = part
+            return {"array": name}
+        if isinstance(part, tuple):
+            return {"tuple": [plain(each) for each in part]}
+        if isinstance(part, Case):
+            return {"case": True}
+        assert is_dataclass(part), type(part)
+        name = type(part).__name__
+        assert TYPES[name] is type(part), name
+        return {"type": name} | {
+            each.name: plain(getattr(part, each.name)) for each in fields(part)
+        }
+
+    return plain(value), arrays
+
+
+def from_plain(document: Any, arrays: dict[str, Any], case: Case) -> Any:
+    """Put a result together again, as that of `case`."""
+    if not isinstance(document, dict):
+        return document
+    if "array" in document:
+        return arrays[document["array"]]
+    if "tuple" in document:
+        return tuple(from_plain(each, arrays, case) for each in document["tuple"])
+    if "case" in document and document["case"] is True:
+        return case
+    values = {
+        name: from_plain(part, arrays, case) for name, part in document.items() if name != "type"
+    }
+    return TYPES[document["type"]](**values)

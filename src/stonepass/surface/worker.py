@@ -1,0 +1,32 @@
+"""The task of the sandbox that reads a surface image (run with ``python -m``)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import astuple
+from pathlib import Path
+from typing import Any
+
+from stonepass.sandbox.worker import serve
+from stonepass.surface.readers import load_libraries, read_picture
+
+__all__ = ["parse"]
+
+
+def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
+    """Read the picture of a request; its header and its numbers."""
+    picture = read_picture(Path(request["path"]))
+    header = {
+        "shape": picture.values.shape,
+        "type": picture.values.dtype.name,
+        "pixel": picture.pixel,
+        "full_scale": picture.full_scale,
+        "area": astuple(picture.area),
+        "pixel_source": picture.pixel_source,
+        "notes": picture.notes,
+    }
+    return header, picture.values.data
+
+
+if __name__ == "__main__":
+    raise SystemExit(serve(lambda request: load_libraries(Path(request["path"])), parse))

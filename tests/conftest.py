@@ -28,17 +28,17 @@ hook = install_import_hook(CHECKED, "beartype.beartype")
 @pytest.fixture
 def solved(monkeypatch):
     """Names of what was solved afresh."""
-    from stonepass.model.states.uncached import AFRESH
+    from stonepass.model.states.uncached import UNCACHED
 
     found = []
     for name in ("seat", "push", "pairs"):
-        original = getattr(AFRESH, name)
+        original = getattr(UNCACHED, name)
 
         def called(*arguments, _name=name, _original=original, **keywords):
             found.append(_name)
             return _original(*arguments, **keywords)
 
-        monkeypatch.setattr(type(AFRESH), name, staticmethod(called))
+        monkeypatch.setattr(type(UNCACHED), name, staticmethod(called))
     return found
 
 

@@ -18,13 +18,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stonepass.bench.test_data import read_inflation, read_tension
-from stonepass.clinic.patient import read_person
+from stonepass.clinic.patient import read_patient
 from stonepass.errors import BadInput
 from stonepass.inputs.case_file import read_case
 from stonepass.inputs.friction_file import read_friction
 from stonepass.inputs.material_file import load_material
 from stonepass.inputs.measured_pressures import read_points
-from stonepass.inputs.opening_curve_file import read_pairs
+from stonepass.inputs.opening_curve_file import read_opening_curve
 from stonepass.inputs.shape_file import read_shape
 from stonepass.model.case import Ureter
 from stonepass.units import length
@@ -188,12 +188,12 @@ KINDS: dict[str, Kind] = {
     "outer diameters": Kind(OUTER, "outer.csv", read_tube),
     "points": Kind(example("latex_series.csv"), "series.csv", read_points),
     "shape": Kind(example("egg.csv"), "egg.csv", read_shape),
-    "pairs": Kind(PAIRS, "opened.csv", read_pairs),
+    "pairs": Kind(PAIRS, "opened.csv", read_opening_curve),
     "case": Kind(CASE, "case.toml", read_case),
     "beam case": Kind(BEAM, "beam.toml", read_case),
     "law": Kind(example("soft_ureter.toml"), "law.toml", read_law),
     "yeoh law": Kind(YEOH, "yeoh.toml", read_law),
-    "person": Kind(PERSON, "person.toml", read_person),
+    "person": Kind(PERSON, "person.toml", read_patient),
     "friction": Kind(FRICTION, "friction.json", read_friction),
 }
 

@@ -10,7 +10,7 @@ import pytest
 from stonepass.cli import run
 from stonepass.clinic.assessment import FEWER, MORE, Share, assess, contradiction
 from stonepass.clinic.cohorts import COHORTS, rows_for
-from stonepass.clinic.patient import read_person
+from stonepass.clinic.patient import read_patient
 from stonepass.clinic.pressure_limits import LIMITS, limit_told
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.accuracy import LEVELS
@@ -49,7 +49,7 @@ EXACT = {"stone": "4.2 mm ± 0 mm", "friction": "0.3 ± 0", "inner": "3.5 mm ± 
 def person(tmp_path, **given):
     path = tmp_path / "someone.toml"
     path.write_text(PERSON.format(**EXACT | given), encoding="utf-8")
-    return read_person(path)
+    return read_patient(path)
 
 
 @dataclass(frozen=True)
@@ -324,17 +324,17 @@ def test_the_wall_is_given_once(tmp_path):
     for line in ("", 'wall_thickness = "0.7 mm ± 0 mm"\nouter_diameter = "5 mm ± 0 mm"'):
         path.write_text(re.sub("wall_thickness.*", line, text), encoding="utf-8")
         with pytest.raises(BadInput, match="wall of the ureter is"):
-            read_person(path)
+            read_patient(path)
     path.write_text(text.replace('"distal"', '"distl"'), encoding="utf-8")
     with pytest.raises(BadInput, match="did you mean 'distal'"):
-        read_person(path)
+        read_patient(path)
 
 
 def test_what_the_file_leaves_open_is_assumed_aloud(tmp_path):
     text = re.sub("(friction|stiffness).*\n", "", PERSON.format(**EXACT))
     path = tmp_path / "someone.toml"
     path.write_text(text, encoding="utf-8")
-    someone = read_person(path)
+    someone = read_patient(path)
     assert len(someone.assumed) == 2
     assert (someone.measured["friction"].low, someone.measured["friction"].high) == (0.05, 0.5)
     assert set(someone.assumed) <= set(assess(someone, MadeUp()).warnings)

@@ -10,12 +10,12 @@ import stonepass as sp
 from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
 from stonepass.inputs.case_file import read_case, write_case
-from stonepass.inputs.opening_curve_file import read_pairs
+from stonepass.inputs.opening_curve_file import read_opening_curve
 from stonepass.model.closure import Series, fit_series, linear_closure
 from stonepass.model.energy_balance import opening_pressure
 from stonepass.model.far_field import urine_pressure
-from stonepass.model.opening_curve import Pairs
-from stonepass.model.states.opening import opening_pairs
+from stonepass.model.opening_curve import OpeningCurve
+from stonepass.model.states.opening import solve_opening_curve
 from stonepass.studies.closures import CLOSURES, compare_closures
 from stonepass.studies.rising import contact_deviation, raise_pressure
 
@@ -74,7 +74,7 @@ def compared():
 
 
 def test_pairs_begin_at_the_seated_state_and_lie_below_the_linear_closure(compared):
-    alpha, radius = opening_pairs(case()).arrays
+    alpha, radius = solve_opening_curve(case()).arrays
     assert radius[0] == pytest.approx(1.0, abs=1e-9)
     seated = sp.seat(case(method=sp.Method(seating="frictionless", accuracy="fast")))
     assert alpha[0] == pytest.approx(seated.contact_angle, abs=1e-4)
@@ -189,7 +189,7 @@ def test_a_series_as_the_closure_of_an_answer(compared, tmp_path):
     alpha, radius = compared.pairs.arrays
     rows = [f"{r:.15g},{a:.15g}" for a, r in zip(np.degrees(alpha), radius, strict=True)]
     (tmp_path / "pairs.csv").write_text("\n".join(["radius_ratio,alpha_deg", *rows]))
-    pairs = read_pairs(tmp_path / "pairs.csv")
+    pairs = read_opening_curve(tmp_path / "pairs.csv")
     np.testing.assert_allclose(pairs.arrays, (alpha, radius), rtol=1e-12)
     method = sp.Method(closure="series", pairs=pairs, far_field_ground=True, accuracy="fast")
     by_file = sp.solve(case(method=method))
@@ -198,7 +198,7 @@ def test_a_series_as_the_closure_of_an_answer(compared, tmp_path):
     straight = np.linspace(alpha[0], np.pi / 2, 9)
     sine = np.sin(straight)
     line = 1.0 + 0.2 * (sine - sine[0]) / (1.0 - sine[0])
-    eq15 = Pairs(tuple(straight), tuple(line))
+    eq15 = OpeningCurve(tuple(straight), tuple(line))
     linear = sp.solve(case(method=sp.Method(accuracy="fast")))
     method = sp.Method(closure="series", pairs=eq15, series_order=1, accuracy="fast")
     assert sp.solve(case(method=method)).pressure == pytest.approx(linear.pressure, rel=2e-3)
@@ -222,7 +222,7 @@ def test_a_series_as_the_closure_of_an_answer(compared, tmp_path):
 def test_pairs_that_are_none_are_refused_with_their_place(tmp_path, text, sentence):
     (tmp_path / "pairs.csv").write_text(text)
     with pytest.raises(BadInput) as refused:
-        read_pairs(tmp_path / "pairs.csv")
+        read_opening_curve(tmp_path / "pairs.csv")
     assert "pairs.csv" in str(refused.value)
     assert sentence in str(refused.value)
 
@@ -237,12 +237,12 @@ def test_pairs_that_are_none_are_refused_with_their_place(tmp_path, text, senten
         ({"closure": "cubic"}, "closure is cubic, but must be one of linear, series"),
         ({"series_order": 9}, "series_order is 9, but must be a whole number from 1 to 8"),
         ({"series_order": 2.0}, "series_order is 2.0, but must be a whole number"),
-        ({"pairs": Pairs((1.3,), (1.0,))}, "pairs is given, but must be left out"),
+        ({"pairs": OpeningCurve((1.3,), (1.0,))}, "pairs is given, but must be left out"),
         (
-            {"closure": "series", "pairs": Pairs((1.3,), (1.0,))},
+            {"closure": "series", "pairs": OpeningCurve((1.3,), (1.0,))},
             "pairs is 1, but must be at least as many as coefficients, 3",
         ),
-        ({"closure": "series", "pairs": "pairs.csv"}, "as read_pairs gives them"),
+        ({"closure": "series", "pairs": "pairs.csv"}, "as read_opening_curve gives them"),
     ],
 )
 def test_a_method_asks_for_a_series_that_can_be(method, sentence):
@@ -254,21 +254,23 @@ def test_a_method_asks_for_a_series_that_can_be(method, sentence):
 def test_a_case_file_keeps_its_pairs(tmp_path):
     table = "alpha_deg,radius_ratio\n75,1.02\n80,1.08\n85,1.13\n"
     (tmp_path / "pairs.csv").write_text(table)
-    pairs = read_pairs(tmp_path / "pairs.csv")
+    pairs = read_opening_curve(tmp_path / "pairs.csv")
     question = case(method=sp.Method(closure="series", series_order=2, pairs=pairs))
     write_case(question, tmp_path / "case.toml")
     assert 'pairs = "pairs.csv"' in (tmp_path / "case.toml").read_text()
     assert read_case(tmp_path / "case.toml") == question
-    made = case(method=sp.Method(closure="series", series_order=1, pairs=Pairs((1.4,), (1.1,))))
+    made = case(
+        method=sp.Method(closure="series", series_order=1, pairs=OpeningCurve((1.4,), (1.1,)))
+    )
     with pytest.raises(BadInput, match="from a file to be saved"):
         write_case(made, tmp_path / "other.toml")
 
 
 def test_pairs_are_of_one_stone_and_of_a_series_that_stays_near_it():
-    wild = Pairs(tuple(np.radians([75.0, 80.0, 85.0, 89.0])), (1.02, 3.0, 5.0, 9.0))
+    wild = OpeningCurve(tuple(np.radians([75.0, 80.0, 85.0, 89.0])), (1.02, 3.0, 5.0, 9.0))
     with pytest.raises(BadInput, match="pairs is such that their series reaches r_a"):
         sp.solve(case(method=sp.Method(closure="series", pairs=wild, accuracy="fast")))
-    method = sp.Method(closure="series", series_order=1, pairs=Pairs((1.4,), (1.1,)))
+    method = sp.Method(closure="series", series_order=1, pairs=OpeningCurve((1.4,), (1.1,)))
     with pytest.raises(BadInput, match="left out where the size varies"):
         sp.critical_size(sp.Ureter(wall_ratio=1.5, material="latex"), "20 kPa", method=method)
     with pytest.raises(BadInput, match="left out where the size varies"):

@@ -71,7 +71,14 @@ def test_a_file_that_is_missing_or_too_large(tmp_path):
 
 @pytest.mark.parametrize(
     "name",
-    ["read_shape", "read_points", "read_tension", "read_person", "read_picture", "read_untrusted"],
+    [
+        "read_shape",
+        "read_points",
+        "read_tension",
+        "read_patient",
+        "read_surface_image",
+        "read_untrusted",
+    ],
 )
 def test_the_front_door_takes_a_path_as_text(name):
     with pytest.raises(BadInput, match=r"/nowhere\.csv"):

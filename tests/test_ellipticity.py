@@ -91,8 +91,8 @@ def test_axial_compression_of_the_fibres_loses_ellipticity_at_minus_g():
 
 def test_the_solved_state_reports_its_margin_and_where():
     thin = sp.seat(sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3)))
-    assert 0.0 < thin.soundness.margin < 1.0
-    R, Z = thin.soundness.weakest_at
+    assert 0.0 < thin.stability.margin < 1.0
+    R, Z = thin.stability.weakest_at
     assert 1.0 <= R <= 1.3
     assert 0.0 <= Z <= 3.0
     assert thin.warnings() == []

@@ -20,7 +20,7 @@ EXAMPLES = sorted((ROOT / "examples").iterdir())
 
 # How the examples that are data are used.
 COMMANDS = {
-    "known_slopes.png": ["friction", "{}", "--pixel", "0.5um", "--relief", "24.8um"],
+    "known_slopes.png": ["friction", "{}", "--pixel", "0.5um", "--height-range", "24.8um"],
     "crystals.tif": ["friction", "{}", "--crystal", "20um"],
     "crystals.x3p": ["friction", "{}"],
     "egg.csv": ["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", "{}"],
@@ -80,7 +80,9 @@ def test_json_keys_are_in_the_glossary():
     assert [key for key in sorted(keys) if f"`{key}`" not in glossary] == []
     for outcome in stonepass.Outcome:
         assert f"`{outcome.name}`" in glossary
-    surface = stonepass.surface_friction(stonepass.read_picture(ROOT / "examples/crystals.x3p"))
+    surface = stonepass.surface_friction(
+        stonepass.read_surface_image(ROOT / "examples/crystals.x3p")
+    )
     keys = friction_record(surface, "crystals.x3p")
     assert [
         key for key in keys | keys["roughness"] | keys["spread"] if f"`{key}`" not in glossary

@@ -71,7 +71,7 @@ class Deck:
         self.angle = np.arctan2(self.points[:, 1], self.points[:, 0])
 
     def elements(self, name):
-        return rows(self.root.find(f"Mesh/Elements[@name='{name}']"))
+        return rows(self.root.find(f"Mesh/StateSolver[@name='{name}']"))
 
     def surface(self, name):
         return rows(self.root.find(f"Mesh/Surface[@name='{name}']"))
@@ -120,10 +120,10 @@ FORMAT = {
     "material:neo-Hookean": ("id name type", "E v"),
     "mat_axis:cylindrical": ("type", "center axis vector"),  # FECore/FEMat3dValuator.cpp
     # FEBioXML/FEBioMeshSection4.cpp
-    "Mesh": ("", "Nodes Elements NodeSet Surface SurfacePair"),
+    "Mesh": ("", "Nodes StateSolver NodeSet Surface SurfacePair"),
     "Nodes": ("name", "node"),
     "Nodes/node": ("id", ""),
-    "Elements:hex20": ("type name", "elem"),
+    "StateSolver:hex20": ("type name", "elem"),
     "elem": ("id", ""),
     "NodeSet": ("name", ""),
     "Surface": ("name", "quad8"),
@@ -242,7 +242,7 @@ def test_everything_referred_to_is_there(deck):
                 assert element.get(attribute) in known
                 seen += 1
     assert seen >= 12
-    assert {each.get("name") for each in deck.root.iter("SolidDomain")} == deck.named("Elements")
+    assert {each.get("name") for each in deck.root.iter("SolidDomain")} == deck.named("StateSolver")
     maps = {each.text for each in deck.root.iter("value") if each.get("type") == "map"}
     assert maps == deck.named("NodeData") == {f"travel_{dof}" for dof in "xyz"}
     for tag in ("primary", "secondary"):

@@ -37,8 +37,8 @@ from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.friction import friction_of_slopes, surface_friction
 from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along, read_path
 from stonepass.surface.pixel_size import tescan_scan, zeiss_scan
-from stonepass.surface.readers import read_picture
-from stonepass.surface.surface_image import Area, Picture
+from stonepass.surface.readers import read_surface_image
+from stonepass.surface.surface_image import Area, SurfaceImage
 from stonepass.surface.untrusted import read_untrusted
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -65,10 +65,10 @@ def picture_of(heights, pixel=0.5, bits=16, rows=40):
     full = 2**bits - 1
     grey = np.round(full * (heights - heights.min()) / np.ptp(heights))
     values = np.tile(grey, (rows, 1)).astype(np.uint8 if bits == 8 else np.uint16)
-    return Picture(values, (pixel * MICRO, pixel * MICRO), full, Area(0, 0, len(grey), rows))
+    return SurfaceImage(values, (pixel * MICRO, pixel * MICRO), full, Area(0, 0, len(grey), rows))
 
 
-def relief(heights):
+def height_range(heights):
     return f"{np.ptp(heights):.12g} um"
 
 
@@ -86,7 +86,7 @@ def test_eq_18():
 
 @pytest.mark.parametrize(("bits", "tolerance"), [(16, 0.003), (8, 0.004)])
 def test_known_slopes_are_recovered(profile, bits, tolerance):
-    found = surface_friction(picture_of(profile, bits=bits), relief(profile))
+    found = surface_friction(picture_of(profile, bits=bits), height_range(profile))
     assert found.k0 == pytest.approx(K0, rel=tolerance)
     assert found.k1 == pytest.approx(K1, rel=tolerance)
     assert found.friction == pytest.approx(0.5239, rel=tolerance)
@@ -97,20 +97,20 @@ def test_known_slopes_are_recovered(profile, bits, tolerance):
 def test_known_slopes_as_heights(profile):
     """A height map needs no scaling: exact but for the sampling."""
     values = np.tile(profile * MICRO, (40, 1))
-    heights = Picture(values, (0.5 * MICRO, 0.5 * MICRO), 0, Area(0, 0, 1001, 40))
+    heights = SurfaceImage(values, (0.5 * MICRO, 0.5 * MICRO), 0, Area(0, 0, 1001, 40))
     found = surface_friction(heights)
     assert found.k0 == pytest.approx(K0, rel=1e-4)
     assert found.k1 == pytest.approx(K1, rel=1e-4)
-    assert found.spread.relief == ()
-    with pytest.raises(BadInput, match="relief is 3 um, but must be left out"):
+    assert found.spread.height_range == ()
+    with pytest.raises(BadInput, match="height range is 3 um, but must be left out"):
         surface_friction(heights, "3 um")
 
 
 def test_a_pixel_that_is_not_square(profile):
     """The same surface stretched: along y the rows are twice as far apart."""
     grey = picture_of(profile)
-    tall = Picture(grey.values.T.copy(), (2 * MICRO, 0.5 * MICRO), 65535, Area(0, 0, 40, 1001))
-    found = surface_friction(tall, relief(profile), [StraightPath(20, 0, 20, 1000)])
+    tall = SurfaceImage(grey.values.T.copy(), (2 * MICRO, 0.5 * MICRO), 65535, Area(0, 0, 40, 1001))
+    found = surface_friction(tall, height_range(profile), [StraightPath(20, 0, 20, 1000)])
     assert found.friction == pytest.approx(0.5239, rel=3e-3)
     assert found.distance[-1] == pytest.approx(500 * MICRO)
 
@@ -134,7 +134,9 @@ def test_a_second_baseline_as_poor_as_the_first_has_no_slope(profile):
     with pytest.raises(
         BadInput, match="order of the deviation's baseline is 8, but must be larger"
     ):
-        surface_friction(picture_of(profile), relief(profile), baseline_order=8, deviation_order=8)
+        surface_friction(
+            picture_of(profile), height_range(profile), baseline_order=8, deviation_order=8
+        )
 
 
 def test_friction_grows_with_the_relief_as_the_slopes_do(profile):
@@ -150,7 +152,7 @@ def test_roughness_of_a_wave():
     x = 0.25 * np.arange(4001)
     wave = 3.0 * np.cos(2.0 * np.pi * x / 50.0)
     values = np.tile(wave * MICRO, (20, 1))
-    heights = Picture(values, (0.25 * MICRO, 0.25 * MICRO), 0, Area(0, 0, 4001, 20))
+    heights = SurfaceImage(values, (0.25 * MICRO, 0.25 * MICRO), 0, Area(0, 0, 4001, 20))
     found = surface_friction(heights, baseline_order=40, deviation_order=60)
     assert found.roughness.Ra == pytest.approx(6.0 / np.pi * MICRO, rel=0.01)
     assert found.roughness.Rq == pytest.approx(3.0 / np.sqrt(2.0) * MICRO, rel=0.01)
@@ -163,7 +165,7 @@ def test_the_spread_puts_its_parts_together():
     x = np.arange(801) * MICRO
     tilts = np.array([0.1, 0.2, 0.3, 0.4])
     values = np.vstack([np.outer(tilts, x), np.zeros((16, 801))])
-    heights = Picture(values, (MICRO, MICRO), 0, Area(0, 0, 801, 20))
+    heights = SurfaceImage(values, (MICRO, MICRO), 0, Area(0, 0, 801, 20))
     paths = [StraightPath(0, k, 800, k) for k in range(4)]
     found = surface_friction(heights, paths=paths)
     assert found.friction == pytest.approx(0.25, rel=1e-9)
@@ -188,7 +190,7 @@ def test_paths_evenly_spaced_over_the_area(profile):
 
 def test_profiles_are_bilinear_and_of_one_length():
     values = np.add.outer(3.0 * np.arange(40), 2.0 * np.arange(50)) * MICRO
-    heights = Picture(values, (MICRO, MICRO), 0, Area(0, 0, 50, 40))
+    heights = SurfaceImage(values, (MICRO, MICRO), 0, Area(0, 0, 50, 40))
     paths = [StraightPath(1, 1, 31, 21), StraightPath(0, 0, 45, 30)]
     found = profiles_along(heights, paths)
     length = np.hypot(30.0, 20.0)
@@ -215,7 +217,7 @@ def test_paths_that_are_none(text, sentence):
 def test_paths_that_leave_the_picture_or_cross_a_gap():
     values = np.zeros((30, 40))
     values[10, 10] = np.nan
-    heights = Picture(values, (MICRO, MICRO), 0, Area(0, 0, 40, 30))
+    heights = SurfaceImage(values, (MICRO, MICRO), 0, Area(0, 0, 40, 30))
     for path, sentence in (
         (
             StraightPath(0, 0, 40, 0),
@@ -227,7 +229,7 @@ def test_paths_that_leave_the_picture_or_cross_a_gap():
         with pytest.raises(BadInput, match=sentence):
             profiles_along(heights, [path])
     with pytest.raises(BadInput, match="pixel size is missing, but must be given as --pixel"):
-        profiles_along(Picture(values, None, 0, heights.area), [StraightPath(0, 0, 5, 0)])
+        profiles_along(SurfaceImage(values, None, 0, heights.area), [StraightPath(0, 0, 5, 0)])
 
 
 # Every kind of file
@@ -248,7 +250,7 @@ def test_grey_of_every_kind_is_read_as_it_is(tmp_path, kind, bits):
     }
     if kind == "white-is-zero":
         save_tiff(path, values.max() - values, photometric="miniswhite")
-        found = read_picture(path)
+        found = read_surface_image(path)
         np.testing.assert_array_equal(
             np.diff(found.values.astype(int)), np.diff(values.astype(int))
         )
@@ -260,7 +262,7 @@ def test_grey_of_every_kind_is_read_as_it_is(tmp_path, kind, bits):
         Image.fromarray(values).save(path)
     else:
         save_tiff(path, values, photometric="minisblack", **options.get(kind, {}))
-    found = read_picture(path)
+    found = read_surface_image(path)
     np.testing.assert_array_equal(found.values, values)
     assert found.full_scale == 2**bits - 1
     assert found.pixel is None
@@ -285,14 +287,14 @@ def test_grey_saved_as_colour_is_grey(tmp_path, kind):
             path, quality=95
         )
         values = np.tile(np.arange(80, dtype=np.uint8), (60, 1))
-    found = read_picture(path)
+    found = read_surface_image(path)
     np.testing.assert_allclose(found.values, values, atol=2 if kind == "g.jpg" else 0)
 
 
 def test_of_several_pages_the_first(tmp_path):
     path = tmp_path / "pages.tif"
     save_tiff(path, np.stack([some_grey(), some_grey() // 2]), photometric="minisblack")
-    found = read_picture(path)
+    found = read_surface_image(path)
     np.testing.assert_array_equal(found.values, some_grey())
     assert found.notes == ("the first of several pages is taken",)
 
@@ -308,7 +310,7 @@ def test_of_several_pages_the_first(tmp_path):
 )  # fmt: skip
 def test_pixel_size_and_data_bar_of_the_microscopes(tmp_path, tag, pixel, bottom, note):
     path = save_tiff(tmp_path / "sem.tif", some_grey(), photometric="minisblack", extratags=[tag])
-    found = read_picture(path)
+    found = read_surface_image(path)
     assert found.pixel == pytest.approx(pixel)
     assert found.area == Area(0, 0, 80, bottom)
     assert found.pixel_source == note
@@ -320,9 +322,9 @@ def test_the_text_file_beside_a_picture(tmp_path, name):
     path = tmp_path / "sem.png"
     Image.fromarray(some_grey()).save(path)
     (tmp_path / name).write_text(TESCAN)
-    assert read_picture(path).pixel == pytest.approx((2.5e-7, 2.5e-7))
+    assert read_surface_image(path).pixel == pytest.approx((2.5e-7, 2.5e-7))
     (tmp_path / name).write_text(TESCAN.replace("2.5e-007", "0"))
-    assert read_picture(path).pixel is None  # asked for, not guessed
+    assert read_surface_image(path).pixel is None  # asked for, not guessed
 
 
 def test_the_size_of_a_zeiss_screen_pixel_is_taken_at_its_own_width_alone():
@@ -337,7 +339,7 @@ def test_the_size_of_a_zeiss_screen_pixel_is_taken_at_its_own_width_alone():
 
 def test_print_resolution_is_no_pixel_size(tmp_path):
     Image.fromarray(some_grey()).save(tmp_path / "p.png", dpi=(300, 300))
-    assert read_picture(tmp_path / "p.png").pixel is None
+    assert read_surface_image(tmp_path / "p.png").pixel is None
 
 
 @pytest.mark.parametrize("kind", ["sur", "al3d", "x3p"])
@@ -351,7 +353,7 @@ def test_height_maps_of_instruments(tmp_path, kind, profile):
     else:
         sizes = (1001 * 0.5 * MICRO, 24 * 0.5 * MICRO)
         Topography(heights.T * MICRO, sizes, unit="m").to_x3p(str(path))
-    found = read_picture(path)
+    found = read_surface_image(path)
     assert found.has_heights
     assert found.pixel == pytest.approx((0.5 * MICRO, 0.5 * MICRO), rel=1e-6)
     np.testing.assert_allclose(
@@ -366,7 +368,7 @@ def test_height_maps_of_instruments(tmp_path, kind, profile):
 def test_every_hostile_file_is_refused_in_one_sentence(tmp_path):
     for name, sentence in hostile(tmp_path).items():
         with pytest.raises(BadInput) as refused:
-            read_picture(tmp_path / name)
+            read_surface_image(tmp_path / name)
         told = str(refused.value)
         assert sentence in told, (name, told)
         assert name in told or "a file that exists" in told  # a long path is cut
@@ -388,7 +390,7 @@ def test_every_hostile_file_is_refused_in_one_sentence(tmp_path):
     ],
 )
 def test_pictures_without_an_answer(values, sentence):
-    full = Picture(values, (MICRO, MICRO), 255, Area(0, 0, values.shape[1], values.shape[0]))
+    full = SurfaceImage(values, (MICRO, MICRO), 255, Area(0, 0, values.shape[1], values.shape[0]))
     with pytest.raises(BadInput) as refused:
         surface_friction(full, "1 mm", baseline_order=8 if "order" in sentence else 3)
     assert sentence in str(refused.value)
@@ -397,7 +399,9 @@ def test_pictures_without_an_answer(values, sentence):
 def test_some_black_or_white_is_told_of(profile):
     grey = picture_of(profile, bits=8)
     values = np.clip(grey.values.astype(int) * 1.15, 0, 255).astype(np.uint8)
-    found = surface_friction(Picture(values, grey.pixel, 255, grey.area), relief(profile))
+    found = surface_friction(
+        SurfaceImage(values, grey.pixel, 255, grey.area), height_range(profile)
+    )
     assert any("darkest or brightest grey, where heights" in told for told in found.warnings)
 
 
@@ -408,9 +412,9 @@ def test_without_the_extra_it_says_what_to_install(tmp_path, monkeypatch):
     save_tiff(tmp_path / "a.tif", some_grey())
     monkeypatch.setattr(optional_imports, "import_module", missing)
     with pytest.raises(BadInput, match=r"library is tifffile, but must be installed.*pip install"):
-        read_picture(tmp_path / "a.tif")
+        read_surface_image(tmp_path / "a.tif")
     Image.fromarray(some_grey()).save(tmp_path / "a.png")
-    assert read_picture(tmp_path / "a.png").values.shape == (60, 80)
+    assert read_surface_image(tmp_path / "a.png").values.shape == (60, 80)
 
 
 # The process of its own
@@ -418,7 +422,7 @@ def test_without_the_extra_it_says_what_to_install(tmp_path, monkeypatch):
 
 def test_a_file_read_in_a_process_of_its_own_is_the_same(tmp_path):
     path = save_tiff(tmp_path / "a.tif", some_grey(bits=16), extratags=[(34682, 's', 0, FEI, True)])  # fmt: skip
-    here, there = read_picture(path), read_untrusted(path)
+    here, there = read_surface_image(path), read_untrusted(path)
     np.testing.assert_array_equal(here.values, there.values)
     assert here == replace(there, values=here.values)
     (tmp_path / "words.png").write_text("no picture")
@@ -482,7 +486,7 @@ def test_other_bytes_first_and_planes_apart_are_the_same_numbers(tmp_path):
     planes = tmp_path / "planes.tif"
     save_tiff(planes, np.stack([values] * 3), photometric="rgb", planarconfig="separate")
     for path in (big, swapped, planes):
-        for read in (read_picture, read_untrusted):
+        for read in (read_surface_image, read_untrusted):
             found = read(path)
             np.testing.assert_array_equal(found.values, values)
             assert found.values.dtype.isnative
@@ -500,7 +504,7 @@ def test_bits_are_not_lost_in_silence(tmp_path):
     )
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + body)
     with pytest.raises(BadInput, match="16 bits in colour or with alpha"):
-        read_picture(path)
+        read_surface_image(path)
 
 
 def test_a_picture_that_was_turned_is_refused(tmp_path):
@@ -512,13 +516,13 @@ def test_a_picture_that_was_turned_is_refused(tmp_path):
         with pytest.raises(
             BadInput, match=r"stored turned or mirrored .*turn it and save it again"
         ):
-            read_picture(tmp_path / name)
+            read_surface_image(tmp_path / name)
 
 
 def test_the_size_of_a_picture_that_was_made_smaller_is_asked_for(tmp_path):
     fei = FEI.replace("ResolutionX=80", "ResolutionX=160")
     path = save_tiff(tmp_path / "half.tif", some_grey(), extratags=[(34682, "s", 0, fei, True)])
-    assert read_picture(path).pixel is None
+    assert read_surface_image(path).pixel is None
     stored = {"ap_image_pixel_size": ("Image Pixel Size", 250.0, "nm")}
     assert (
         zeiss_scan(stored | {"dp_image_store": ("Store resolution", "2048 * 1536")}, 1024) is None
@@ -532,12 +536,12 @@ def test_an_impossible_pixel_is_not_taken_and_may_be_given(tmp_path):
     for width, height in (("0.05", "0.05"), ("1e-3", "1e-11")):
         fei = FEI.replace("2.5e-007", width).replace("2e-007", height)
         path = save_tiff(tmp_path / "odd.tif", some_grey(), extratags=[(34682, "s", 0, fei, True)])
-        found = read_picture(path)
+        found = read_surface_image(path)
         assert found.pixel is None
         assert found.notes == ("pixel size of the FEI tag is impossible and not taken",)
         assert found.with_pixel(1e-6).pixel == (1e-6, 1e-6)
     with pytest.raises(BadInput, match="pixel is 1e-06 m × 1e-08 m"):
-        Picture(some_grey(), (1e-6, 1e-8), 255, Area(0, 0, 80, 60))
+        SurfaceImage(some_grey(), (1e-6, 1e-8), 255, Area(0, 0, 80, 60))
 
 
 def test_what_is_no_surface_is_told_of(profile):
@@ -545,20 +549,26 @@ def test_what_is_no_surface_is_told_of(profile):
     values = np.clip(grey.values.astype(int) // 2 + 40, 0, 255).astype(np.uint8)
     bar = values.copy()
     bar[20:26, 100:200] = 255
-    warned = surface_friction(Picture(bar, grey.pixel, 255, grey.area), relief(profile)).warnings
+    warned = surface_friction(
+        SurfaceImage(bar, grey.pixel, 255, grey.area), height_range(profile)
+    ).warnings
     assert any("a scale bar or writing" in told for told in warned)
     strip = np.vstack([values, np.full((10, values.shape[1]), values.min(), np.uint8)])
     area = Area(0, 0, strip.shape[1], len(strip))
-    warned = surface_friction(Picture(strip, grey.pixel, 255, area), relief(profile)).warnings
+    warned = surface_friction(
+        SurfaceImage(strip, grey.pixel, 255, area), height_range(profile)
+    ).warnings
     assert any("rows have one grey" in told for told in warned)
-    clean = surface_friction(Picture(values, grey.pixel, 255, grey.area), relief(profile)).warnings
+    clean = surface_friction(
+        SurfaceImage(values, grey.pixel, 255, grey.area), height_range(profile)
+    ).warnings
     assert not any("--area" in told for told in clean)
 
 
 def test_steepest_at_the_edge_of_where_it_is_looked_at():
     x = np.linspace(0.0, 500.0, 501)
     heights = np.tile(x**2 / 1000.0 * MICRO, (20, 1))
-    found = surface_friction(Picture(heights, (MICRO, MICRO), 0, Area(0, 0, 501, 20)))
+    found = surface_friction(SurfaceImage(heights, (MICRO, MICRO), 0, Area(0, 0, 501, 20)))
     assert found.k0 == pytest.approx(1.0 * (1.0 - 1.0 / 8.0), rel=1e-3)
     assert any("may be steeper still" in told for told in found.warnings)
 
@@ -598,7 +608,7 @@ def test_a_damaged_file_is_read_or_refused(files, tmp_path, data):
     path = tmp_path / name
     path.write_bytes(bytes(raw))
     try:
-        found = read_picture(path)
+        found = read_surface_image(path)
     except BadInput as refused:
         assert "\n" not in str(refused)
     else:
@@ -611,11 +621,11 @@ def test_a_damaged_file_is_read_or_refused(files, tmp_path, data):
 def test_the_command(tmp_path, capsys, profile):
     path = tmp_path / "stone.png"
     Image.fromarray(picture_of(profile, bits=8).values).save(path)
-    arguments = ["friction", str(path), "--pixel", "0.5um", "--relief", relief(profile)]
+    arguments = ["friction", str(path), "--pixel", "0.5um", "--height-range", height_range(profile)]
     assert run([*arguments, "--json", "--figure", str(tmp_path / "f.png")]) == 0
     record = json.loads(capsys.readouterr().out)
     assert set(record) >= {
-        "friction_coefficient", "friction_sd", "k0", "k1", "baseline_order", "relief_um", "pixel_um",
+        "friction_coefficient", "friction_sd", "k0", "k1", "baseline_order", "height_range_um", "pixel_um",
         "paths", "roughness", "warnings", "version", "disclaimer",
     }  # fmt: skip
     assert set(record["roughness"]) == {"Ra_um", "Rq_um", "RdeltaQ"}
@@ -628,7 +638,7 @@ def test_the_command(tmp_path, capsys, profile):
     assert "friction coefficient" in shown
     assert "by baseline order" in shown
     for more, sentence in (
-        (["--crystal", "20um"], "combination of --relief and --crystal"),
+        (["--crystal", "20um"], "combination of --height-range and --crystal"),
         (["--paths", "3", "--path", "0,0,1,1"], "combination of --paths and --path"),
         (["--area", "1,2,3"], "four whole numbers"),
         (["--area", "0,0,9,1" + "0" * 5000], "four whole numbers"),
@@ -639,7 +649,7 @@ def test_the_command(tmp_path, capsys, profile):
         assert run([*arguments, *more]) == 2, more
         assert sentence in capsys.readouterr().err
     assert run(["friction", str(path), "--pixel", "0.5um"]) == 2
-    assert "relief is missing" in capsys.readouterr().err
+    assert "height range is missing" in capsys.readouterr().err
     assert run(["friction", str(path), "--crystal", "20um"]) == 2
     assert "pixel size is missing, but must be given as --pixel" in capsys.readouterr().err
 
@@ -669,7 +679,7 @@ def test_the_result_is_handed_on(tmp_path, capsys):
 
 
 def test_what_is_in_the_figure(profile):
-    found = surface_friction(picture_of(profile), relief(profile))
+    found = surface_friction(picture_of(profile), height_range(profile))
     picture, profiles, mean, rest = friction_figure(found).axes
     assert len(picture.lines) == 6
     assert len(profiles.lines) == 7
@@ -689,6 +699,6 @@ def test_the_examples_are_what_their_script_makes(tmp_path, maker):
     maker.write_tiff(tmp_path, heights)
     maker.write_x3p(tmp_path, heights)
     for name in ("known_slopes.png", "crystals.tif", "crystals.x3p"):
-        made, shipped = read_picture(tmp_path / name), read_picture(EXAMPLES / name)
+        made, shipped = read_surface_image(tmp_path / name), read_surface_image(EXAMPLES / name)
         np.testing.assert_allclose(made.values, shipped.values, atol=1 if made.full_scale else 1e-9)
         assert made.pixel == shipped.pixel

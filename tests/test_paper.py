@@ -299,7 +299,7 @@ def test_a_wall_beyond_its_stability_is_told_of():
     assert fig8._beyond(found, 1.3, 1.22) == ""
     for pressure, margin in ((4e3, 0.2), (8e3, -0.3)):
         job = PressureJob(fig8.ureter_case(1.3, 1.22, sp.Load(Pressure(pressure))))
-        seated = SimpleNamespace(soundness=SimpleNamespace(margin=margin))
+        seated = SimpleNamespace(stability=SimpleNamespace(margin=margin))
         found.pressures[job] = replace(found.pressures[job], seated=seated)
     assert "(margin -0.30 at 8 kPa;" in fig8._beyond(found, 1.3, 1.22)
 

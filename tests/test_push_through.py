@@ -279,7 +279,7 @@ def test_what_is_kept_of_the_ground_matrix_hardly_changes_the_answer(monkeypatch
         found.append(sp.solve(question, resolution))
     pressures = np.array([answer.pressure for answer in found])
     assert np.ptp(pressures) < 2e-3 * pressures.mean()
-    assert found[-1].pushed.soundness.margin < 0.0
+    assert found[-1].pushed.stability.margin < 0.0
     assert any("kinks at R" in text for text in found[-1].warnings)
 
 
@@ -307,10 +307,10 @@ class Clearing:
 
 
 @pytest.mark.parametrize(
-    ("force", "last", "clears"), [(-1.0, 0.01, True), (1.0, 0.01, False), (-1.0, 0.5, False)]
+    ("force", "last", "leaks"), [(-1.0, 0.01, True), (1.0, 0.01, False), (-1.0, 0.5, False)]
 )
 def test_urine_passes_first_only_where_the_seal_was_followed_to_its_end(
-    monkeypatch, force, last, clears
+    monkeypatch, force, last, leaks
 ):
     """No wall we know does; so the decision is tested on a made-up one."""
     monkeypatch.setattr(
@@ -318,9 +318,9 @@ def test_urine_passes_first_only_where_the_seal_was_followed_to_its_end(
     )
     ready = _Ready(Clearing(force, last), modulus=100.0, guess=5.0, opening=8.0, steps=0)
     found = _critical(case(), ready, None, 0.0, leak=True)
-    assert isinstance(found, Critical) is clears
-    if clears:
-        assert found.clears
+    assert isinstance(found, Critical) is leaks
+    if leaks:
+        assert found.leaks
         assert found.leak_pressure == pytest.approx(1000.0, rel=1e-2)
     else:
         assert found.reason.startswith("no root")

@@ -11,9 +11,9 @@ import pytest
 import stonepass as sp
 from stonepass.errors import BadInput
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.states.state_solver import Elements
-from stonepass.studies.serialisation import from_plain, to_plain
-from stonepass.studies.solution_cache import Store, default_folder
+from stonepass.model.states.state_solver import StateSolver
+from stonepass.studies.serialisation import deserialise, serialise
+from stonepass.studies.solution_cache import SolutionCache, default_folder
 
 FAST = sp.Method(accuracy="fast")
 
@@ -52,8 +52,8 @@ def assert_same(one, other):
     ids=["paper", "direct", "series"],
 )
 def test_an_answer_remembered_is_the_answer(tmp_path, solved, method):
-    store = Store(tmp_path, walls=True)
-    assert isinstance(store, Elements)
+    store = SolutionCache(tmp_path, walls=True)
+    assert isinstance(store, StateSolver)
     first = sp.solve(case(method=method), elements=store)
     count = len(solved)
     assert count >= 1
@@ -65,7 +65,7 @@ def test_an_answer_remembered_is_the_answer(tmp_path, solved, method):
 
 
 def test_a_failure_is_remembered_too(tmp_path, solved):
-    store = Store(tmp_path)
+    store = SolutionCache(tmp_path)
     question = case(1.3, 1.9, sp.Method(accuracy="fast", model="direct"))
     first = sp.solve(question, elements=store)
     second = sp.solve(question, elements=store)
@@ -75,7 +75,7 @@ def test_a_failure_is_remembered_too(tmp_path, solved):
 
 
 def test_what_a_result_depends_on_and_what_not(tmp_path, solved):
-    store = Store(tmp_path)
+    store = SolutionCache(tmp_path)
     sp.solve(case(), elements=store)
     same = [
         case(method=dataclasses.replace(FAST, as_printed=True)),
@@ -103,7 +103,7 @@ def test_what_a_result_depends_on_and_what_not(tmp_path, solved):
 
 
 def test_a_case_of_another_size_gets_its_own_lengths(tmp_path):
-    store = Store(tmp_path)
+    store = SolutionCache(tmp_path)
     sp.solve(case(), elements=store)
     sized = sp.Case(sp.Stone("3 mm", 0.4), sp.Ureter("2.5 mm", "3.75 mm", "latex"), method=FAST)
     found = sp.solve(sized, elements=store)
@@ -113,7 +113,7 @@ def test_a_case_of_another_size_gets_its_own_lengths(tmp_path):
 
 
 def test_walls_are_kept_where_they_are_wanted(tmp_path, solved):
-    slim, full = Store(tmp_path), Store(tmp_path, walls=True)
+    slim, full = SolutionCache(tmp_path), SolutionCache(tmp_path, walls=True)
     assert slim.seat(case(), None).wall is None
     assert full.seat(case(), None).wall is not None
     assert solved == ["seat", "seat"]
@@ -124,7 +124,7 @@ def test_walls_are_kept_where_they_are_wanted(tmp_path, solved):
 
 @pytest.mark.parametrize("where", [0, 40, 200, -1])
 def test_a_corrupt_file_is_set_aside_and_solved_again(tmp_path, solved, where):
-    store = Store(tmp_path)
+    store = SolutionCache(tmp_path)
     first = sp.solve(case(), elements=store)
     (path,) = files(store)
     raw = bytearray(path.read_bytes())
@@ -140,7 +140,7 @@ def test_a_corrupt_file_is_set_aside_and_solved_again(tmp_path, solved, where):
 
 @pytest.mark.parametrize("content", [b"", b"short", b"\0" * 5000])
 def test_a_file_of_another_kind_is_corrupt(tmp_path, content):
-    store = Store(tmp_path)
+    store = SolutionCache(tmp_path)
     sp.solve(case(), elements=store)
     (path,) = files(store)
     path.write_bytes(content)
@@ -149,7 +149,7 @@ def test_a_file_of_another_kind_is_corrupt(tmp_path, content):
 
 
 def test_another_solver_solves_again(tmp_path, solved, monkeypatch):
-    store = Store(tmp_path)
+    store = SolutionCache(tmp_path)
     sp.solve(case(), elements=store)
     monkeypatch.setattr("stonepass.studies.solution_cache._solver", lambda: "another")
     sp.solve(case(), elements=store)
@@ -163,27 +163,27 @@ def test_a_law_that_cannot_be_written_down_is_not_remembered(tmp_path, solved):
         method=sp.Method(accuracy="fast", seating="frictionless"),
     )  # fmt: skip
     for _ in range(2):
-        sp.solve(question, elements=Store(tmp_path))
+        sp.solve(question, elements=SolutionCache(tmp_path))
     assert len(solved) == 2
-    assert files(Store(tmp_path)) == []
+    assert files(SolutionCache(tmp_path)) == []
 
 
 def _solve_in(folder):
-    return sp.solve(case(), elements=Store(folder)).pressure
+    return sp.solve(case(), elements=SolutionCache(folder)).pressure
 
 
 def test_processes_share_a_folder(tmp_path):
     with get_context("spawn").Pool(2) as pool:
         pressures = pool.map(_solve_in, [tmp_path] * 4)
     assert len(set(pressures)) == 1
-    assert len(files(Store(tmp_path))) == 1
-    assert Store(tmp_path).set_aside() == 0
+    assert len(files(SolutionCache(tmp_path))) == 1
+    assert SolutionCache(tmp_path).set_aside() == 0
 
 
 def test_a_folder_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(BadInput, match="cache folder"):
-        sp.solve(case(), elements=Store(tmp_path / "file"))
+        sp.solve(case(), elements=SolutionCache(tmp_path / "file"))
 
 
 def test_the_folder_by_its_name(monkeypatch, tmp_path):
@@ -195,7 +195,7 @@ def test_the_folder_by_its_name(monkeypatch, tmp_path):
 
 def test_nothing_that_is_not_finite_is_written():
     state = sp.seat(case(), LEVELS["fast"].companion)
-    document, arrays = to_plain(state)
-    assert_same(state, from_plain(json.loads(json.dumps(document)), arrays, state.case))
+    document, arrays = serialise(state)
+    assert_same(state, deserialise(json.loads(json.dumps(document)), arrays, state.case))
     with pytest.raises(FloatingPointError):
-        to_plain(dataclasses.replace(state, contact_angle=float("nan")))
+        serialise(dataclasses.replace(state, contact_angle=float("nan")))

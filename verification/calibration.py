@@ -76,7 +76,7 @@ def wall_of(G: float) -> sp.Material:
 def margin(G: float) -> float:
     ureter = sp.Ureter(wall_ratio=1.3, material=wall_of(G))
     smooth = sp.Method(seating="frictionless")
-    return sp.seat(sp.Case(sp.Stone(size_ratio=1.3), ureter, method=smooth)).soundness.margin
+    return sp.seat(sp.Case(sp.Stone(size_ratio=1.3), ureter, method=smooth)).stability.margin
 
 
 def size(G: float, wall_ratio: float, ground: bool) -> float:

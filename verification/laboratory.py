@@ -20,7 +20,7 @@ from stonepass.bench.invitro import fit_friction
 from stonepass.bench.law_fit import fit_law
 from stonepass.bench.test_data import Tension
 from stonepass.clinic.assessment import assess
-from stonepass.clinic.patient import read_person
+from stonepass.clinic.patient import read_patient
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
@@ -220,7 +220,7 @@ def _page():
         with TemporaryDirectory() as folder:
             given = Path(folder) / "person.toml"
             given.write_text(WIDEST if path is None else path.read_text(encoding="utf-8"))
-            found = assess(read_person(given), PooledSolver(None, CORES))
+            found = assess(read_patient(given), PooledSolver(None, CORES))
             count = _printed(browser, found, Path(folder))
         pages.append(count)
         rows.append((name, str(count)))

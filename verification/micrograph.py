@@ -20,7 +20,7 @@ from page import Check, Section
 from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.friction import surface_friction
 from stonepass.surface.paths import StraightPath
-from stonepass.surface.surface_image import Area, Picture
+from stonepass.surface.surface_image import Area, SurfaceImage
 
 ROOT = Path(__file__).parents[1]
 MICRO = 1e-6
@@ -28,7 +28,7 @@ LENGTH = 500.0  # µm, of every path
 PIXELS = (0.25, 0.5, 1.0, 2.0)  # µm
 ANGLES = (0, 30, 45, 90)  # degrees, of the slopes and the paths in the picture
 BITS = (8, 16)
-NOISE = (0.0, 0.01, 0.02, 0.05)  # standard deviation of every pixel over the relief
+NOISE = (0.0, 0.01, 0.02, 0.05)  # standard deviation of every pixel over the height range
 PATHS = 6
 EXACT = 0.5 / (1.0 - 0.38 * 0.12)
 # Largest relative error of the friction coefficient for each noise; where it comes from is said on
@@ -66,7 +66,8 @@ def section() -> Section:
             "Surfaces whose mean profile has a baseline of slope 0.38 and a deviation of slope "
             f"0.12, exactly, so that μ = {EXACT:.4f}: {len(errors)} pictures, all pixel sizes, "
             "directions, bit depths and noise levels together; paths of 500 µm, six for each "
-            "picture. Noise is of every pixel for itself, its standard deviation over the relief. "
+            "picture. Noise is of every pixel for itself, its standard deviation over the height "
+            "range. "
             "What it costs is the scale: the range of greys grows by the noise of the darkest and "
             "brightest places, so that slopes come out too small; that is why the range is taken "
             "after averaging over 5 × 5 pixels. Single profiles keep their noise: the slope by "
@@ -146,7 +147,7 @@ def surface(distance, heights, pixel, angle, bits, noise, generator):
     room = 0.5 / (0.5 + 4.5 * noise)  # contrast that leaves room for the noise
     grey = np.clip(np.round(full * (0.5 + room * (share - 0.5))), 0, full)
     values = grey.astype(np.uint8 if bits == 8 else np.uint16)
-    picture = Picture(values, (pixel * MICRO, pixel * MICRO), full, Area(0, 0, columns, rows))
+    picture = SurfaceImage(values, (pixel * MICRO, pixel * MICRO), full, Area(0, 0, columns, rows))
     return picture, [StraightPath(*((end - low) / pixel).ravel()) for end in ends]
 
 
@@ -182,7 +183,7 @@ def fuzz_some(share: tuple[int, int]) -> Counter:
     from picture_files import valid
 
     from stonepass.errors import BadInput
-    from stonepass.surface.readers import read_picture
+    from stonepass.surface.readers import read_surface_image
 
     resource.setrlimit(resource.RLIMIT_DATA, (2_000_000_000, 2_000_000_000))
     generator = np.random.default_rng(seed)
@@ -208,7 +209,7 @@ def fuzz_some(share: tuple[int, int]) -> Counter:
             path = Path(folder) / name
             path.write_bytes(bytes(raw))
             try:
-                read_picture(path)
+                read_surface_image(path)
                 ended[name, "read"] += 1
             except BadInput as refused:
                 ended[name, "refused" if "\n" not in str(refused) else "lines"] += 1
@@ -226,7 +227,7 @@ def hostile_files() -> list[tuple[str, bool, float, float]]:
         folder = Path(name)
         for file in hostile(folder):
             command = [sys.executable, "-m", "stonepass", "friction", str(folder / file),
-                       "--pixel", "1um", "--relief", "10um"]  # fmt: skip
+                       "--pixel", "1um", "--height-range", "10um"]  # fmt: skip
             measured = subprocess.run(
                 [sys.executable, "-c", MEASURE, *command], capture_output=True, text=True
             )

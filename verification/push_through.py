@@ -225,7 +225,7 @@ def kept_row(material: str, eta: float, xi: float, mu: float):
         assert answer.pressure is not None
         assert answer.pushed is not None
         found.append(answer.pressure)
-        margin = answer.pushed.soundness.margin
+        margin = answer.pushed.stability.margin
     cells = [
         f"{material}, η {eta:g}, ξ {xi:g}, μ {mu:g}",
         *(f"{value / 1e3:.4f}" for value in found),
@@ -260,7 +260,7 @@ def draw(case: sp.Case, referenced: bool) -> Drawn:
         f"μ {case.stone.friction:.2f}",
         outcome=answer.outcome.name,
         cause=answer.message.partition(": ")[2],
-        kinked=state is not None and state.soundness.margin <= 0.0,
+        kinked=state is not None and state.stability.margin <= 0.0,
         seconds=seconds,
         penetration=0.0 if state is None else state.solver.penetration,
         errors=tuple(errors),
@@ -270,7 +270,7 @@ def draw(case: sp.Case, referenced: bool) -> Drawn:
 def grid_rows(drawn: Sequence[Drawn]) -> list[list[str]]:
     seconds = sorted(each.seconds for each in drawn)
     rows = [[f"`{name}`", str(sum(each.outcome == name for each in drawn))]
-            for name in ("MOVES", "CLEARS", "NO_SOLUTION")]  # fmt: skip
+            for name in ("MOVES", "LEAKS", "NO_SOLUTION")]  # fmt: skip
     rows.append(["of them with kinks", str(sum(each.kinked for each in drawn))])
     passed = sum(each.penetration > 1e-6 for each in drawn)
     rows.append(["open wall passes through the stone by more than 1e-6 R_s", str(passed)])

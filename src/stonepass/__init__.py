@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from stonepass.bench.law_fit import fit_law
     from stonepass.bench.test_data import read_inflation, read_tension
     from stonepass.clinic.assessment import Assessment, assess
-    from stonepass.clinic.patient import read_person
+    from stonepass.clinic.patient import read_patient
     from stonepass.errors import BadInput, Outcome, StonepassError
     from stonepass.inputs.material_file import load_material
     from stonepass.inputs.measured_pressures import read_points
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from stonepass.model.states.seated import SeatedState, seat
     from stonepass.surface.friction import SurfaceFriction, surface_friction
     from stonepass.surface.paths import StraightPath
-    from stonepass.surface.readers import read_picture
-    from stonepass.surface.surface_image import Picture
+    from stonepass.surface.readers import read_surface_image
+    from stonepass.surface.surface_image import SurfaceImage
     from stonepass.surface.untrusted import read_untrusted
 
 __version__ = VERSION
@@ -49,7 +49,7 @@ _HOME = {
     "Material": "materials.protocol",
     "Method": "model.case",
     "Outcome": "errors",
-    "Picture": "surface.surface_image",
+    "SurfaceImage": "surface.surface_image",
     "PushedState": "model.states.loaded",
     "SeatedState": "model.states.seated",
     "Setting": "bench.comparison",
@@ -68,8 +68,8 @@ _HOME = {
     "load_material": "inputs.material_file",
     "push_through": "model.states.loaded",
     "read_inflation": "bench.test_data",
-    "read_person": "clinic.patient",
-    "read_picture": "surface.readers",
+    "read_patient": "clinic.patient",
+    "read_surface_image": "surface.readers",
     "read_points": "inputs.measured_pressures",
     "read_shape": "inputs.shape_file",
     "read_tension": "bench.test_data",
@@ -89,7 +89,6 @@ __all__ = [
     "Material",
     "Method",
     "Outcome",
-    "Picture",
     "PushedState",
     "SeatedState",
     "Setting",
@@ -99,6 +98,7 @@ __all__ = [
     "StonepassError",
     "StraightPath",
     "SurfaceFriction",
+    "SurfaceImage",
     "Ureter",
     "assess",
     "critical_pressure",
@@ -108,10 +108,10 @@ __all__ = [
     "load_material",
     "push_through",
     "read_inflation",
-    "read_person",
-    "read_picture",
+    "read_patient",
     "read_points",
     "read_shape",
+    "read_surface_image",
     "read_tension",
     "read_untrusted",
     "seat",

@@ -80,7 +80,7 @@ class Outcome(enum.Enum):
 
     MOVES = "The stone moves once the urine pressure above it reaches the critical pressure."
     LOOSE = "The stone is no larger than the lumen: it is not stuck, no pressure is needed."
-    CLEARS = "Urine passes the stone before the stone moves."
+    LEAKS = "Urine passes the stone before the stone moves."
     BEYOND_CLOSURE = (
         "Drive and resistance do not balance before the paper's closure ends (contact angle 90°): "
         "this model has no answer; the direct push-through model is the way on."
@@ -92,7 +92,7 @@ class Outcome(enum.Enum):
     @property
     def answered(self) -> bool:
         """Whether the outcome is an answer (exit code 0) rather than the lack of one."""
-        return self in (Outcome.MOVES, Outcome.LOOSE, Outcome.CLEARS)
+        return self in (Outcome.MOVES, Outcome.LOOSE, Outcome.LEAKS)
 
 
 def require(condition: bool, argument: str, value: Any, allowed: str, remedy: str = "") -> None:

@@ -91,7 +91,7 @@ class FittedLaw:
     r_squared : float
         1 − Σ residual²/Σ (observed − mean)².
     correlations : dict
-        Pairs of fitted constants and the correlation of their estimates.
+        OpeningCurve of fitted constants and the correlation of their estimates.
     unstable : str
         Why the law describes no solid; empty where it does.
     warnings : tuple of str

@@ -42,11 +42,11 @@ def command(
 
     writable(html, (".html", ".htm"))
     from stonepass.clinic.assessment import assess
-    from stonepass.clinic.patient import read_person
+    from stonepass.clinic.patient import read_patient
     from stonepass.report.assess_report import CAUTION, assess_record, assess_tables
     from stonepass.studies.jobs import PooledSolver
 
-    person = read_person(case_file)
+    person = read_patient(case_file)
     if limit is not None:
         person = person.with_limit(limit)
     with counting("solving") as progress:

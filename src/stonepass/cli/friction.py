@@ -25,16 +25,18 @@ def command(
         str | None,
         typer.Option("--pixel", metavar="LENGTH", help="Size of a pixel; wins over the file's."),
     ] = None,
-    relief: Annotated[
+    height_range: Annotated[
         str | None,
-        typer.Option("--relief", metavar="LENGTH", help="Height from black to white, e.g. 35um."),
+        typer.Option(
+            "--height-range", metavar="LENGTH", help="Height from black to white, e.g. 35um."
+        ),
     ] = None,
     crystal: Annotated[
         str | None,
         typer.Option(
             "--crystal",
             metavar="LENGTH",
-            help="Edge of the cubic crystals; relief is sqrt(3) of it.",
+            help="Edge of the cubic crystals; height range is sqrt(3) of it.",
         ),
     ] = None,
     paths: Annotated[
@@ -73,7 +75,7 @@ def command(
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
 
     writable(figure, FIGURES)
-    scale = _relief(relief, crystal)
+    scale = _height_range(height_range, crystal)
     lines = _paths(paths, path)
     from stonepass.surface.friction import surface_friction
     from stonepass.surface.untrusted import read_untrusted
@@ -104,18 +106,18 @@ def command(
     return 0
 
 
-def _relief(relief: str | None, crystal: str | None) -> Length | None:
+def _height_range(height_range: str | None, crystal: str | None) -> Length | None:
     from stonepass.errors import BadInput, require
     from stonepass.surface.friction import CRYSTAL_DIAGONAL, RELIEF
     from stonepass.units import Length, length
 
-    if relief is not None and crystal is not None:
-        raise BadInput("combination of --relief and --crystal", "ambiguous", "one of the two")
+    if height_range is not None and crystal is not None:
+        raise BadInput("combination of --height-range and --crystal", "ambiguous", "one of the two")
     if crystal is not None:
         edge = length(crystal, "--crystal")
         require(RELIEF[0] < edge <= RELIEF[1] / 2, "--crystal", crystal, "1 nm to 5 mm")
         return Length(CRYSTAL_DIAGONAL * edge)
-    return None if relief is None else length(relief, "--relief")
+    return None if height_range is None else length(height_range, "--height-range")
 
 
 def _paths(count: int | None, given: list[str] | None) -> int | list[StraightPath]:

@@ -309,9 +309,9 @@ class Settings:
 
         merged = self._merged(_METHOD_OPTIONS, "method", self._displaced())
         if self.pairs is not None:
-            from stonepass.inputs.opening_curve_file import read_pairs
+            from stonepass.inputs.opening_curve_file import read_opening_curve
 
-            merged["pairs"] = read_pairs(self.pairs)
+            merged["pairs"] = read_opening_curve(self.pairs)
         return Method(**merged)
 
     def _displaced(self) -> set[str]:

@@ -15,7 +15,7 @@ from jaxtyping import Bool, Float
 from scipy.stats import qmc, sobol_indices
 
 from stonepass.clinic.cohorts import Row, rows_for
-from stonepass.clinic.patient import INPUTS, Person
+from stonepass.clinic.patient import INPUTS, Patient
 from stonepass.errors import BadInput, Outcome
 from stonepass.materials.stability import check
 from stonepass.model.answer import Answer
@@ -146,7 +146,7 @@ class Assessment:
 
     Attributes
     ----------
-    person : Person
+    person : Patient
     outcome : Outcome
         MOVES; NO_SOLUTION where the model answers too few of the possible cases.
     message : str
@@ -174,7 +174,7 @@ class Assessment:
     warnings : tuple of str
     """
 
-    person: Person
+    person: Patient
     outcome: Outcome
     message: str
     at_values: Answer
@@ -227,7 +227,7 @@ def contradiction(passed: float, share: Share | None) -> str:
     return NEAR
 
 
-def assess(person: Person, solver: Solver | None = None) -> Assessment:
+def assess(person: Patient, solver: Solver | None = None) -> Assessment:
     """Assess one person.
 
     Raises
@@ -281,7 +281,7 @@ def assess(person: Person, solver: Solver | None = None) -> Assessment:
     return replace(found, warnings=_warnings(found))
 
 
-def _drawn(person: Person) -> tuple[Draws, float]:
+def _drawn(person: Patient) -> tuple[Draws, float]:
     """Draws of every input that a wall could have, and which share of all draws they are.
 
     With both diameters of the dilated segment, draws are kept in proportion to how well the outer
@@ -319,7 +319,7 @@ def _wall_ratio(drawn: Draws) -> Float[np.ndarray, " n"]:
     return 1.0 + 2.0 * drawn["wall_thickness"] / inner
 
 
-def _agreement(person: Person, drawn: Draws) -> Float[np.ndarray, " n"]:
+def _agreement(person: Patient, drawn: Draws) -> Float[np.ndarray, " n"]:
     """How likely the measured outer diameter of the dilated segment is, by the wall's volume.
 
     Over the likelihood of a perfect agreement.
@@ -336,7 +336,7 @@ def _agreement(person: Person, drawn: Draws) -> Float[np.ndarray, " n"]:
     return np.exp(-0.5 * ((outer - measured.value) / measured.sd) ** 2)
 
 
-def _conditions(person: Person, drawn: Draws) -> Conditions:
+def _conditions(person: Patient, drawn: Draws) -> Conditions:
     return Conditions(
         drawn["stone_diameter"] / drawn["inner_diameter"],
         np.clip(_wall_ratio(drawn), *WALL_RATIO),
@@ -346,14 +346,14 @@ def _conditions(person: Person, drawn: Draws) -> Conditions:
 
 
 def _critical(
-    person: Person, surface: ResponseSurface, drawn: Draws
+    person: Patient, surface: ResponseSurface, drawn: Draws
 ) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
     """P_ucr in Pa of many draws: s P_ucr(P_out/s) for a wall s times as stiff."""
     found, bound = surface(_conditions(person, drawn))
     return drawn["stiffness"] * found, bound
 
 
-def _samples(person: Person, surface: ResponseSurface, drawn: Draws) -> Samples:
+def _samples(person: Patient, surface: ResponseSurface, drawn: Draws) -> Samples:
     critical, bound = _critical(person, surface, drawn)
     at = _conditions(person, drawn)
     lumen = lumen_ratios(surface.case, at.wall_ratio, at.load_factor)
@@ -361,7 +361,7 @@ def _samples(person: Person, surface: ResponseSurface, drawn: Draws) -> Samples:
     return Samples(critical, bound, loose, at.size_ratio, 1e3 * drawn["stone_diameter"])
 
 
-def _present(person: Person, case: Case, drawn: Draws) -> Present | None:
+def _present(person: Patient, case: Case, drawn: Draws) -> Present | None:
     """Urine pressure by the far field at the dilated diameter; None where it was not measured."""
     if not person.dilated:
         return None
@@ -388,7 +388,7 @@ def _range(values: Float[np.ndarray, " n"], bound: Bool[np.ndarray, " n"]) -> Ra
     return Range(low, median, high, float(least[ends.index(None)]))
 
 
-def _drivers(person: Person, surface: ResponseSurface, samples: Samples) -> tuple[Driver, ...]:
+def _drivers(person: Patient, surface: ResponseSurface, samples: Samples) -> tuple[Driver, ...]:
     """Sobol's total indices of the rank of P_ucr among the samples, which no tail can dominate."""
     names = [
         name
@@ -421,7 +421,7 @@ def _drivers(person: Person, surface: ResponseSurface, samples: Samples) -> tupl
 
 
 def _by_size(
-    person: Person, surface: ResponseSurface, drawn: Draws
+    person: Patient, surface: ResponseSurface, drawn: Draws
 ) -> tuple[tuple[float, Share], ...]:
     found = []
     for size in SIZES:
@@ -432,7 +432,7 @@ def _by_size(
     return tuple(found)
 
 
-def _cohorts(person: Person) -> tuple[Row, ...]:
+def _cohorts(person: Patient) -> tuple[Row, ...]:
     stone = person.measured["stone_diameter"]
     spread = (stone.high - stone.low) / 2.0 if stone.sd is None else stone.sd
     low, high = 1e3 * (stone.value - spread), 1e3 * (stone.value + spread)

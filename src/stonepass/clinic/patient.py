@@ -15,10 +15,10 @@ from stonepass.io.toml_file import read_toml
 from stonepass.materials.protocol import Material
 from stonepass.model.case import DIAMETER, FRICTION, SIZE_RATIO, Case, Load, Method, Stone, Ureter
 from stonepass.model.shape import ASPECT, Shape
-from stonepass.studies.uncertain_quantity import Measured, measured_length, measured_number
+from stonepass.studies.uncertain_quantity import UncertainQuantity, measured_length, measured_number
 from stonepass.units import Length, Pressure, pressure
 
-__all__ = ["INPUTS", "Person", "read_person"]
+__all__ = ["INPUTS", "Patient", "read_patient"]
 
 STIFFNESS = (0.05, 20.0)
 LIMIT = (100.0, 1e5)  # Pa
@@ -48,12 +48,12 @@ INPUTS = {
 
 
 @dataclass(frozen=True)
-class Person:
+class Patient:
     """What is known of one person.
 
     Attributes
     ----------
-    measured : dict of str to Measured
+    measured : dict of str to UncertainQuantity
         By the names in `INPUTS`: the stone's diameter across the ureter, friction, inner and either
         outer diameter or wall thickness of the ureter where nothing dilates it, stiffness as a
         factor on the material's, and, where the segment above the stone was measured, its
@@ -71,7 +71,7 @@ class Person:
         What the file leaves to us, in sentences.
     """
 
-    measured: Mapping[str, Measured]
+    measured: Mapping[str, UncertainQuantity]
     material: Material
     limit: Pressure
     place: str | None = None
@@ -87,7 +87,7 @@ class Person:
         """Whether the segment above the stone was measured."""
         return "dilated_inner_diameter" in self.measured
 
-    def with_limit(self, limit: str | Pressure) -> Person:
+    def with_limit(self, limit: str | Pressure) -> Patient:
         """Return the same person with another pressure limit."""
         return replace(self, limit=_limit(limit))
 
@@ -129,7 +129,7 @@ class _Assessment(FileSection):
     seed: int = 1
 
 
-class _PersonFile(FileSection):
+class _PatientFile(FileSection):
     stone: _Stone
     ureter: _Ureter
     assessment: _Assessment
@@ -138,7 +138,7 @@ class _PersonFile(FileSection):
     method: MethodSection = MethodSection()
 
 
-def read_person(path: str | Path) -> Person:
+def read_patient(path: str | Path) -> Patient:
     """Read a person's file; files of materials and shapes are looked for beside it.
 
     Raises
@@ -148,14 +148,14 @@ def read_person(path: str | Path) -> Person:
         length without its uncertainty or unit, values that no ureter has.
     """
     path = Path(path)
-    parsed = read_toml(path, _PersonFile)
+    parsed = read_toml(path, _PatientFile)
     try:
         return _person(parsed, path.parent)
     except BadInput as problem:
         raise problem.within(path.name) from problem
 
 
-def _person(parsed: _PersonFile, folder: Path) -> Person:
+def _person(parsed: _PatientFile, folder: Path) -> Patient:
     stone, ureter, dilated = parsed.stone, parsed.ureter, parsed.dilated
     walls = [ureter.outer_diameter, ureter.wall_thickness]
     if sum(wall is not None for wall in walls) != 1:
@@ -194,7 +194,7 @@ def _person(parsed: _PersonFile, folder: Path) -> Person:
         )
         if given == default  # written out or not, nobody measured it
     ]
-    person = Person(
+    person = Patient(
         measured=measured,
         material=find_material(ureter.material, folder),
         limit=_limit(parsed.assessment.limit),
@@ -216,7 +216,7 @@ def _limit(value: str | Pressure) -> Pressure:
     return limit
 
 
-def _check(measured: Mapping[str, Measured]) -> None:
+def _check(measured: Mapping[str, UncertainQuantity]) -> None:
     size = measured["stone_diameter"].value / measured["inner_diameter"].value
     low, high = SIZE_RATIO
     require(low <= size <= high, "stone diameter over inner diameter", round(size, 4),

@@ -23,7 +23,7 @@ class Grid:
         r, z of every node.
     cells : array
         Nodes of every element, from 0: corners anticlockwise, then the middles of the sides in the
-        same order. Elements run along a row, then to the next.
+        same order. StateSolver run along a row, then to the next.
     numbers : array
         Node on each line of corners or middles, −1 where there is none (centres of elements).
     """

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict
 
 from stonepass.errors import BadInput
 from stonepass.inputs.material_file import find_material
-from stonepass.inputs.opening_curve_file import read_pairs
+from stonepass.inputs.opening_curve_file import read_opening_curve
 from stonepass.inputs.shape_file import read_shape
 from stonepass.io.toml_file import read_toml
 from stonepass.materials.protocol import names_a_file
@@ -73,7 +73,7 @@ class MethodSection(FileSection):
         """Make the method."""
         given = self.model_dump()
         if self.pairs is not None:
-            given["pairs"] = read_pairs(folder / self.pairs)
+            given["pairs"] = read_opening_curve(folder / self.pairs)
         return Method(**given)
 
 

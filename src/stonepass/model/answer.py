@@ -18,11 +18,11 @@ if TYPE_CHECKING:  # each loads the finite elements
     from stonepass.model.states.loaded import PushedState
     from stonepass.model.states.seated import SeatedState
 
-__all__ = ["Answer", "Touch", "unanswered"]
+__all__ = ["Answer", "ContactState", "unanswered"]
 
 
 @runtime_checkable
-class Touch(Protocol):
+class ContactState(Protocol):
     """Where stone and wall touch, and how hard: what every model's state can say."""
 
     @property
@@ -112,7 +112,7 @@ class Answer:
         return self.seated if self.pushed is None else self.pushed
 
     @property
-    def touch(self) -> Touch | None:
+    def touch(self) -> ContactState | None:
         """Where stone and wall touch, in whichever model."""
         return self.beam if self.state is None else self.state
 

@@ -10,7 +10,7 @@ from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.protocol import Material, names_a_file
 from stonepass.model.closure import ORDER
-from stonepass.model.opening_curve import Pairs
+from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.shape import ASPECT, Shape
 from stonepass.units import Length, Pressure, format_length, length, pressure
 
@@ -195,8 +195,8 @@ class Method:
         the case.
     series_order : int
         Of the series, 1 to 8.
-    pairs : Pairs, optional
-        Opened angles and radii to fit the series to (`read_pairs`).
+    pairs : OpeningCurve, optional
+        Opened angles and radii to fit the series to (`read_opening_curve`).
     far_field_ground : bool
         Whether the far field contains the ground matrix of the law (Eq. 22 does not).
     wetted : bool
@@ -218,7 +218,7 @@ class Method:
     closure_start: str = "inner-radius"
     closure: str = "linear"
     series_order: int = 3
-    pairs: Pairs | None = None
+    pairs: OpeningCurve | None = None
     far_field_ground: bool = False
     wetted: bool = False
     accuracy: str = "standard"
@@ -250,7 +250,12 @@ class Method:
         require(whole and low <= self.series_order <= high, "series_order", self.series_order,
                 allowed)  # fmt: skip
         if self.pairs is not None:
-            require(isinstance(self.pairs, Pairs), "pairs", self.pairs, "as read_pairs gives them")
+            require(
+                isinstance(self.pairs, OpeningCurve),
+                "pairs",
+                self.pairs,
+                "as read_opening_curve gives them",
+            )
             if self.closure != "series":
                 raise BadInput("pairs", "given", "left out", "they are of the closure 'series'")
             least = f"at least as many as coefficients, {self.series_order}"

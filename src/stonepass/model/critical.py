@@ -10,7 +10,7 @@ from stonepass.materials.stability import check
 from stonepass.model.answer import Answer, unanswered
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.states.state_solver import Elements
+from stonepass.model.states.state_solver import StateSolver
 
 if TYPE_CHECKING:  # loads the finite elements
     from stonepass.fe.axisymmetric.problem import Resolution
@@ -53,12 +53,12 @@ def critical_pressure(
 
 
 def solve(
-    case: Case, resolution: Resolution | None = None, elements: Elements | None = None
+    case: Case, resolution: Resolution | None = None, states: StateSolver | None = None
 ) -> Answer:
     """Answer one case; every way it can end is an `Outcome` (model: section 6).
 
     With a `resolution` the finite elements use that mesh alone, and no error is estimated.
-    `elements` says where their results come from (`studies.solution_cache`); by default they are
+    `states` says where their results come from (`studies.solution_cache`); by default they are
     solved.
     """
     check(case.ureter.material)
@@ -77,6 +77,6 @@ def solve(
         return unanswered(case, Outcome.NO_SOLUTION, reason)
     module, function = MODELS[case.method.model]
     by_model = getattr(import_module(f"stonepass.model.{module}"), function)
-    given = {} if elements is None else {"elements": elements}
+    given = {} if states is None else {"states": states}
     answer: Answer = by_model(case, resolution, **given) if with_elements else by_model(case)
     return answer

@@ -1,4 +1,4 @@
-"""Pairs of an opened angle and the tube's radius above the stone, for the series closure."""
+"""The opening curve of one stone: opened angle and the tube's radius above it (Eqs 13–14)."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from jaxtyping import Float
 
 from stonepass.errors import BadInput, require
 
-__all__ = ["RADIUS", "Pairs"]
+__all__ = ["RADIUS", "OpeningCurve"]
 
 RADIUS = (0.1, 10.0)
 
 
 @dataclass(frozen=True)
-class Pairs:
+class OpeningCurve:
     """α in rad, up to π/2, and r_a/R_a, as rising pressure opens the wall round one stone.
 
     `reference` is the file they were read from; empty where they were not.

@@ -17,7 +17,7 @@ from stonepass.model.critical import solve
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.models.elastic_foundation import largest_beam_size
 from stonepass.model.shape import Shape
-from stonepass.model.states.state_solver import Elements
+from stonepass.model.states.state_solver import StateSolver
 from stonepass.units import Length, Pressure, pressure
 
 if TYPE_CHECKING:  # loads the finite elements
@@ -78,7 +78,7 @@ def critical_size(
     method: Method | None = None,
     progress: Callable[[float], None] | None = None,
     shape: Shape | None = None,
-    elements: Elements | None = None,
+    states: StateSolver | None = None,
 ) -> SizeAnswer:
     """How large may a stone be that moves at `limit`?
 
@@ -92,7 +92,7 @@ def critical_size(
         Bearable urine pressure, e.g. ``"12 kPa"``; 0.001 to 1000 kPa.
     shape : Shape, optional
         Of the stone; a sphere by default, ``Shape(1.4)`` a spheroid 1.4 times as long as wide.
-    elements : Elements, optional
+    states : StateSolver, optional
         Where finite-element results come from (`studies.solution_cache`); by default they are
         solved.
     """
@@ -107,17 +107,17 @@ def critical_size(
     )
     if case.method.model == "beam":
         case = case.with_size_ratio(largest_beam_size(case))
-    return _search(case, bound, progress or (lambda size_ratio: None), elements)
+    return _search(case, bound, progress or (lambda size_ratio: None), states)
 
 
 def _search(
     case: Case,
     limit: Pressure,
     progress: Callable[[float], None],
-    elements: Elements | None,
+    states: StateSolver | None,
 ) -> SizeAnswer:
     level = LEVELS[case.method.accuracy]
-    search = _Search(case, limit, level.resolution, progress, elements)
+    search = _Search(case, limit, level.resolution, progress, states)
     try:
         if search.lumen is None:  # then solve() says why, and so do we
             search.excess(case.size_ratio)
@@ -156,7 +156,7 @@ class _Search:
     limit: Pressure
     resolution: Resolution
     progress: Callable[[float], None]
-    elements: Elements | None
+    states: StateSolver | None
     tolerance: float = TOLERANCE
     tried: dict[float, Answer] = field(default_factory=dict)
     whole: dict[float, Answer] = field(default_factory=dict)
@@ -172,7 +172,7 @@ class _Search:
         self.progress(size_ratio)
         if size_ratio not in self.tried:
             question = self.case.with_size_ratio(size_ratio)
-            self.tried[size_ratio] = solve(question, self.resolution, self.elements)
+            self.tried[size_ratio] = solve(question, self.resolution, self.states)
         return self.tried[size_ratio]
 
     def whole_answer(self, size_ratio: float) -> Answer:
@@ -180,7 +180,7 @@ class _Search:
         if size_ratio not in self.whole:
             self.progress(size_ratio)
             question = self.case.with_size_ratio(size_ratio)
-            self.whole[size_ratio] = solve(question, elements=self.elements)
+            self.whole[size_ratio] = solve(question, states=self.states)
         return self.whole[size_ratio]
 
     def excess(self, size_ratio: float) -> float:

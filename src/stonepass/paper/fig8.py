@@ -15,7 +15,7 @@ from stonepass.errors import Outcome
 from stonepass.model.case import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, LIMIT, PASSING, PUBLISHED, ureter_case
-from stonepass.paper.section import Asked, Claim, Picture, Section, Table, answers_table
+from stonepass.paper.section import Asked, Claim, Section, SurfaceImage, Table, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results, SizeJob
 from stonepass.units import Pressure
@@ -71,14 +71,14 @@ class Fig8:
             "",
             folder,
             [
-                Picture(
+                SurfaceImage(
                     "fig8",
                     figure,
                     "(a) Critical pressure of both walls. (b) Critical pressure over size and wall "
                     "ratio; the line is the critical size at the limit. (c) Under confining "
                     "pressure (dead load). (d) Critical size over confining pressure.",
                 ),
-                Picture(
+                SurfaceImage(
                     "fig8b_line",
                     lines,
                     "The critical size over the wall ratio, computed, beside the paper's linear "
@@ -208,7 +208,7 @@ def _size_row(size: SizeAnswer) -> list[object]:
         size.outcome.name,
         size.size_ratio,
         size.size_ratio_error,
-        None if state is None else state.soundness.margin,
+        None if state is None else state.stability.margin,
     ]
 
 
@@ -343,8 +343,8 @@ def _beyond(found: Results, eta: float, xi: float) -> str:
     margins = []
     for pressure in CONFINING:
         seated = found.answer(ureter_case(eta, xi, Load(pressure))).seated
-        if seated is not None and seated.soundness.margin < 0.0:
-            margins.append(f"{seated.soundness.margin:.2f} at {pressure / 1e3:g} kPa")
+        if seated is not None and seated.stability.margin < 0.0:
+            margins.append(f"{seated.stability.margin:.2f} at {pressure / 1e3:g} kPa")
     if not margins:
         return ""
     return (

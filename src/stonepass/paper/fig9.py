@@ -14,7 +14,7 @@ from stonepass.model.case import Case, Method, Stone
 from stonepass.model.critical import solve
 from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.paper.inputs import BEAM, BEAM_SIZE, FRICTION, LIMIT, ureter_case
-from stonepass.paper.section import Asked, Claim, Picture, Section, Table
+from stonepass.paper.section import Asked, Claim, Section, SurfaceImage, Table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results
 from stonepass.units import Pressure
@@ -79,7 +79,7 @@ class Fig9:
             "Fig. 9: the thin wall as a beam",
             "",
             folder,
-            [Picture("fig9", figure, caption)],
+            [SurfaceImage("fig9", figure, caption)],
             [
                 Table("fig9c", ("size_ratio", *columns),
                       [_row(xi, row) for xi, *row in zip(SIZES, *answers, strict=True)]),

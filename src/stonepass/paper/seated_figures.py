@@ -14,7 +14,7 @@ from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.case import Case
 from stonepass.model.states.seated import SeatedState
 from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_case
-from stonepass.paper.section import Asked, Claim, Picture, Section, Table
+from stonepass.paper.section import Asked, Claim, Section, SurfaceImage, Table
 from stonepass.report.revolve import revolved_figure
 from stonepass.report.section import draw_section, element_rim
 from stonepass.report.stone import draw_radii
@@ -66,7 +66,7 @@ class Fig5:
             _meshes(figure.add_subplot(2, 1, k + 1), state)
         caption = (
             "The finite elements before (grey, with the arc that touches the lumen) and after the "
-            "stone is pressed in (blue), at the published critical sizes. Elements are of order "
+            "stone is pressed in (blue), at the published critical sizes. StateSolver are of order "
             "4, graded towards the edge of the contact, which is a grid line."
         )
         rows = [
@@ -85,7 +85,7 @@ class Fig5:
             "Fig. 5: finite elements of the human ureter",
             "",
             folder,
-            [Picture("fig5", figure, caption)],
+            [SurfaceImage("fig5", figure, caption)],
             [Table("fig5", header, rows)],
         )
 
@@ -134,7 +134,7 @@ class Fig7:
             "",
             "",
             folder,
-            [Picture("fig7_sizes", figure, "Contact pressure over the size of the stone.")],
+            [SurfaceImage("fig7_sizes", figure, "Contact pressure over the size of the stone.")],
             [_profiles("fig7_sizes", [state for row in others.values() for state in row])],
         )
         return Section(
@@ -205,7 +205,7 @@ def _sections(
         title,
         "",
         folder,
-        [Picture(name, figure, caption), Picture(f"{name}_3d", solid, revolved)],
+        [SurfaceImage(name, figure, caption), SurfaceImage(f"{name}_3d", solid, revolved)],
         [_profiles(name, states)],
         files=(f"{name}.vtu",),
     )

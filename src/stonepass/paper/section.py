@@ -16,7 +16,7 @@ from stonepass.records.answer import record, write_csv
 from stonepass.report.style import save
 from stonepass.units import Pressure
 
-__all__ = ["Asked", "Claim", "Picture", "Section", "Table", "answers_table"]
+__all__ = ["Asked", "Claim", "Section", "SurfaceImage", "Table", "answers_table"]
 
 LIMITS = (1e2, 1e5)  # Pa
 
@@ -95,7 +95,7 @@ def answers_table(name: str, header: Sequence[str], answers: Sequence[Answer]) -
 
 
 @dataclass(frozen=True)
-class Picture:
+class SurfaceImage:
     """A picture: file name without ending, the figure, and what it shows."""
 
     name: str
@@ -120,7 +120,7 @@ class Section:
         title: str,
         text: str,
         folder: Path,
-        pictures: Sequence[Picture] = (),
+        pictures: Sequence[SurfaceImage] = (),
         tables: Sequence[Table] = (),
         claims: Sequence[Claim] = (),
         files: Sequence[str] = (),

@@ -12,7 +12,7 @@ from stonepass.materials.protocol import Material
 from stonepass.materials.stability import check
 from stonepass.model.case import Case, Load, Method, Stone, Ureter
 from stonepass.paper.inputs import FRICTION, PUBLISHED
-from stonepass.paper.section import Asked, Picture, Section, Table
+from stonepass.paper.section import Asked, Section, SurfaceImage, Table
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.studies.jobs import Job, Results, SizeJob
 from stonepass.units import Pressure
@@ -108,7 +108,7 @@ class Sensitivity:
             "Sensitivity to what had to be chosen",
             "",
             folder,
-            [Picture("sensitivity", figure, caption)],
+            [SurfaceImage("sensitivity", figure, caption)],
             [Table("sensitivity", header, rows)],
         )
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from stonepass.about import DISCLAIMER, VERSION
 from stonepass.errors import BadInput
-from stonepass.model.answer import Answer, Touch
+from stonepass.model.answer import Answer, ContactState
 from stonepass.model.case import Case
 from stonepass.model.size import SizeAnswer
 
@@ -71,7 +71,7 @@ def record(answer: Answer) -> dict[str, Any]:
         "leak_pressure_kPa": _kilo(answer.leak_pressure),
         "seal_angle_deg": _degrees(pushed.seal_angle if pushed else None),
         "downstream_angle_deg": _degrees(touch.downstream_angle if touch else None),
-        "stability_margin": state.soundness.margin if state else None,
+        "stability_margin": state.stability.margin if state else None,
         "size_ratio": case.size_ratio,
         "wall_ratio": case.wall_ratio,
         "model": case.method.model,
@@ -150,7 +150,7 @@ def write_curve(answers: Iterable[Answer], path: Path) -> None:
     write_csv(path, _CURVE_COLUMNS, rows)
 
 
-def write_profile(state: Touch, path: Path) -> None:
+def write_profile(state: ContactState, path: Path) -> None:
     """Write the pressure on the stone as CSV, θ from 0 to 180° in steps of 0.1°.
 
     The edges of the contact are rows too. Seated, it is the contact pressure; loaded, the urine

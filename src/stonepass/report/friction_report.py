@@ -30,7 +30,7 @@ def friction_record(found: SurfaceFriction, image: str) -> dict[str, Any]:
         "deviation_order": found.deviation_baseline.order,
         "baseline_wavelength_um": found.baseline.wavelength * MICRO,
         "deviation_wavelength_um": found.deviation_baseline.wavelength * MICRO,
-        "relief_um": None if found.relief is None else found.relief * MICRO,
+        "height_range_um": None if found.height_range is None else found.height_range * MICRO,
         "pixel_um": across if across == down else [across, down],
         "paths": [[path.x0, path.y0, path.x1, path.y1] for path in found.paths],
         "path_length_um": float(found.distance[-1]) * MICRO,
@@ -43,7 +43,7 @@ def friction_record(found: SurfaceFriction, image: str) -> dict[str, Any]:
         "spread": {
             "without_one_path": [_number(mu) for mu in spread.paths],
             "baseline_order": {str(order): _number(mu) for order, mu in spread.orders},
-            "relief_scaling": {how: _number(mu) for how, mu in spread.relief},
+            "height_range_scaling": {how: _number(mu) for how, mu in spread.height_range},
         },
         "image": image,
         "pixel_source": found.picture.pixel_source,
@@ -80,7 +80,7 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
          f"of waves over {rest.wavelength * MICRO:.3g} µm (order {rest.order})"),
         ("friction by RMS slope", f"{rough.RdeltaQ:.3f}", "of single profiles, pixel by pixel"),
         ("Ra, Rq", f"{rough.Ra * MICRO:.3g}, {rough.Rq * MICRO:.3g} µm", "of single profiles"),
-        ("relief", "its own" if found.relief is None else f"{found.relief * MICRO:.4g} µm", ""),
+        ("height range", _height_range(found), ""),
         ("pixel", pixel, "; ".join((found.picture.pixel_source, *found.picture.notes))),
         ("paths", f"{len(found.paths)}", f"of {found.distance[-1] * MICRO:.4g} µm"),
     ]  # fmt: skip
@@ -88,9 +88,11 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
         rows.append(("without one path", _between(spread.paths), ""))
     orders = ", ".join(f"{order}: {_shown(mu)}" for order, mu in spread.orders)
     rows.append(("by baseline order", _between([mu for _, mu in spread.orders]), orders))
-    if spread.relief:
-        scalings = ", ".join(f"{how}: {_shown(mu)}" for how, mu in spread.relief)
-        rows.append(("by scaling of grey", _between([mu for _, mu in spread.relief]), scalings))
+    if spread.height_range:
+        scalings = ", ".join(f"{how}: {_shown(mu)}" for how, mu in spread.height_range)
+        rows.append(
+            ("by scaling of grey", _between([mu for _, mu in spread.height_range]), scalings)
+        )
     return rows
 
 
@@ -105,3 +107,7 @@ def _shown(value: float) -> str:
 
 def _number(value: float) -> float | None:
     return value if value == value else None
+
+
+def _height_range(found: SurfaceFriction) -> str:
+    return "its own" if found.height_range is None else f"{found.height_range * MICRO:.4g} µm"

@@ -140,7 +140,7 @@ def _state_rows(table: Table, answer: Answer) -> None:
     if answer.pushed is not None or not answer.case.stone.shape.symmetric:
         _angle_row(table, "contact ends", touch.downstream_angle)
     if state is not None:
-        table.add_row("stability margin", f"{state.soundness.margin:.2f}")
+        table.add_row("stability margin", f"{state.stability.margin:.2f}")
     if beam is not None:
         moduli = (beam.circumferential_modulus, beam.longitudinal_modulus)
         for name, modulus in zip(("E1", "E2"), moduli, strict=True):

@@ -15,9 +15,9 @@ from stonepass.model.closure import ORDER, Series
 from stonepass.model.critical import solve
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.models.seated_balance import balance_pressure, with_whole_law
-from stonepass.model.opening_curve import Pairs
+from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.loaded import PushedState, push_along
-from stonepass.model.states.opening import opening_pairs, series_through
+from stonepass.model.states.opening import series_through, solve_opening_curve
 from stonepass.studies.executor import can_travel, executor
 from stonepass.units import Pressure
 
@@ -52,7 +52,7 @@ class ClosureComparison:
         Of the paper's model and of the direct one, and why a closure has no pressure.
     series : Series or None
         The fitted one.
-    pairs : Pairs or None
+    pairs : OpeningCurve or None
         α and r_a/R_a of the direct states it was fitted to.
     """
 
@@ -62,7 +62,7 @@ class ClosureComparison:
     message: str
     warnings: tuple[str, ...] = ()
     series: Series | None = None
-    pairs: Pairs | None = None
+    pairs: OpeningCurve | None = None
 
     def error(self, name: str) -> float | None:
         """P_ucr by the closure `name` over that of the direct model, less 1; None without one."""
@@ -97,7 +97,7 @@ def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison
         return found
     printed = replace(paper.seated, case=_by(paper.case, as_printed=True))
     pressures["printed"] = balance_pressure(printed)
-    pairs = opening_pairs(case)
+    pairs = solve_opening_curve(case)
     series = None if pairs is None else series_through(case, pairs, order)
     if pairs is None or series is None:
         return found

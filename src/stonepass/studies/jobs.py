@@ -15,7 +15,7 @@ from stonepass.model.case import Case
 from stonepass.model.critical import solve
 from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.studies.executor import can_travel, executor
-from stonepass.studies.solution_cache import Store
+from stonepass.studies.solution_cache import SolutionCache
 from stonepass.units import Pressure
 
 __all__ = ["Job", "PooledSolver", "PressureJob", "Results", "SizeJob", "Solver", "run_jobs"]
@@ -40,9 +40,9 @@ class PressureJob:
 
     def run(self, folder: Path | None) -> Answer:
         """Solve it, or remember it from a folder."""
-        elements = None if folder is None else Store(folder, walls=self.wall)
+        states = None if folder is None else SolutionCache(folder, walls=self.wall)
         alone = None if self.error else LEVELS[self.case.method.accuracy].resolution
-        answer = solve(self.case, alone, elements)
+        answer = solve(self.case, alone, states)
         return answer if self.wall else answer.without_wall()
 
 
@@ -63,7 +63,7 @@ class SizeJob:
             case.load,
             case.method,
             shape=case.stone.shape,
-            elements=None if folder is None else Store(folder),
+            states=None if folder is None else SolutionCache(folder),
         )
         return replace(
             found, at_size=None if found.at_size is None else found.at_size.without_wall()

@@ -10,23 +10,23 @@ import numpy as np
 from stonepass.fe.axisymmetric.postprocessing import Field, Volume
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.case import Case
-from stonepass.model.opening_curve import Pairs
+from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.loaded import Critical, NoPush, PushedState, PushReport
 from stonepass.model.states.seated import Contact, NoSeat, SeatedState, SolverReport
-from stonepass.model.states.stability_report import Soundness
+from stonepass.model.states.stability_report import StabilityReport
 
-__all__ = ["from_plain", "to_plain"]
+__all__ = ["deserialise", "serialise"]
 
 TYPES = {
     each.__name__: each
     for each in (
-        Contact, Critical, ErrorEstimate, Field, NoPush, NoSeat, Pairs, PushReport, PushedState,
-        SeatedState, SolverReport, Soundness, Volume,
+        Contact, Critical, ErrorEstimate, Field, NoPush, NoSeat, OpeningCurve, PushReport,
+        PushedState, SeatedState, SolverReport, StabilityReport, Volume,
     )
 }  # fmt: skip
 
 
-def to_plain(value: Any) -> tuple[Any, dict[str, Any]]:
+def serialise(value: Any) -> tuple[Any, dict[str, Any]]:
     """Take a result apart: a JSON document that names arrays, and the arrays.
 
     A case is left out: who asks for a result has it.
@@ -63,17 +63,17 @@ def to_plain(value: Any) -> tuple[Any, dict[str, Any]]:
     return plain(value), arrays
 
 
-def from_plain(document: Any, arrays: dict[str, Any], case: Case) -> Any:
+def deserialise(document: Any, arrays: dict[str, Any], case: Case) -> Any:
     """Put a result together again, as that of `case`."""
     if not isinstance(document, dict):
         return document
     if "array" in document:
         return arrays[document["array"]]
     if "tuple" in document:
-        return tuple(from_plain(each, arrays, case) for each in document["tuple"])
+        return tuple(deserialise(each, arrays, case) for each in document["tuple"])
     if "case" in document and document["case"] is True:
         return case
     values = {
-        name: from_plain(part, arrays, case) for name, part in document.items() if name != "type"
+        name: deserialise(part, arrays, case) for name, part in document.items() if name != "type"
     }
     return TYPES[document["type"]](**values)

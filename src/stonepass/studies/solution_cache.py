@@ -25,13 +25,13 @@ import platformdirs
 from stonepass.errors import BadInput
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.case import Case
-from stonepass.model.opening_curve import Pairs
+from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.loaded import Critical, NoPush
 from stonepass.model.states.seated import NoSeat, SeatedState
-from stonepass.model.states.uncached import AFRESH
-from stonepass.studies.serialisation import from_plain, to_plain
+from stonepass.model.states.uncached import UNCACHED
+from stonepass.studies.serialisation import deserialise, serialise
 
-__all__ = ["Store", "default_folder"]
+__all__ = ["SolutionCache", "default_folder"]
 
 DIGEST = hashlib.sha256().digest_size
 SOLVER = ("fe", "materials", "model")  # folders whose source the results depend on
@@ -48,7 +48,7 @@ def default_folder() -> Path:
 
 
 @dataclass(frozen=True)
-class Store:
+class SolutionCache:
     """Remembers finite-element results in `folder`; with `walls` those with their stress fields.
 
     Results depend on ratios alone, so cases of another size share theirs, as do those that differ
@@ -63,7 +63,7 @@ class Store:
         asked = {"seating": case.method.seating, "friction": case.seating_friction}
 
         def solve() -> SeatedState | NoSeat:
-            found = AFRESH.seat(case, resolution)
+            found = UNCACHED.seat(case, resolution)
             return found if self.walls or isinstance(found, NoSeat) else replace(found, wall=None)
 
         return self._remembered("seat", case, asked | _mesh(case, resolution), solve)
@@ -80,13 +80,13 @@ class Store:
         }
 
         def solve() -> tuple[Critical | NoPush, ...]:
-            return tuple(map(self._slim, AFRESH.push(case, resolutions, leak=leak)))
+            return tuple(map(self._slim, UNCACHED.push(case, resolutions, leak=leak)))
 
         return list(self._remembered("push", case, asked, solve))
 
-    def pairs(self, case: Case) -> Pairs | None:
-        """See `model.states.opening.opening_pairs`."""
-        return self._remembered("pairs", case, {}, lambda: AFRESH.pairs(case))
+    def pairs(self, case: Case) -> OpeningCurve | None:
+        """See `model.states.opening.solve_opening_curve`."""
+        return self._remembered("pairs", case, {}, lambda: UNCACHED.pairs(case))
 
     def set_aside(self) -> int:
         """How many corrupt files were found so far."""
@@ -110,9 +110,9 @@ class Store:
         path = self.folder / key[:2] / key
         known = _read(path, self.folder / CORRUPT)
         if known is not None:
-            return cast(Found, from_plain(known[0], known[1], case))
+            return cast(Found, deserialise(known[0], known[1], case))
         found = solve()
-        _write(path, *to_plain(found))
+        _write(path, *serialise(found))
         return found
 
 

@@ -14,7 +14,7 @@ from scipy.stats import lognorm, truncnorm, uniform
 from stonepass.errors import BadInput, require
 from stonepass.units import format_length, length
 
-__all__ = ["Measured", "measured_length", "measured_number"]
+__all__ = ["UncertainQuantity", "measured_length", "measured_number"]
 
 _PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
@@ -25,7 +25,7 @@ FARTHEST = 6.0  # standard deviations
 
 
 @dataclass(frozen=True)
-class Measured:
+class UncertainQuantity:
     """A number and how well it is known.
 
     Attributes
@@ -78,7 +78,7 @@ class Measured:
         return f"{self.value / scale:.4g} ± {self.sd / scale:.3g}{tail}"
 
 
-def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Measured:
+def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> UncertainQuantity:
     """Read a length with its uncertainty; ``±`` is one standard deviation.
 
     Raises
@@ -91,10 +91,10 @@ def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Me
 
 def measured_number(
     text: str, argument: str, bounds: tuple[float, float], *, factor: bool = False
-) -> Measured:
+) -> UncertainQuantity:
     """Read a number without unit and its uncertainty; ``±`` is one standard deviation.
 
-    With `factor` it is one that multiplies, such as a stiffness (see `Measured`).
+    With `factor` it is one that multiplies, such as a stiffness (see `UncertainQuantity`).
     """
 
     def number(part: str) -> float:
@@ -114,7 +114,7 @@ def _read(
     read: Callable[[str], float],
     *,
     lengths: bool,
-) -> Measured:
+) -> UncertainQuantity:
     if len(text) > LONGEST:  # the patterns take long over long ones
         raise _unreadable(argument, text, lengths=lengths)
     stripped = text.strip()
@@ -135,9 +135,9 @@ def _read(
     require(low <= first <= high, argument, text, allowed)
     if spread:
         require(0.0 <= second <= high, argument, text, f"with an uncertainty from 0 to {shown[1]}")
-        return Measured(first, second, low, high)
+        return UncertainQuantity(first, second, low, high)
     require(first <= second <= high, argument, text, f"a rising range {allowed}")
-    return Measured((first + second) / 2.0, None, first, second)
+    return UncertainQuantity((first + second) / 2.0, None, first, second)
 
 
 def _unreadable(argument: str, text: str, *, lengths: bool) -> BadInput:

@@ -1,6 +1,6 @@
 """The friction coefficient from the slopes of a stone's surface (paper, section 2.3 and Eq. 18).
 
-Grey values become heights by scaling their range to the known relief; the profiles of several
+Grey values become heights by scaling their range to the known height range; the profiles of several
 paths are averaged; the mean profile has a baseline, whose largest slope is k₀, and the deviation
 from it a richer baseline, whose largest slope is k₁; μ_f = tan(arctan k₀ + arctan k₁) (Popov 2017).
 """
@@ -19,7 +19,7 @@ from jaxtyping import Float, Num
 from stonepass.errors import BadInput, require
 from stonepass.surface.baseline import POWERS, Baseline, fit_baseline
 from stonepass.surface.paths import Profiles, StraightPath, evenly_spaced, profiles_along
-from stonepass.surface.surface_image import Picture
+from stonepass.surface.surface_image import SurfaceImage
 from stonepass.units import Length, length
 
 __all__ = [
@@ -32,7 +32,7 @@ __all__ = [
     "surface_friction",
 ]
 
-CRYSTAL_DIAGONAL = sqrt(3.0)  # relief over the edge of a cubic crystal (section 2.3)
+CRYSTAL_DIAGONAL = sqrt(3.0)  # height range over the edge of a cubic crystal (section 2.3)
 RELIEF = (1e-9, 1e-2)  # m
 ORDER = (1, 200)
 RICHER = 2  # order of the deviation's baseline over that of the first
@@ -73,13 +73,13 @@ class Spread:
         μ_f without one path, for each; empty for a single path.
     orders : tuple of (int, float)
         Order of the first baseline and μ_f, the second one as much richer.
-    relief : tuple of (str, float)
-        How grey is scaled to the relief, and μ_f; empty for heights.
+    height_range : tuple of (str, float)
+        How grey is scaled to the height range, and μ_f; empty for heights.
     """
 
     paths: tuple[float, ...]
     orders: tuple[tuple[int, float], ...]
-    relief: tuple[tuple[str, float], ...]
+    height_range: tuple[tuple[str, float], ...]
 
     @property
     def sd(self) -> float | None:
@@ -87,7 +87,7 @@ class Spread:
 
         None where μ_f does not exist for one of the choices.
         """
-        parts = [_sd([mu for _, mu in self.orders]), _sd([mu for _, mu in self.relief])]
+        parts = [_sd([mu for _, mu in self.orders]), _sd([mu for _, mu in self.height_range])]
         count = len(self.paths)
         if count > 1:
             parts.append(_sd(self.paths) * (count - 1) / sqrt(count))
@@ -101,12 +101,12 @@ class SurfaceFriction:
 
     Attributes
     ----------
-    picture : Picture
+    picture : SurfaceImage
     friction : float
         μ_f (Eq. 18).
     baseline, deviation_baseline : Baseline
         Of the mean profile, and of what is left of it; their largest slopes are k₀ and k₁.
-    relief : float or None
+    height_range : float or None
         In m; None for a height map.
     distance, profiles, mean : array
         Distance from the start of the paths in m, heights along each, and their mean.
@@ -115,11 +115,11 @@ class SurfaceFriction:
     warnings : tuple of str
     """
 
-    picture: Picture
+    picture: SurfaceImage
     friction: float
     baseline: Baseline
     deviation_baseline: Baseline
-    relief: float | None
+    height_range: float | None
     paths: tuple[StraightPath, ...]
     distance: Float[np.ndarray, " n"]
     profiles: Float[np.ndarray, "paths n"]
@@ -159,13 +159,13 @@ def friction_of_slopes(k0: float, k1: float) -> float:
     require(k0 >= 0.0 and k1 >= 0.0, "slopes", f"{k0:g} and {k1:g}", "not negative")
     if k0 * k1 >= 1.0:
         raise BadInput("product of the slopes k0 and k1", f"{k0:.3g} × {k1:.3g}", "below 1",
-                       "check the relief and the pixel size")  # fmt: skip
+                       "check the height range and the pixel size")  # fmt: skip
     return (k0 + k1) / (1.0 - k0 * k1)
 
 
 def surface_friction(
-    picture: Picture,
-    relief: str | Length | None = None,
+    picture: SurfaceImage,
+    height_range: str | Length | None = None,
     paths: int | Sequence[StraightPath] = 6,
     baseline_order: int = 8,
     deviation_order: int | None = None,
@@ -174,9 +174,9 @@ def surface_friction(
 
     Parameters
     ----------
-    picture : Picture
+    picture : SurfaceImage
         With a pixel size.
-    relief : str or Length
+    height_range : str or Length
         Height from the darkest to the brightest grey, both of means over 5 × 5 pixels, 1 nm to
         10 mm; the paper takes √3 edges of its cubic crystals. Left out for a height map.
     paths : int or sequence of StraightPath
@@ -190,10 +190,10 @@ def surface_friction(
     Raises
     ------
     BadInput
-        A flat or saturated picture, a relief that is missing or too much, paths too short for the
-        baselines, or slopes with k₀ k₁ ≥ 1.
+        A flat or saturated picture, a height range that is missing or too much, paths too short
+        for the baselines, or slopes with k₀ k₁ ≥ 1.
     """
-    scale = _relief(picture, relief)
+    scale = _height_range(picture, height_range)
     first_order, second_order = _orders(baseline_order, deviation_order)
     warnings = _look_at(picture)
     chosen = _chosen(picture, paths)
@@ -236,7 +236,7 @@ def surface_friction(
     )
 
 
-def _chosen(picture: Picture, paths: Any) -> list[StraightPath]:
+def _chosen(picture: SurfaceImage, paths: Any) -> list[StraightPath]:
     if isinstance(paths, Integral) and not isinstance(paths, bool):
         return evenly_spaced(picture, int(paths))
     listed = list(paths) if isinstance(paths, Iterable) else [paths]
@@ -245,16 +245,20 @@ def _chosen(picture: Picture, paths: Any) -> list[StraightPath]:
     return listed
 
 
-def _relief(picture: Picture, relief: str | Length | None) -> float | None:
+def _height_range(picture: SurfaceImage, height_range: str | Length | None) -> float | None:
     if picture.has_heights:
-        if relief is not None:
-            raise BadInput("relief", str(relief), "left out", "a height map has its own")
+        if height_range is not None:
+            raise BadInput(
+                "height range", str(height_range), "left out", "a height map has its own"
+            )
         return None
-    if relief is None:
-        raise BadInput("relief", "missing", "given for a grey picture, as --relief or --crystal")
-    scale = length(relief, "relief")
+    if height_range is None:
+        raise BadInput(
+            "height range", "missing", "given for a grey picture, as --height-range or --crystal"
+        )
+    scale = length(height_range, "height range")
     low, high = RELIEF
-    require(low <= scale <= high, "relief", str(relief), "1 nm to 10 mm")
+    require(low <= scale <= high, "height range", str(height_range), "1 nm to 10 mm")
     return float(scale)
 
 
@@ -275,7 +279,7 @@ def _orders(first: int, second: int | None) -> tuple[int, int]:
     return found[0], found[1]
 
 
-def _look_at(picture: Picture) -> list[str]:
+def _look_at(picture: SurfaceImage) -> list[str]:
     """Refuse what is flat or cut off; warn of what looks like no surface."""
     values = picture.surface
     if picture.has_heights:
@@ -309,8 +313,8 @@ def _look_at(picture: Picture) -> list[str]:
     return told
 
 
-def _grey_ranges(picture: Picture) -> list[tuple[str, tuple[float, float]]]:
-    """Greys of height nought and of the whole relief, by each of `SCALINGS`.
+def _grey_ranges(picture: SurfaceImage) -> list[tuple[str, tuple[float, float]]]:
+    """Greys of height nought and of the whole height range, by each of `SCALINGS`.
 
     Single pixels reach further than the surface does, by their noise; their mean over a few does so
     less.
@@ -329,13 +333,13 @@ def _grey_ranges(picture: Picture) -> list[tuple[str, tuple[float, float]]]:
 
 
 def _heights(
-    values: Float[np.ndarray, "paths n"], relief: float | None, greys: tuple[float, float]
+    values: Float[np.ndarray, "paths n"], height_range: float | None, greys: tuple[float, float]
 ) -> Float[np.ndarray, "paths n"]:
-    if relief is None:
+    if height_range is None:
         return values
     low, high = greys
     require(high > low, "picture", "flat", "of a rough surface")
-    return relief * (values - low) / (high - low)
+    return height_range * (values - low) / (high - low)
 
 
 def _fit(
@@ -349,7 +353,7 @@ def _fit(
 def _spread(
     sampled: Profiles,
     heights: Float[np.ndarray, "paths n"],
-    relief: float | None,
+    height_range: float | None,
     ranges: Sequence[tuple[str, tuple[float, float]]],
     orders: tuple[int, int],
 ) -> Spread:
@@ -373,7 +377,7 @@ def _spread(
     by_scale = []
     for how, greys in ranges:
         flat = not greys[1] > greys[0]
-        scaled = np.nan if flat else friction(_heights(raw, relief, greys)[0])
+        scaled = np.nan if flat else friction(_heights(raw, height_range, greys)[0])
         by_scale.append((how, scaled))
     return Spread(tuple(map(friction, without)), tuple(by_order), tuple(by_scale))
 

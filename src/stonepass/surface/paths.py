@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.errors import BadInput, require
-from stonepass.surface.surface_image import Picture
+from stonepass.surface.surface_image import SurfaceImage
 
 __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path"]
 
@@ -65,7 +65,7 @@ def read_path(text: str) -> StraightPath:
     return StraightPath(*numbers)
 
 
-def evenly_spaced(picture: Picture, count: int) -> list[StraightPath]:
+def evenly_spaced(picture: SurfaceImage, count: int) -> list[StraightPath]:
     """Horizontal paths across the whole area, along rows evenly spaced."""
     low, high = COUNT
     area = picture.area
@@ -76,7 +76,7 @@ def evenly_spaced(picture: Picture, count: int) -> list[StraightPath]:
     return [StraightPath(area.left, row, area.right - 1.0, row) for row in rows]
 
 
-def profiles_along(picture: Picture, paths: Sequence[StraightPath]) -> Profiles:
+def profiles_along(picture: SurfaceImage, paths: Sequence[StraightPath]) -> Profiles:
     """Sample a picture along paths, bilinearly, about a pixel apart.
 
     Paths longer than the shortest one are cut to its length, so that they can be averaged.
@@ -115,7 +115,7 @@ def profiles_along(picture: Picture, paths: Sequence[StraightPath]) -> Profiles:
     return Profiles(distance, np.array(rows), (told,) if uneven else ())
 
 
-def _check(picture: Picture, path: StraightPath) -> None:
+def _check(picture: SurfaceImage, path: StraightPath) -> None:
     area = picture.area
     for x, y in ((path.x0, path.y0), (path.x1, path.y1)):
         if not (area.left <= x <= area.right - 1 and area.top <= y <= area.bottom - 1):

@@ -29,10 +29,10 @@ from stonepass.surface.pixel_size import (
     tescan_text_beside,
     zeiss_scan,
 )
-from stonepass.surface.surface_image import Area, Picture, possible_pixel
+from stonepass.surface.surface_image import Area, SurfaceImage, possible_pixel
 from stonepass.units import length
 
-__all__ = ["HEIGHT_MAPS", "load_libraries", "read_picture"]
+__all__ = ["HEIGHT_MAPS", "load_libraries", "read_surface_image"]
 
 # Ending of the name to the reader of SurfaceTopography.
 HEIGHT_MAPS = {
@@ -52,7 +52,7 @@ PLAIN = (1, 8, 32946)  # compressions of TIFF that need no codec: none, and defl
 READ, EXTRA = "read this file", "imaging"
 
 
-def read_picture(path: str | Path) -> Picture:
+def read_surface_image(path: str | Path) -> SurfaceImage:
     """Read a micrograph or a height map.
 
     Grey pictures saved as colour are grey; a palette or an opaque alpha channel is no matter. Of
@@ -68,7 +68,7 @@ def read_picture(path: str | Path) -> Picture:
     check_file(path)
     with path.open("rb") as file:
         head = file.read(16)
-    reader: Callable[[Path], Picture]
+    reader: Callable[[Path], SurfaceImage]
     if path.suffix.lower() in HEIGHT_MAPS:
         reader = _heights
     elif head[:4] in TIFF:
@@ -112,7 +112,7 @@ def _quiet() -> Iterator[None]:
         logging.disable(before)
 
 
-def _tiff(path: Path) -> Picture:
+def _tiff(path: Path) -> SurfaceImage:
     tifffile = library("tifffile", READ, EXTRA)
     with tifffile.TiffFile(path) as file:
         page = file.pages[0]
@@ -169,7 +169,7 @@ def _scan_beside(path: Path) -> tuple[Scan | None, str]:
     return (None, "") if text is None else (tescan_scan(text), "TESCAN .hdr file")
 
 
-def _plain(path: Path) -> Picture:
+def _plain(path: Path) -> SurfaceImage:
     """PNG and JPEG."""
     with path.open("rb") as file:
         head = file.read(26)
@@ -207,7 +207,7 @@ def _grey(
     scan: Scan | None,
     source: str,
     notes: list[str],
-) -> Picture:
+) -> SurfaceImage:
     """One channel of grey; an equal one for each colour counts as one."""
     if values.dtype.kind != "u" or values.dtype.itemsize > 2:
         low, high = (int(values.min()), int(values.max())) if values.size else (0, 0)
@@ -236,10 +236,10 @@ def _grey(
     else:
         bar = 0
     area = Area(0, 0, columns, rows - bar)
-    return Picture(values, pixel, full, area, "" if pixel is None else source, tuple(notes))
+    return SurfaceImage(values, pixel, full, area, "" if pixel is None else source, tuple(notes))
 
 
-def _heights(path: Path) -> Picture:
+def _heights(path: Path) -> SurfaceImage:
     if zipfile.is_zipfile(path):
         with zipfile.ZipFile(path) as packed:
             check_unpacked(path.name, sum(part.file_size for part in packed.infolist()))
@@ -260,4 +260,4 @@ def _heights(path: Path) -> Picture:
     values = np.ma.filled(heights.astype(float), np.nan).T * metre
     pixel = (float(sizes[0]) * metre / columns, float(sizes[1]) * metre / rows)
     area = Area(0, 0, columns, rows)
-    return Picture(np.ascontiguousarray(values), pixel, 0, area, "height map")
+    return SurfaceImage(np.ascontiguousarray(values), pixel, 0, area, "height map")

@@ -9,7 +9,7 @@ from jaxtyping import Num
 
 from stonepass.errors import BadInput, require
 
-__all__ = ["PIXEL", "Area", "Picture", "possible_pixel"]
+__all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]
 
 PIXEL = (1e-11, 1e-3)  # m
 OBLONG = 10.0  # largest ratio of a pixel's sides
@@ -27,7 +27,7 @@ class Area:
 
 
 @dataclass(frozen=True)
-class Picture:
+class SurfaceImage:
     """Grey values or heights, row by row from the top.
 
     Attributes
@@ -86,11 +86,11 @@ class Picture:
         area = self.area
         return self.values[area.top : area.bottom, area.left : area.right]
 
-    def with_pixel(self, size: float) -> Picture:
+    def with_pixel(self, size: float) -> SurfaceImage:
         """Return the picture with square pixels of `size` in m, whatever the file says."""
         return replace(self, pixel=(float(size), float(size)), pixel_source="as given")
 
-    def with_area(self, left: int, top: int, right: int, bottom: int) -> Picture:
+    def with_area(self, left: int, top: int, right: int, bottom: int) -> SurfaceImage:
         """Return the picture cut to an area, in pixels of the whole picture."""
         return replace(self, area=Area(left, top, right, bottom))
 

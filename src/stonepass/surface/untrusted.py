@@ -12,7 +12,7 @@ from stonepass.errors import BadInput
 from stonepass.sandbox.protocol import Text
 from stonepass.sandbox.sandbox import MEMORY, SECONDS, Limits, parse_in_child
 from stonepass.surface.limits import DECODED, SIDE, check_file
-from stonepass.surface.surface_image import Area, Picture
+from stonepass.surface.surface_image import Area, SurfaceImage
 
 __all__ = ["read_untrusted"]
 
@@ -20,8 +20,10 @@ TASK = "stonepass.surface.worker"
 TYPES = {"uint8": 1, "uint16": 2, "float64": 8}  # bytes of a number
 
 
-def read_untrusted(path: str | Path, seconds: float = SECONDS, memory: int = MEMORY) -> Picture:
-    """Read a picture as `readers.read_picture` does, in a child process that may be stopped.
+def read_untrusted(
+    path: str | Path, seconds: float = SECONDS, memory: int = MEMORY
+) -> SurfaceImage:
+    """Read a picture as `readers.read_surface_image` does, in a child process that may be stopped.
 
     Parameters
     ----------
@@ -34,8 +36,9 @@ def read_untrusted(path: str | Path, seconds: float = SECONDS, memory: int = MEM
     Raises
     ------
     BadInput
-        What `read_picture` refuses, and files that take too long, need too much memory or make
-        their decoder crash. What the child sends back is JSON and plain numbers, never a pickle.
+        What `read_surface_image` refuses, and files that take too long, need too much memory or
+        make their decoder crash. What the child sends back is JSON and plain numbers, never a
+        pickle.
     """
     path = Path(path)
     check_file(path)
@@ -49,14 +52,14 @@ def read_untrusted(path: str | Path, seconds: float = SECONDS, memory: int = MEM
         raise BadInput("image", path.name, f"{allowed} (its reader made no sense)") from problem
 
 
-def _picture(header: dict[str, Any], body: bytes) -> Picture:
+def _picture(header: dict[str, Any], body: bytes) -> SurfaceImage:
     """The picture that the child describes, believed only as far as it fits together."""
     described = _Header.model_validate(header)
     rows, columns = described.shape
     if len(body) != rows * columns * TYPES[described.type]:
         raise BadInput("image", f"{len(body)} bytes", f"{rows} × {columns} numbers")
     values = np.frombuffer(body, np.dtype(described.type)).reshape(rows, columns)
-    return Picture(
+    return SurfaceImage(
         values,
         described.pixel,
         described.full_scale,
@@ -70,7 +73,7 @@ Side = Annotated[int, Field(ge=0, le=SIDE[1])]
 
 
 class _Header(BaseModel):
-    """What the child writes before the numbers; `Picture` checks the rest."""
+    """What the child writes before the numbers; `SurfaceImage` checks the rest."""
 
     model_config = ConfigDict(extra="forbid")
     shape: tuple[Side, Side]

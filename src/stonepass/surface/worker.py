@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from stonepass.sandbox.worker import serve
-from stonepass.surface.readers import load_libraries, read_picture
+from stonepass.surface.readers import load_libraries, read_surface_image
 
 __all__ = ["parse"]
 
 
 def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
     """Read the picture of a request; its header and its numbers."""
-    picture = read_picture(Path(request["path"]))
+    picture = read_surface_image(Path(request["path"]))
     header = {
         "shape": picture.values.shape,
         "type": picture.values.dtype.name,

@@ -11,8 +11,8 @@ from stonepass.model.answer import Answer, unanswered
 from stonepass.model.case import Case
 from stonepass.model.states.loaded import Critical, NoPush, PushedState
 from stonepass.model.states.stability_report import folding_warning
-from stonepass.model.states.state_solver import Elements
-from stonepass.model.states.uncached import AFRESH
+from stonepass.model.states.state_solver import StateSolver
+from stonepass.model.states.uncached import UNCACHED
 from stonepass.model.validity import range_warnings
 
 __all__ = ["solve_by_push"]
@@ -24,23 +24,23 @@ UNDECIDED = (
 
 
 def solve_by_push(
-    case: Case, resolution: Resolution | None = None, elements: Elements = AFRESH
+    case: Case, resolution: Resolution | None = None, states: StateSolver = UNCACHED
 ) -> Answer:
     """Answer a stuck stone by the pressure at which no force is left on it."""
     level = LEVELS[case.method.accuracy]
     wanted = (level.companion, level.resolution) if resolution is None else (resolution,)
-    *coarser, found = elements.push(case, wanted, leak=resolution is None)
+    *coarser, found = states.push(case, wanted, leak=resolution is None)
     if isinstance(found, NoPush):
         return unanswered(
             case, Outcome.NO_SOLUTION, found.reason, found.newton_steps, found.seconds
         )
     coarse = coarser[0] if coarser and isinstance(coarser[0], Critical) else None
     state = found.state
-    undecided = coarse is not None and coarse.clears != found.clears
+    undecided = coarse is not None and coarse.leaks != found.leaks
     answer = Answer(
         case=case,
-        outcome=Outcome.CLEARS if found.clears else Outcome.MOVES,
-        message=(Outcome.CLEARS if found.clears else Outcome.MOVES).value,
+        outcome=Outcome.LEAKS if found.leaks else Outcome.MOVES,
+        message=(Outcome.LEAKS if found.leaks else Outcome.MOVES).value,
         pushed=state,
         leak_pressure=found.leak_pressure if coarse is None else coarse.leak_pressure,
         newton_steps=sum(each.newton_steps for each in (*coarser, found)),
@@ -53,7 +53,7 @@ def solve_by_push(
             *([UNDECIDED] if undecided else []),
         ),
     )
-    if not found.clears:
+    if not found.leaks:
         # Without friction nothing holds the stone: the root is 0, and rounding tells nothing.
         pressure = 0.0 if case.stone.friction == 0.0 else state.urine_pressure
         answer = replace(answer, pressure=pressure, critical_angle=state.contact_angle)

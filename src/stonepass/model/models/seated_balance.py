@@ -20,8 +20,8 @@ from stonepass.model.roots import first_root
 from stonepass.model.states.opening import series_through
 from stonepass.model.states.seated import Contact, NoSeat, SeatedState
 from stonepass.model.states.stability_report import folding_warning
-from stonepass.model.states.state_solver import Elements
-from stonepass.model.states.uncached import AFRESH
+from stonepass.model.states.state_solver import StateSolver
+from stonepass.model.states.uncached import UNCACHED
 from stonepass.model.validity import range_warnings
 from stonepass.units import Values
 
@@ -43,20 +43,20 @@ AT_EDGE = (
 
 
 def solve_by_balance(
-    case: Case, resolution: Resolution | None = None, elements: Elements = AFRESH
+    case: Case, resolution: Resolution | None = None, states: StateSolver = UNCACHED
 ) -> Answer:
     """Answer a stuck stone by its seated contact, the closure and the far field."""
     if _closure_start(case) is None:
         reason = "the far field without the ground matrix has no lumen under this load"
         return unanswered(case, Outcome.NO_SOLUTION, reason)
-    seated = elements.seat(case, resolution)
+    seated = states.seat(case, resolution)
     if isinstance(seated, NoSeat):
         return unanswered(
             case, Outcome.NO_SOLUTION, seated.reason, seated.newton_steps, seated.seconds
         )
     if case.method.closure == "linear":
         return _balance(case, seated)
-    series = _series(case, seated, elements)
+    series = _series(case, seated, states)
     if series is None:
         did = seated.solver
         return unanswered(case, Outcome.NO_SOLUTION, NO_PAIRS, did.newton_steps, did.seconds)
@@ -76,7 +76,7 @@ def with_whole_law(seated: SeatedState) -> SeatedState:
     return replace(seated, case=case, coarse=coarse)
 
 
-def _series(case: Case, seated: SeatedState, elements: Elements) -> Series | None:
+def _series(case: Case, seated: SeatedState, states: StateSolver) -> Series | None:
     """The closure fitted to the pairs given, or to direct states of the case."""
     width, order, pairs = case.stone.shape.width, case.method.series_order, case.method.pairs
     if pairs is not None:
@@ -93,7 +93,7 @@ def _series(case: Case, seated: SeatedState, elements: Elements) -> Series | Non
         within = bool(low <= opened.min() and opened.max() <= high)
         require(within, "pairs", shown, allowed, "give more pairs or a lower order")
         return fitted
-    found = elements.pairs(case)
+    found = states.pairs(case)
     return None if found is None else series_through(case, found, order)
 
 

@@ -42,10 +42,10 @@ from stonepass.model.far_field import stuck_lumen
 from stonepass.model.states.first_guess import wrap_round_arc
 from stonepass.model.states.nondimensional import profile_of, tube_of
 from stonepass.model.states.stability_report import (
-    Soundness,
+    StabilityReport,
     far_field_hint,
     oversize_hint,
-    soundness,
+    stability_of,
     waves,
 )
 from stonepass.units import Pressure, pressure
@@ -128,7 +128,7 @@ class PushedState:
         Deformed wall and Cauchy stress (Pa, tension positive) of the whole tube, lengths in inner
         radii, z from the stone's widest place downstream.
     solver : PushReport
-    soundness : Soundness
+    stability : StabilityReport
         Stability of the wall's own law in this state, kinks left out.
     kinked : bool
         Whether the law was relaxed somewhere: axial fibres compressed until they kink.
@@ -145,7 +145,7 @@ class PushedState:
     downstream_stretch: float
     wall: Field | None
     solver: PushReport
-    soundness: Soundness
+    stability: StabilityReport
     kinked: bool
 
     @property
@@ -181,15 +181,15 @@ class PushedState:
                 f"the axial forces on tube and stone miss their balance by "
                 f"{self.solver.axial_balance:.1%}"
             )
-        if self.kinked and self.soundness.margin <= 0.0:
-            R, Z = self.soundness.weakest_at
+        if self.kinked and self.stability.margin <= 0.0:
+            R, Z = self.stability.weakest_at
             found.append(
                 f"the wall kinks at R = {R:.3g}, Z = {Z:.3g} (inner radii, downstream positive), "
                 "where its axial fibres are compressed: it is solved with the energy that it has "
                 "in the limit of fine kinks"
             )
-            return [*found, *self.soundness.folding()]
-        return [*found, *self.soundness.warnings()]
+            return [*found, *self.stability.folding()]
+        return [*found, *self.stability.warnings()]
 
     def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
         """Pressure on the stone in Pa at any θ in [0, π]: P_u before the contact, 0 behind it."""
@@ -219,13 +219,13 @@ class Critical:
     leak_pressure : float or None
         P_u in Pa at which urine passes the held stone; None where it was not asked for, or not
         found.
-    clears : bool
+    leaks : bool
         Whether urine passes first.
     """
 
     state: PushedState
     leak_pressure: float | None
-    clears: bool
+    leaks: bool
 
     @property
     def newton_steps(self) -> int:
@@ -321,7 +321,7 @@ def critical_push(
             continue
         with one_thread():
             critical = _critical(case, ready, guess, started, leak=leak and not found)
-        if isinstance(critical, Critical) and not critical.clears:
+        if isinstance(critical, Critical) and not critical.leaks:
             guess = critical.state.urine_pressure / ready.modulus
         found.append(critical)
     return found
@@ -389,7 +389,7 @@ def _critical(
     if isinstance(found, Slid) and _sealed(found):
         state = _state(case, ready, found, started)
         passed = _leak(slide, found, ready.opening)[0] if leak else None
-        return Critical(state, None if passed is None else passed * ready.modulus, clears=False)
+        return Critical(state, None if passed is None else passed * ready.modulus, leaks=False)
     start = slide.held(LOW_START * ready.opening, friction)
     if isinstance(start, Slid):
         passed, last = _leak(slide, start, ready.opening)
@@ -398,7 +398,7 @@ def _critical(
             again = slide.held(last.pressure, friction)  # the search may have gone on from there
             if isinstance(again, Slid):
                 state = _state(case, ready, again, started)
-                return Critical(state, passed * ready.modulus, clears=True)
+                return Critical(state, passed * ready.modulus, leaks=True)
     reason = found if isinstance(found, Failure) else Failure(UNSEALED, found.steps)
     return _no_push(case, reason, started)
 
@@ -474,7 +474,7 @@ def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedStat
             axial_balance=loaded_balance(slide, found.pressure, found.force),
             penetration=found.penetration,
         ),
-        soundness=soundness(case, slide, in_pascals),
+        stability=stability_of(case, slide, in_pascals),
         kinked=_kinked(case, slide),
     )
 

@@ -1,4 +1,4 @@
-"""Pairs of opened angle and radius from direct states: what Eqs 13–14 ask to be fitted."""
+"""Opening curve of one stone from loaded states: the angles and radii that Eqs 13–14 are fitted to."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from stonepass.model.accuracy import LEVELS
 from stonepass.model.case import Case
 from stonepass.model.closure import Series, fit_series
 from stonepass.model.energy_balance import opened_radius, opening_pressure
-from stonepass.model.opening_curve import Pairs
+from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.loaded import PushedState, push_along
 from stonepass.units import Pressure
 
-__all__ = ["opening_pairs", "series_through"]
+__all__ = ["series_through", "solve_opening_curve"]
 
 PAIRS = 13
 LAST = 0.95  # of the pressure that opens the tube to R_s
 
 
-def opening_pairs(case: Case) -> Pairs | None:
+def solve_opening_curve(case: Case) -> OpeningCurve | None:
     """α and r_a/R_a of frictionless direct states with rising P_u, from P_u = 0 on, α up to 90°.
 
     Without friction, because the series begins at the seated stone, as the wall opens then. None
@@ -36,10 +36,10 @@ def opening_pairs(case: Case) -> Pairs | None:
     if not found:
         return None
     alpha, radius = zip(*found, strict=True)
-    return Pairs(alpha, radius)
+    return OpeningCurve(alpha, radius)
 
 
-def series_through(case: Case, pairs: Pairs, order: int) -> Series | None:
+def series_through(case: Case, pairs: OpeningCurve, order: int) -> Series | None:
     """Fit the series to pairs whose first is the seated stone; None where there are too few."""
     alpha, radius = pairs.arrays
     if len(alpha) <= order:

@@ -31,10 +31,10 @@ from stonepass.model.far_field import stuck_lumen
 from stonepass.model.states.first_guess import wrap_round_arc
 from stonepass.model.states.nondimensional import profile_of, tube_of
 from stonepass.model.states.stability_report import (
-    Soundness,
+    StabilityReport,
     far_field_hint,
     oversize_hint,
-    soundness,
+    stability_of,
     waves,
 )
 
@@ -134,7 +134,7 @@ class SeatedState(Contact):
         stone's widest place downstream; of a stone whose halves are mirror images the half z ≥ 0.
         None where it was not kept (curves).
     solver : SolverReport
-    soundness : Soundness
+    stability : StabilityReport
         Stability of the wall, and whether it would fold.
     contact_angle_slack : float
         How far α₀ is known in rad where the contact edge could not be made an unknown, else 0.
@@ -147,14 +147,14 @@ class SeatedState(Contact):
     friction_traction: Float[np.ndarray, " n"]
     wall: Field | None
     solver: SolverReport
-    soundness: Soundness
+    stability: StabilityReport
     contact_angle_slack: float = 0.0
     coarse: Contact | None = None
     error: ErrorEstimate | None = None
 
     def warnings(self) -> list[str]:
         """What a reader of the state must know."""
-        found = self.soundness.warnings()
+        found = self.stability.warnings()
         if self.solver.axial_balance > IMBALANCE:
             found.append(
                 f"the axial forces on the tube miss their balance by "
@@ -278,7 +278,7 @@ def _state(case: Case, solved: Fitted, started: float) -> SeatedState:
             cone_excess=cone_excess(solved),
             dissipated=(1.0 if solved.layout.whole else 2.0) * modulus * solved.dissipated,
         ),
-        soundness=soundness(case, solved, in_pascals),
+        stability=stability_of(case, solved, in_pascals),
         contact_angle_slack=solved.slack
         * case.load.prestretch
         / (case.size_ratio * case.stone.aspect),

@@ -17,11 +17,18 @@ from stonepass.model.case import Case, Load
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.states.nondimensional import tube_of
 
-__all__ = ["Soundness", "far_field_hint", "folding_warning", "oversize_hint", "soundness", "waves"]
+__all__ = [
+    "StabilityReport",
+    "far_field_hint",
+    "folding_warning",
+    "oversize_hint",
+    "stability_of",
+    "waves",
+]
 
 
 @dataclass(frozen=True)
-class Soundness:
+class StabilityReport:
     """Stability of the solved wall; places are reference coordinates R/R_a, Z/R_a.
 
     Attributes
@@ -83,7 +90,7 @@ def folding_warning(case: Case) -> list[str]:
     ]
 
 
-def soundness(case: Case, solved: Solved, wall: Field) -> Soundness:
+def stability_of(case: Case, solved: Solved, wall: Field) -> StabilityReport:
     """Check strong ellipticity and hoop compression at points of every element."""
     law = case.ureter.material.law
     F, some = deformation(solved), _some_points(wall)
@@ -91,7 +98,7 @@ def soundness(case: Case, solved: Solved, wall: Field) -> Soundness:
     worst = weakest(law, np.column_stack([*columns, F.F_tt[:, some].ravel()]))
     compression = wall.stress_rr - wall.stress_tt
     most = int(np.argmax(compression))
-    return Soundness(
+    return StabilityReport(
         margin=worst.stiffness,
         weakest_at=(
             float(wall.R[:, some].flat[worst.index]),

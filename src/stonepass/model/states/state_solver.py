@@ -6,18 +6,18 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from stonepass.model.case import Case
-from stonepass.model.opening_curve import Pairs
+from stonepass.model.opening_curve import OpeningCurve
 
 if TYPE_CHECKING:  # each loads the finite elements
     from stonepass.fe.axisymmetric.problem import Resolution
     from stonepass.model.states.loaded import Critical, NoPush
     from stonepass.model.states.seated import NoSeat, SeatedState
 
-__all__ = ["Elements"]
+__all__ = ["StateSolver"]
 
 
 @runtime_checkable
-class Elements(Protocol):
+class StateSolver(Protocol):
     """A source of finite-element results: `uncached` solves, `studies.solution_cache` remembers."""
 
     def seat(self, case: Case, resolution: Resolution | None) -> SeatedState | NoSeat:
@@ -28,5 +28,5 @@ class Elements(Protocol):
     ) -> list[Critical | NoPush]:
         """See `model.states.loaded.critical_push`."""
 
-    def pairs(self, case: Case) -> Pairs | None:
-        """See `model.states.opening.opening_pairs`."""
+    def pairs(self, case: Case) -> OpeningCurve | None:
+        """See `model.states.opening.solve_opening_curve`."""

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.case import Case
-from stonepass.model.opening_curve import Pairs
+from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.loaded import Critical, NoPush, critical_push
-from stonepass.model.states.opening import opening_pairs
+from stonepass.model.states.opening import solve_opening_curve
 from stonepass.model.states.seated import NoSeat, SeatedState, seat
-from stonepass.model.states.state_solver import Elements
+from stonepass.model.states.state_solver import StateSolver
 
-__all__ = ["AFRESH"]
+__all__ = ["UNCACHED"]
 
 
-class _Afresh:
+class _Uncached:
     def seat(self, case: Case, resolution: Resolution | None) -> SeatedState | NoSeat:
         return seat(case, resolution)
 
@@ -24,8 +24,8 @@ class _Afresh:
     ) -> list[Critical | NoPush]:
         return critical_push(case, resolutions, leak=leak)
 
-    def pairs(self, case: Case) -> Pairs | None:
-        return opening_pairs(case)
+    def pairs(self, case: Case) -> OpeningCurve | None:
+        return solve_opening_curve(case)
 
 
-AFRESH: Elements = _Afresh()
+UNCACHED: StateSolver = _Uncached()

@@ -1,4 +1,4 @@
-"""Opening curve of one stone from loaded states: the angles and radii that Eqs 13–14 are fitted to."""
+"""The opening curve of one stone from loaded states, to which Eqs 13–14 are fitted."""
 
 from __future__ import annotations
 

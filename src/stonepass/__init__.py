@@ -1,4 +1,4 @@
-"""At what urine pressure does a kidney stone pass a ureter, and how large may it be?
+"""At what urine pressure does a kidney stone pass a ureter, and what is the largest that can?
 
 A Python implementation of the stone–ureter interaction model of Liu et al. 2022
 (doi 10.1016/j.jmbbm.2022.105432), with its errata corrected openly. Research use only.
@@ -19,18 +19,33 @@ if TYPE_CHECKING:
     from stonepass.clinic.assessment import Assessment, assess
     from stonepass.clinic.patient import read_patient
     from stonepass.errors import BadInput, Outcome, StonepassError
+    from stonepass.inputs.case_file import read_case, write_case
     from stonepass.inputs.material_file import load_material
     from stonepass.inputs.measured_pressures import read_points
+    from stonepass.inputs.opening_curve_file import read_opening_curve
+    from stonepass.inputs.schema import case_schema
     from stonepass.inputs.shape_file import read_shape
     from stonepass.materials.protocol import Material
-    from stonepass.model.answer import Answer
-    from stonepass.model.case import Case, Load, Method, Stone, Ureter
+    from stonepass.model.answer import Answer, Model
+    from stonepass.model.case import Case
+    from stonepass.model.case_states import push_through, seat
+    from stonepass.model.caution import Caution
     from stonepass.model.critical import critical_pressure, solve
+    from stonepass.model.load import Load
+    from stonepass.model.models.elastic_foundation import ElasticFoundation
+    from stonepass.model.models.push_through import PushThrough
+    from stonepass.model.models.seated_balance import SeatedBalance
+    from stonepass.model.numerics import Numerics
+    from stonepass.model.opening_curve import OpeningCurve
     from stonepass.model.shape import Shape
     from stonepass.model.shape_fit import shape_through
     from stonepass.model.size import SizeAnswer, critical_size
-    from stonepass.model.states.loaded import PushedState, push_through
-    from stonepass.model.states.seated import SeatedState, seat
+    from stonepass.model.states.loaded_state import PushedState
+    from stonepass.model.states.seated_state import SeatedState
+    from stonepass.model.stone import Stone
+    from stonepass.model.ureter import Ureter
+    from stonepass.records.answer import AnswerRecord, answer_record
+    from stonepass.records.size import SizeRecord, size_record
     from stonepass.surface.friction import SurfaceFriction, surface_friction
     from stonepass.surface.paths import StraightPath
     from stonepass.surface.readers import read_surface_image
@@ -42,72 +57,98 @@ __version__ = VERSION
 # Every public name and the module it lives in; nothing is imported before it is used.
 _HOME = {
     "Answer": "model.answer",
+    "AnswerRecord": "records.answer",
     "Assessment": "clinic.assessment",
     "BadInput": "errors",
     "Case": "model.case",
-    "Load": "model.case",
+    "Caution": "model.caution",
+    "ElasticFoundation": "model.models.elastic_foundation",
+    "Load": "model.load",
     "Material": "materials.protocol",
-    "Method": "model.case",
+    "Model": "model.answer",
+    "Numerics": "model.numerics",
+    "OpeningCurve": "model.opening_curve",
     "Outcome": "errors",
-    "SurfaceImage": "surface.surface_image",
-    "PushedState": "model.states.loaded",
-    "SeatedState": "model.states.seated",
+    "PushThrough": "model.models.push_through",
+    "PushedState": "model.states.loaded_state",
+    "SeatedBalance": "model.models.seated_balance",
+    "SeatedState": "model.states.seated_state",
     "Setting": "bench.comparison",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
-    "Stone": "model.case",
+    "SizeRecord": "records.size",
+    "Stone": "model.stone",
     "StonepassError": "errors",
     "StraightPath": "surface.paths",
     "SurfaceFriction": "surface.friction",
-    "Ureter": "model.case",
+    "SurfaceImage": "surface.surface_image",
+    "Ureter": "model.ureter",
+    "answer_record": "records.answer",
     "assess": "clinic.assessment",
+    "case_schema": "inputs.schema",
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
     "fit_friction": "bench.invitro",
     "fit_law": "bench.law_fit",
     "load_material": "inputs.material_file",
-    "push_through": "model.states.loaded",
+    "push_through": "model.case_states",
+    "read_case": "inputs.case_file",
     "read_inflation": "bench.test_data",
+    "read_opening_curve": "inputs.opening_curve_file",
     "read_patient": "clinic.patient",
-    "read_surface_image": "surface.readers",
     "read_points": "inputs.measured_pressures",
     "read_shape": "inputs.shape_file",
+    "read_surface_image": "surface.readers",
     "read_tension": "bench.test_data",
     "read_untrusted": "surface.untrusted",
-    "seat": "model.states.seated",
+    "seat": "model.case_states",
     "shape_through": "model.shape_fit",
+    "size_record": "records.size",
     "solve": "model.critical",
     "surface_friction": "surface.friction",
+    "write_case": "inputs.case_file",
 }
 
 __all__ = [
     "Answer",
+    "AnswerRecord",
     "Assessment",
     "BadInput",
     "Case",
+    "Caution",
+    "ElasticFoundation",
     "Load",
     "Material",
-    "Method",
+    "Model",
+    "Numerics",
+    "OpeningCurve",
     "Outcome",
+    "PushThrough",
     "PushedState",
+    "SeatedBalance",
     "SeatedState",
     "Setting",
     "Shape",
     "SizeAnswer",
+    "SizeRecord",
     "Stone",
     "StonepassError",
     "StraightPath",
     "SurfaceFriction",
     "SurfaceImage",
     "Ureter",
+    "answer_record",
     "assess",
+    "case_schema",
     "critical_pressure",
     "critical_size",
     "fit_friction",
     "fit_law",
     "load_material",
     "push_through",
+    "read_case",
     "read_inflation",
+    "read_opening_curve",
     "read_patient",
     "read_points",
     "read_shape",
@@ -116,8 +157,10 @@ __all__ = [
     "read_untrusted",
     "seat",
     "shape_through",
+    "size_record",
     "solve",
     "surface_friction",
+    "write_case",
 ]
 
 

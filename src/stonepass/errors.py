@@ -10,6 +10,7 @@ from typing import Any, NoReturn, Self
 
 __all__ = [
     "BadInput",
+    "Misplaced",
     "Outcome",
     "StonepassError",
     "UnstableLaw",
@@ -36,7 +37,11 @@ class BadInput(StonepassError, ValueError):
 
     def within(self, file: str) -> Self:
         """Return the same refusal, of something that stands in a file."""
-        return type(self)(f"in {file}, {self.argument}", self.value, self.allowed, self.remedy)
+        return self.named(f"in {file}, {self.argument}")
+
+    def named(self, argument: str) -> Self:
+        """Return the same refusal with another name of the argument, as the door calls it."""
+        return type(self)(argument, self.value, self.allowed, self.remedy)
 
     def __str__(self) -> str:
         tail = f"; {self.remedy}" if self.remedy else ""
@@ -75,24 +80,41 @@ class UnstableLaw(BadInput):
         return _clean(f"{self.argument} '{name}' is not stable: {self.allowed}{tail}.")
 
 
-class Outcome(enum.Enum):
-    """How a question ended; the value is the sentence a person reads."""
+class Misplaced(BadInput):
+    """An input was given that the rest of the request leaves no place for.
 
-    MOVES = "The stone moves once the urine pressure above it reaches the critical pressure."
-    LOOSE = "The stone is no larger than the lumen: it is not stuck, no pressure is needed."
-    LEAKS = "Urine passes the stone before the stone moves."
+    `value` says what it does not go with, e.g. "the model 'paper'"; `allowed` says where it does.
+    """
+
+    def __str__(self) -> str:
+        tail = f"; {self.remedy}" if self.remedy else ""
+        allowed = f": it {self.allowed}" if self.allowed else ""
+        return _clean(f"{self.argument} cannot be used with {_shown(self.value)}{allowed}{tail}.")
+
+
+class Outcome(enum.Enum):
+    """How a question ended; the value says it in words, without the period of a sentence."""
+
+    MOVES = "The stone moves once the urine pressure above it reaches the critical pressure"
+    SOLVED = "The critical size was found"
+    LOOSE = "The stone is no larger than the lumen: it is not stuck, no pressure is needed"
+    LEAKS = "Urine passes the stone before the stone moves"
     BEYOND_CLOSURE = (
         "Drive and resistance do not balance before the paper's closure ends (contact angle 90°): "
-        "this model has no answer; the direct push-through model is the way on."
+        "this model has no answer; the direct push-through model is the way on"
     )
-    NO_SOLUTION = "No equilibrium was found."
-    BELOW_RANGE = "Every stuck stone needs more than the pressure limit."
-    BEYOND_RANGE = "The pressure limit is not reached within the strain range of the material."
+    NO_SOLUTION = "No equilibrium was found"
+    BELOW_RANGE = "Every stuck stone needs more than the pressure limit"
+    BEYOND_RANGE = "The pressure limit is not reached within the strain range of the material"
 
     @property
     def answered(self) -> bool:
         """Whether the outcome is an answer (exit code 0) rather than the lack of one."""
-        return self in (Outcome.MOVES, Outcome.LOOSE, Outcome.LEAKS)
+        return self in (Outcome.MOVES, Outcome.SOLVED, Outcome.LOOSE, Outcome.LEAKS)
+
+    def sentence(self, reason: str = "") -> str:
+        """The outcome as a sentence, with the reason where there is one."""
+        return f"{self.value}: {reason}." if reason else f"{self.value}."
 
 
 def require(condition: bool, argument: str, value: Any, allowed: str, remedy: str = "") -> None:

@@ -87,7 +87,7 @@ def inflation(
 ) -> int:
     """Fit to a tube under pressure: pressure_kPa, inner_ or outer_diameter_mm[, axial_stretch]."""
     from stonepass.bench.test_data import read_inflation
-    from stonepass.model.case import Ureter
+    from stonepass.model.ureter import Ureter
 
     tube = Ureter(inner, outer)
     inputs = {

@@ -10,8 +10,6 @@ import typer
 from stonepass.cli.options import Json, Settings, takes_settings
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from stonepass.model.answer import Answer
 
 __all__ = ["command"]
@@ -45,7 +43,6 @@ def command(
     writable(save, (".toml",))
     case = settings.case()
     from stonepass.model.critical import solve
-    from stonepass.records.answer import record
 
     if save is not None:
         from stonepass.inputs.case_file import write_case
@@ -55,7 +52,9 @@ def command(
         answer = solve(case)
     warn(_write(answer, profile, figure))
     if json:
-        print_json(record(answer))
+        from stonepass.records.answer import answer_record
+
+        print_json(answer_record(answer).to_dict())
     else:
         from stonepass.report.table import pressure_table
 
@@ -68,29 +67,15 @@ def _write(answer: Answer, profile: Path | None, figure: Path | None) -> list[st
     """Write what was asked for; where no stone is seated there is nothing, and that is said."""
     if profile is None and figure is None:
         return []
-    if answer.touch is None:
+    if answer.contact is None:
         return ["no stone is seated, so neither profile nor figure was written"]
     if profile is not None:
-        from stonepass.records.answer import write_profile
+        from stonepass.records.profile import write_profile
 
-        write_profile(answer.touch, profile)
+        write_profile(answer.contact, profile)
     if figure is not None:
+        from stonepass.report.answer_figure import answer_figure
         from stonepass.report.style import save
 
-        save(_figure(answer), figure)
+        save(answer_figure(answer), figure)
     return []
-
-
-def _figure(answer: Answer) -> Figure:
-    """The picture of the model that answered; each loads what it draws."""
-    if answer.beam is not None:
-        from stonepass.report.beam_figure import beam_figure
-
-        return beam_figure(answer)
-    if answer.pushed is not None:
-        from stonepass.report.push_figure import push_figure
-
-        return push_figure(answer)
-    from stonepass.report.case_figure import case_figure
-
-    return case_figure(answer)

@@ -6,17 +6,19 @@ from typing import Annotated
 
 import typer
 
-from stonepass.cli.options import Json, Settings, takes_settings
+from stonepass.cli.options import STONE_SIZE, Json, Settings, takes_settings
 
 __all__ = ["command"]
 
 
-@takes_settings("stone", "xi")
+@takes_settings(*STONE_SIZE)
 def command(
     settings: Settings,
     limit: Annotated[
         str,
-        typer.Option("--limit", metavar="PRESSURE", help="Bearable urine pressure, e.g. 12kPa."),
+        typer.Option(
+            "--limit", metavar="PRESSURE", help="Maximum tolerable urine pressure, e.g. 12kPa."
+        ),
     ],
     json: Json = False,
 ) -> int:
@@ -24,17 +26,24 @@ def command(
 
     Give --eta, or --inner and --outer, or CASE.toml (its stone's size is ignored).
     """
-    ureter, load, method = settings.ureter(), settings.load(), settings.method()
+    case = settings.sizeless_case()
     from stonepass.cli.terminal import print_json, show, warn, working
     from stonepass.model.size import critical_size
-    from stonepass.records.answer import size_record
 
     with working("searching the critical size"):
         answer = critical_size(
-            ureter, limit, settings.friction_value(), load, method, shape=settings.shape_value()
+            case.ureter,
+            limit,
+            case.stone.friction,
+            case.load,
+            case.model,
+            case.numerics,
+            shape=case.stone.shape,
         )
     if json:
-        print_json(size_record(answer))
+        from stonepass.records.size import size_record
+
+        print_json(size_record(answer).to_dict())
     else:
         from stonepass.report.table import size_table
 

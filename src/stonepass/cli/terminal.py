@@ -7,7 +7,7 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -36,9 +36,9 @@ def show(*parts: Any) -> None:
         _OUT.print(part, soft_wrap=sentence, markup=not sentence)
 
 
-def warn(sentences: tuple[str, ...] | list[str]) -> None:
-    """Print warnings on stderr."""
-    for sentence in sentences:
+def warn(warnings: Iterable[object]) -> None:
+    """Print warnings on stderr: sentences, or cautions that have one."""
+    for sentence in map(str, warnings):
         _ERR.print(f"warning: {sentence}", style="yellow", soft_wrap=True, markup=False)
 
 

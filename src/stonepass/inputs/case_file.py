@@ -1,91 +1,49 @@
-"""Case files: TOML text to a `Case` and back."""
+"""Case files: TOML text to a `Case` and back, by the declared inputs."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import tomli_w
-from pydantic import BaseModel, ConfigDict
 
-from stonepass.errors import BadInput
-from stonepass.inputs.material_file import find_material
-from stonepass.inputs.opening_curve_file import read_opening_curve
-from stonepass.inputs.shape_file import read_shape
-from stonepass.io.toml_file import read_toml
-from stonepass.materials.protocol import names_a_file
-from stonepass.model.case import Case, Load, Method, Stone, Ureter
-from stonepass.units import Pressure, format_length, format_pressure
+from stonepass.declaration import DeclaredInput, Kind, inputs_of
+from stonepass.errors import BadInput, refuse_unknown
+from stonepass.inputs.build import build_case, in_words
+from stonepass.inputs.catalogue import MODEL, all_inputs, sections
+from stonepass.inputs.material_file import material_table
+from stonepass.inputs.opening_curve_file import opening_curve_table
+from stonepass.inputs.shape_file import shape_table
+from stonepass.io.toml_document import read_document
+from stonepass.materials.protocol import Material, names_a_file
+from stonepass.model.case import Case
+from stonepass.model.opening_curve import OpeningCurve
+from stonepass.model.shape import Shape
+from stonepass.units import Length, Pressure, format_length, format_pressure
 
-__all__ = ["FileSection", "LoadSection", "MethodSection", "read_case", "write_case"]
+__all__ = ["WORDS", "read_case", "read_values", "values_of", "write_case"]
 
-
-class FileSection(BaseModel):
-    """A section of a TOML file: no unknown keys, no conversions."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-
-class _Stone(FileSection):
-    diameter: str | None = None
-    friction: float = 0.5
-    size_ratio: float | None = None
-    aspect: float | None = None
-    shape: str | None = None
-
-
-class _Ureter(FileSection):
-    inner_diameter: str | None = None
-    outer_diameter: str | None = None
-    wall_ratio: float | None = None
-    material: str = "ureter"
-
-
-class LoadSection(FileSection):
-    """``[load]``, see `Load`."""
-
-    confining_pressure: str = "0 kPa"
-    confinement: str = "dead"
-    prestretch: float = 1.0
+REQUIRED = ("stone", "ureter")
+# What TOML has for an input of a kind; a table stands for what could also be a file.
+_TYPES: dict[Kind, tuple[tuple[type, ...], str]] = {
+    Kind.LENGTH: ((str,), "text in quotes"),
+    Kind.PRESSURE: ((str,), "text in quotes"),
+    Kind.NUMBER: ((int, float), "a number"),
+    Kind.WHOLE: ((int,), "a number"),
+    Kind.FLAG: ((bool,), "true or false"),
+    Kind.CHOICE: ((str,), "text in quotes"),
+    Kind.MATERIAL: ((str, dict), "text in quotes or a table"),
+    Kind.SHAPE: ((str, dict), "text in quotes or a table"),
+    Kind.OPENING_CURVE: ((str, dict), "text in quotes or a table"),
+}
+# Inputs as a case file names them, by their title in Python.
+WORDS = {each.title: f"'{each.key}'" for each in all_inputs().values()}
 
 
-class MethodSection(FileSection):
-    """``[method]``, see `Method`; files are named as seen from the file's folder."""
-
-    model: str = "paper"
-    seating: str = "pressed"
-    seating_friction: float | None = None
-    half_length: float = 10.0
-    as_printed: bool = False
-    closure_start: str = "inner-radius"
-    closure: str = "linear"
-    series_order: int = 3
-    pairs: str | None = None
-    far_field_ground: bool = False
-    wetted: bool = False
-    accuracy: str = "standard"
-    circumferential_modulus: str | None = None
-    longitudinal_modulus: str | None = None
-    secant_stretch: float | None = None
-
-    def method(self, folder: Path) -> Method:
-        """Make the method."""
-        given = self.model_dump()
-        if self.pairs is not None:
-            given["pairs"] = read_opening_curve(folder / self.pairs)
-        return Method(**given)
-
-
-class _CaseFile(FileSection):
-    stone: _Stone
-    ureter: _Ureter
-    load: LoadSection = LoadSection()
-    method: MethodSection = MethodSection()
-
-
-def read_case(path: Path) -> Case:
-    """Read a case file; files of materials, shapes and pairs are looked for beside it.
+def read_case(path: str | Path) -> Case:
+    """Read a case file; files of materials, shapes and opening curves are looked for beside it.
 
     Raises
     ------
@@ -93,76 +51,104 @@ def read_case(path: Path) -> Case:
         Naming the file and the key: missing file, broken TOML, unknown key (with the nearest
         known one), wrong type, or a value that a `Case` refuses.
     """
-    parsed = read_toml(path, _CaseFile)
-    stone, ureter = parsed.stone.model_dump(), parsed.ureter.model_dump()
+    path = Path(path)
+    values = read_values(path)
     try:
-        if parsed.stone.shape is not None:
-            stone["shape"] = read_shape(path.parent / parsed.stone.shape)
-        ureter["material"] = find_material(parsed.ureter.material, path.parent)
-        return Case(
-            Stone(**stone),
-            Ureter(**ureter),
-            Load(**parsed.load.model_dump()),
-            parsed.method.method(path.parent),
-        )
+        return build_case(values, path.parent)
     except BadInput as problem:
-        raise problem.within(path.name) from problem
+        raise in_words(problem, WORDS).within(path.name) from problem
+
+
+def read_values(path: Path) -> dict[str, Any]:
+    """The raw values of a case file by key, checked for unknown keys and types only."""
+    document, known = read_document(path), sections()
+    for section, keys in document.items():
+        if section not in known:
+            refuse_unknown(f"in {path.name}, key", section, list(known))
+        if not isinstance(keys, dict):
+            raise BadInput(f"in {path.name}, '{section}'", keys, f"a section, written [{section}]")
+    for section in REQUIRED:
+        if section not in document:
+            raise BadInput(f"in {path.name}, '{section}'", "missing", "given")
+    return {
+        f"{section}.{name}": _checked(path, known[section], section, name, value)
+        for section, keys in document.items()
+        for name, value in keys.items()
+    }
+
+
+def _checked(
+    path: Path, known: Mapping[str, DeclaredInput], section: str, name: str, value: Any
+) -> Any:
+    if name not in known:
+        refuse_unknown(f"in {path.name}, key of [{section}]", name, list(known))
+    types, allowed = _TYPES[known[name].declaration.kind]
+    is_flag = isinstance(value, bool)
+    if not isinstance(value, types) or (is_flag and bool not in types):
+        raise BadInput(f"in {path.name}, '{section}.{name}'", value, allowed)
+    return value
 
 
 def write_case(case: Case, path: Path) -> None:
-    """Write a case so that `read_case` gives it back."""
-    stone, ureter, load, method = case.stone, case.ureter, case.load, case.method
-    reference = ureter.material.reference
-    if not reference:
-        raise BadInput("material", ureter.material.name, "from the catalogue or a file to be saved")
-    if names_a_file(reference):
-        reference = _beside(path, reference)
-    shape = stone.shape
-    if not shape.spheroidal and not shape.reference:
-        raise BadInput("shape of the stone", "made in Python", "from a file to be saved")
-    pairs = method.pairs
-    if pairs is not None and not pairs.reference:
-        raise BadInput("pairs", "made in Python", "from a file to be saved")
-    document: dict[str, dict[str, Any]] = {
-        "stone": {
-            "diameter": None if stone.diameter is None else format_length(stone.diameter),
-            "size_ratio": stone.size_ratio,
-            "friction": stone.friction,
-            "aspect": shape.aspect if shape.spheroidal and not shape.reference else None,
-            "shape": _beside(path, shape.reference) if shape.reference else None,
-        },
-        "ureter": {
-            "inner_diameter": _length(ureter.inner_diameter),
-            "outer_diameter": _length(ureter.outer_diameter),
-            "wall_ratio": None if ureter.outer_diameter is not None else ureter.wall_ratio,
-            "material": reference,
-        },
-        "load": {
-            "confining_pressure": format_pressure(load.confining_pressure),
-            "confinement": load.confinement,
-            "prestretch": load.prestretch,
-        },
-        "method": {name: _plain(getattr(method, name)) for name in MethodSection.model_fields}
-        | {"pairs": None if pairs is None else _beside(path, pairs.reference)},
-    }
-    written = {
-        section: {key: value for key, value in keys.items() if value is not None}
-        for section, keys in document.items()
-    }
+    """Write a case so that `read_case` gives it back.
+
+    Materials of the catalogue and files are written by their name, seen from the folder of the case
+    file; a law by its constants, a shape and an opening curve by their numbers.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written, or the law is a function that was not read from a file.
+    """
+    document: dict[str, dict[str, Any]] = {}
+    for key, value in values_of(case, path.resolve().parent).items():
+        section, _, name = key.partition(".")
+        document.setdefault(section, {})[name] = value
     try:
-        path.write_text(tomli_w.dumps(written), encoding="utf-8")
+        path.write_text(tomli_w.dumps(document), encoding="utf-8")
     except OSError as problem:
         raise BadInput("case file", str(path), f"writable ({problem.strerror})") from problem
 
 
-def _plain(value: Any) -> Any:
-    return format_pressure(value) if isinstance(value, Pressure) else value
+def values_of(case: Case, folder: Path) -> dict[str, Any]:
+    """The raw values of a case by key, as a case file in `folder` has them."""
+    values: dict[str, Any] = {MODEL: case.model.NAME}
+    for part in (case.stone, case.ureter, case.load, case.model, case.numerics):
+        for each in inputs_of(type(part)).values():
+            value = getattr(part, each.name)
+            if value is not None:
+                values[each.key] = _raw(value, folder)
+    if case.ureter.outer_diameter is not None:
+        del values["ureter.wall_ratio"]
+    shape = case.stone.shape
+    if shape.reference:
+        del values["stone.aspect"]
+    elif shape.spheroidal:
+        del values["stone.shape"]
+    else:
+        del values["stone.aspect"]
+    order = {key: k for k, key in enumerate(all_inputs())}
+    return dict(sorted(values.items(), key=lambda item: order[item[0]]))
 
 
-def _beside(path: Path, reference: str) -> str:
+def _raw(value: Any, folder: Path) -> Any:
+    if isinstance(value, Length):
+        return format_length(value)
+    if isinstance(value, Pressure):
+        return format_pressure(value)
+    if isinstance(value, Material):
+        name = value.reference
+        if not name:
+            return material_table(value)
+        return _beside(folder, name) if names_a_file(name) else name
+    if isinstance(value, Shape):
+        return _beside(folder, value.reference) if value.reference else shape_table(value)
+    if isinstance(value, OpeningCurve):
+        named = value.reference
+        return _beside(folder, named) if named else opening_curve_table(value)
+    return value
+
+
+def _beside(folder: Path, reference: str) -> str:
     """Path of a file as seen from the folder of the case file."""
-    return os.path.relpath(reference, path.resolve().parent)
-
-
-def _length(value: float | None) -> str | None:
-    return None if value is None else format_length(value)
+    return os.path.relpath(reference, folder)

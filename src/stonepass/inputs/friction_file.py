@@ -8,7 +8,7 @@ from pathlib import Path
 
 from stonepass.errors import BadInput, require
 from stonepass.io.text_file import read_text
-from stonepass.model.case import FRICTION
+from stonepass.model.stone import FRICTION
 
 __all__ = ["read_friction"]
 

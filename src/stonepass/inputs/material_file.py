@@ -6,6 +6,7 @@ import runpy
 import sys
 from contextlib import redirect_stdout
 from pathlib import Path
+from typing import Any
 
 import autograd.numpy as anp
 import numpy as np
@@ -14,14 +15,14 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.io.text_file import existing
-from stonepass.io.toml_file import read_toml
+from stonepass.io.toml_file import parse_table, read_toml
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.known_laws import KNOWN_LAWS, name_of_law
 from stonepass.materials.protocol import Law, Material, names_a_file
 from stonepass.materials.user_law import UserLaw
 from stonepass.units import format_pressure, pressure
 
-__all__ = ["find_material", "load_material", "write_law"]
+__all__ = ["find_material", "load_material", "material_table", "write_law"]
 
 # Stretches (circumferential, axial) on which a user's function is tried before any solve.
 _TRIAL = tuple((t, z) for t in (0.9, 1.0, 1.1, 1.3) for z in (0.95, 1.0, 1.05))
@@ -48,13 +49,17 @@ class _Constants(BaseModel):
     G: str | None = None
 
 
-def find_material(value: str | Material, folder: Path | None = None) -> Material:
-    """Turn a catalogue name, ``law.toml`` or ``file.py:name`` into a material.
+def find_material(value: Any, folder: Path | None = None) -> Material:
+    """Turn a catalogue name, ``law.toml``, ``file.py:name`` or a table of a law into a material.
 
     This is for the command line and for case files; a Python file that is named is executed.
     """
     if isinstance(value, Material):
         return value
+    if isinstance(value, dict):
+        return _of_table(parse_table(value, _Constants, "material, "))
+    if not isinstance(value, str):
+        raise BadInput("material", value, "a name, a file, a table or a Material")
     return load_material(value, folder) if names_a_file(value) else catalogued(value)
 
 
@@ -149,17 +154,21 @@ def _try_out(law: UserLaw) -> None:
 def _from_toml(path: Path, text: str) -> Material:
     constants = read_toml(path, _Constants)
     try:
-        return Material(
-            name=constants.name or text,
-            law=_known_law(constants),
-            source=constants.source,
-            test=constants.test,
-            verified="a user's constants: not verified",
-            strain_range=constants.strain_range,
-            reference=text,
-        )
+        return _of_table(constants, text)
     except BadInput as problem:
         raise problem.within(path.name) from problem
+
+
+def _of_table(constants: _Constants, reference: str = "") -> Material:
+    return Material(
+        name=constants.name or reference or constants.law,
+        law=_known_law(constants),
+        source=constants.source,
+        test=constants.test,
+        verified="a user's constants: not verified",
+        strain_range=constants.strain_range,
+        reference=reference,
+    )
 
 
 def _known_law(constants: _Constants) -> Law:
@@ -181,24 +190,36 @@ def _known_law(constants: _Constants) -> Law:
     return known.make(**values)
 
 
-def write_law(material: Material, path: Path) -> None:
-    """Write a material of a known law so that `load_material` gives it back."""
+def material_table(material: Material) -> dict[str, Any]:
+    """The table that describes a material of a known law; `find_material` reads it back.
+
+    Raises
+    ------
+    BadInput
+        The law is none of the known ones, such as a user's function.
+    """
     name_of = name_of_law(material.law)
     if not name_of:
-        raise BadInput("law", material.name, "a known one to be written", ", ".join(KNOWN_LAWS))
+        allowed = "a known one to be written"
+        raise BadInput("law", material.name, allowed, ", ".join(KNOWN_LAWS))
     law = KNOWN_LAWS[name_of]
     shown = {name: getattr(material.law, name) for name in law.constants}
-    document = {
+    return {
         "law": name_of,
         **{
             name: value if name in law.numbers else format_pressure(value)
             for name, value in shown.items()
         },
         "name": material.name,
-        "source": material.source,
-        "test": material.test,
+        "source": material.source or "not stated",
+        "test": material.test or "not stated",
         "strain_range": list(material.strain_range),
     }
+
+
+def write_law(material: Material, path: Path) -> None:
+    """Write a material of a known law so that `load_material` gives it back."""
+    document = material_table(material)
     try:
         path.write_text(tomli_w.dumps(document), encoding="utf-8")
     except OSError as problem:

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from stonepass.io.csv_file import read_columns
-from stonepass.model.case import CONFINING, SIZE_RATIO, WALL_RATIO
+from stonepass.model.load import CONFINING
+from stonepass.model.stone import SIZE_RATIO
+from stonepass.model.ureter import WALL_RATIO
 from stonepass.units import Pressure
 
 __all__ = ["Point", "read_points"]

@@ -6,10 +6,11 @@ import csv
 import io
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -17,7 +18,7 @@ from jaxtyping import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.io.text_file import read_text
 
-__all__ = ["Columns", "read_columns"]
+__all__ = ["Columns", "read_columns", "write_csv"]
 
 LARGEST_FILE = 10_000_000  # bytes
 MOST_ROWS = 100_000  # empty ones too
@@ -145,3 +146,28 @@ class _Cells:
             within = f" from {low:g} to {high:g}" if name in self.bounds else ""
             raise BadInput(where, cell, f"a number{within}")
         return value
+
+
+def write_csv(path: Path, header: Iterable[str], rows: Iterable[Iterable[Any]]) -> None:
+    """Write rows as CSV; a number that does not exist (None) is an empty cell.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written.
+    """
+    try:
+        with path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(header)
+            writer.writerows([_cell(value) for value in row] for row in rows)
+    except OSError as problem:
+        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, list):
+        return "; ".join(value)
+    return f"{value:.10g}" if isinstance(value, float) else str(value)

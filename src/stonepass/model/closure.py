@@ -12,9 +12,11 @@ from jaxtyping import Float
 from numpy.polynomial import Polynomial
 
 from stonepass.errors import require
+from stonepass.model.opening_curve import OpeningCurve
+from stonepass.model.problem import Problem
 from stonepass.units import Values
 
-__all__ = ["ORDER", "Series", "fit_series", "linear_closure"]
+__all__ = ["ORDER", "Series", "fit_series", "linear_closure", "series_through"]
 
 ORDER = (1, 8)
 
@@ -72,6 +74,19 @@ def fit_series(
     powers = np.stack([t**k for k in range(1, order + 1)], axis=-1)
     found = np.linalg.lstsq(powers, (radius - start) / (size_ratio - start), rcond=None)[0]
     return Series(tuple(found.tolist()), start)
+
+
+def series_through(case: Problem, curve: OpeningCurve, order: int) -> Series | None:
+    """Fit the series to an opening curve that begins at the seated stone.
+
+    None where the curve has too few states for the order.
+    """
+    alpha, radius = curve.arrays
+    if len(alpha) <= order:
+        return None
+    first, *widths = case.stone.shape.width(alpha)
+    start = float(radius[0])
+    return fit_series(np.array(widths), radius[1:], float(first), case.size_ratio, order, start)
 
 
 def _opening(width: Values, first_width: float) -> Values:

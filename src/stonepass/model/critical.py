@@ -1,36 +1,33 @@
-"""The critical pressure: which model answers, and what can be said before any does."""
+"""The critical pressure: what can be said before any model answers, and the model's answer."""
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING
-
 from stonepass.errors import Outcome
+from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.stability import check
-from stonepass.model.answer import Answer, unanswered
-from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.answer import Answer, Model, unanswered
+from stonepass.model.case import Case
 from stonepass.model.far_field import lumen_ratio
+from stonepass.model.load import Load
+from stonepass.model.models.seated_balance import SeatedBalance
+from stonepass.model.numerics import Numerics
 from stonepass.model.states.state_solver import StateSolver
+from stonepass.model.states.uncached import UNCACHED
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 
-if TYPE_CHECKING:  # loads the finite elements
-    from stonepass.fe.axisymmetric.problem import Resolution
+__all__ = ["SMALLEST_RESOLVED_OVERSIZE", "critical_pressure", "solve"]
 
-__all__ = ["SMALLEST_OVERSIZE", "critical_pressure", "solve"]
-
-SMALLEST_OVERSIZE = 1e-4  # of a stone over the lumen that is held by more than a touch
-# Each model loads what it needs when it is first asked: the beam needs no finite elements.
-MODELS = {
-    "paper": ("models.seated_balance", "solve_by_balance"),
-    "direct": ("models.push_through", "solve_by_push"),
-    "beam": ("models.elastic_foundation", "solve_by_beam"),
-}
+# Finite elements do not resolve a stone that exceeds the lumen by less than this fraction of it.
+SMALLEST_RESOLVED_OVERSIZE = 1e-4
 
 
 def critical_pressure(
     stone: Stone,
     ureter: Ureter,
     load: Load | None = None,
-    method: Method | None = None,
+    model: Model | None = None,
+    numerics: Numerics | None = None,
 ) -> Answer:
     """At what urine pressure does this stone move in this ureter?
 
@@ -39,8 +36,22 @@ def critical_pressure(
     stone, ureter : Stone, Ureter
     load : Load, optional
         Confining pressure and pre-stretch; none by default.
-    method : Method, optional
-        Model, seating, half-length and switches; the paper's by default.
+    model : Model, optional
+        `SeatedBalance` (the paper's, the default), `PushThrough` or `ElasticFoundation`.
+    numerics : Numerics, optional
+        Accuracy and length of the tube.
+
+    Returns
+    -------
+    Answer
+        With its outcome; `pressure` is P_ucr in Pa where there is one.
+
+    Raises
+    ------
+    BadInput
+        The parts do not go together, or the model is not for such a case.
+    UnstableLaw
+        The material law is no solid.
 
     Examples
     --------
@@ -49,34 +60,43 @@ def critical_pressure(
     >>> answer.outcome.name, answer.pressure
     ('LOOSE', 0.0)
     """
-    return solve(Case(stone, ureter, load or Load(), method or Method()))
+    case = Case(stone, ureter, load or Load(), model or SeatedBalance(), numerics or Numerics())
+    return solve(case)
 
 
 def solve(
-    case: Case, resolution: Resolution | None = None, states: StateSolver | None = None
+    case: Case, resolution: Resolution | None = None, states: StateSolver = UNCACHED
 ) -> Answer:
-    """Answer one case; every way it can end is an `Outcome` (model: section 6).
+    """Answer one case; every way it can end is an `Outcome` (theory: the critical state).
 
-    With a `resolution` the finite elements use that mesh alone, and no error is estimated.
-    `states` says where their results come from (`studies.solution_cache`); by default they are
-    solved.
+    Parameters
+    ----------
+    case : Case
+    resolution : Resolution, optional
+        Solve on this mesh alone, without an estimate of the error.
+    states : StateSolver, optional
+        Where finite-element states come from; by default they are solved.
+
+    Raises
+    ------
+    BadInput
+        The model is not for such a case.
+    UnstableLaw
+        The material law is no solid.
     """
     check(case.ureter.material)
     lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
+    model, numerics = case.model, case.numerics
     if lumen is None:
         reason = "the load closes the lumen, or no uniform tube of this law is in equilibrium"
-        return unanswered(case, Outcome.NO_SOLUTION, reason)
+        return unanswered(case, model, numerics, reason)
     if case.size_ratio <= lumen:
-        return Answer(case, Outcome.LOOSE, Outcome.LOOSE.value, pressure=0.0)
-    with_elements = case.method.model != "beam"
-    if with_elements and case.size_ratio < lumen * (1.0 + SMALLEST_OVERSIZE):
+        return Answer(case, model, numerics, Outcome.LOOSE, pressure=0.0)
+    smallest = lumen * (1.0 + SMALLEST_RESOLVED_OVERSIZE)
+    if model.NEEDS_ELEMENTS and case.size_ratio < smallest:
         reason = (
-            f"the stone exceeds the lumen by less than {SMALLEST_OVERSIZE:.0e} of it, "
+            f"the stone exceeds the lumen by less than {SMALLEST_RESOLVED_OVERSIZE:.0e} of it, "
             "which is below what the finite elements resolve"
         )
-        return unanswered(case, Outcome.NO_SOLUTION, reason)
-    module, function = MODELS[case.method.model]
-    by_model = getattr(import_module(f"stonepass.model.{module}"), function)
-    given = {} if states is None else {"states": states}
-    answer: Answer = by_model(case, resolution, **given) if with_elements else by_model(case)
-    return answer
+        return unanswered(case, model, numerics, reason)
+    return model.solve(case, numerics, states, resolution)

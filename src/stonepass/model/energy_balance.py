@@ -11,8 +11,8 @@ from scipy.optimize import brentq, minimize_scalar
 
 from stonepass.materials.protocol import Law
 from stonepass.materials.relaxed_energy import relaxed
-from stonepass.model.case import Case
 from stonepass.model.far_field import lumen_ratio, urine_pressure
+from stonepass.model.problem import Problem
 
 __all__ = ["advance_force", "opened_radius", "opening_pressure", "strained_force"]
 
@@ -21,7 +21,7 @@ POINTS = 48
 STEP = 1e-4  # of the axial stretch, for its slope
 
 
-def opened_radius(case: Case, pressure: float) -> float | None:
+def opened_radius(case: Problem, pressure: float) -> float | None:
     """r_a/R_a of the tube under P_u, the pre-stretch kept; None where it has no such state."""
     law = relaxed(case.ureter.material.law)
     lumen = lumen_ratio(case.wall_ratio, law, case.load)
@@ -39,12 +39,12 @@ def opened_radius(case: Case, pressure: float) -> float | None:
     return None
 
 
-def opening_pressure(case: Case) -> float:
+def opening_pressure(case: Problem) -> float:
     """P_u in Pa that opens the tube to R_s."""
     return _urine(case, relaxed(case.ureter.material.law), case.size_ratio)
 
 
-def advance_force(case: Case, pressure: float) -> float | None:
+def advance_force(case: Problem, pressure: float) -> float | None:
     """I(P)/(π R_s²) with I = ∫₀ᴾ π r_a(p)² dp; None where the tube does not bear P.
 
     By parts, π [r² P − 2 ∫ r p(r) dr] from the lumen to r_a(P).
@@ -61,7 +61,7 @@ def advance_force(case: Case, pressure: float) -> float | None:
 
 
 def strained_force(
-    case: Case, pressure: float, upstream_stretch: float, downstream_stretch: float
+    case: Problem, pressure: float, upstream_stretch: float, downstream_stretch: float
 ) -> float:
     """N/(π R_s²) without friction where the sides are strained: [(ω − ε S)⁺ − (ω − ε S)⁻]/λ_z.
 
@@ -74,13 +74,13 @@ def strained_force(
     return (ahead - behind) / (case.load.prestretch * case.size_ratio**2)
 
 
-def _side(case: Case, pressure: float, stretch: float) -> float:
+def _side(case: Problem, pressure: float, stretch: float) -> float:
     slope = _omega(case, pressure, stretch + STEP) - _omega(case, pressure, stretch - STEP)
     strain = stretch - case.load.prestretch
     return _omega(case, pressure, stretch) - strain * slope / (2.0 * STEP)
 
 
-def _omega(case: Case, pressure: float, axial: float) -> float:
+def _omega(case: Problem, pressure: float, axial: float) -> float:
     """ω/π in units of R_a², Pa."""
     law, load = relaxed(case.ureter.material.law), case.load
     points, weights = np.polynomial.legendre.leggauss(POINTS)
@@ -101,5 +101,5 @@ def _omega(case: Case, pressure: float, axial: float) -> float:
     return float(found.fun)
 
 
-def _urine(case: Case, law: Law, ratio: float) -> float:
+def _urine(case: Problem, law: Law, ratio: float) -> float:
     return float(urine_pressure(np.array(ratio), case.wall_ratio, law, case.load))

@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 from stonepass.errors import BadInput
 from stonepass.materials.derivatives import hoop_energy_slope
 from stonepass.materials.protocol import ClosedForm, Law
-from stonepass.model.case import Case, Load
+from stonepass.model.load import Load
+from stonepass.model.problem import Problem
 from stonepass.units import Values
 
 __all__ = [
@@ -90,7 +91,7 @@ def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
     return float(brentq(pressure, SMALLEST_LUMEN, wide, xtol=1e-14))
 
 
-def stuck_lumen(case: Case) -> float:
+def stuck_lumen(case: Problem) -> float:
     """The lumen r_a/R_a that load leaves open, refused where the stone is not larger."""
     lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
     if lumen is None or case.size_ratio <= lumen:
@@ -103,10 +104,10 @@ def stuck_lumen(case: Case) -> float:
     return lumen
 
 
-def far_field_law(case: Case) -> Law:
-    """The law of the far field: the paper's leaves the ground matrix out."""
+def far_field_law(case: Problem, *, ground: bool) -> Law:
+    """The law of the far field: the paper's leaves the ground matrix out unless `ground` is set."""
     law = case.ureter.material.law
-    return law if case.method.far_field_ground else law.without_ground_matrix()
+    return law if ground else law.without_ground_matrix()
 
 
 @lru_cache(maxsize=1)

@@ -10,7 +10,7 @@ from typing import Any
 
 from scipy.interpolate import PchipInterpolator
 
-from stonepass.model.states.seated import Contact
+from stonepass.model.states.seated_state import Contact
 from stonepass.units import Values
 
 __all__ = ["Resistance", "drive", "resistance"]
@@ -52,15 +52,18 @@ class Resistance:
         return integral(self.downstream_angle) - integral(alpha)
 
 
-def resistance(contact: Contact) -> Resistance:
-    """Integrate the seated contact pressure into the resistance of every contact angle."""
+def resistance(contact: Contact, *, as_printed: bool = False) -> Resistance:
+    """Integrate the seated contact pressure into the resistance of every contact angle.
+
+    `as_printed` takes the sign of the axial wall pressure as Eq. 5 prints it.
+    """
     theta, sigma, shape = contact.theta, contact.contact_pressure, contact.case.stone.shape
     (rho, _), (rho_slope, z_slope) = shape.meridian(theta), shape.slopes(theta)
     return Resistance(
         contact_angle=contact.contact_angle,
         downstream_angle=contact.downstream_angle,
         friction_coefficient=contact.case.stone.friction,
-        wall_sign=-1.0 if contact.case.method.as_printed else 1.0,
+        wall_sign=-1.0 if as_printed else 1.0,
         _shear=PchipInterpolator(theta, sigma * rho * z_slope).antiderivative(),
         _axial=PchipInterpolator(theta, sigma * 2.0 * rho * rho_slope).antiderivative(),
     )

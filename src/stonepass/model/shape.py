@@ -9,6 +9,7 @@ from jaxtyping import Float
 
 from stonepass.errors import BadInput, require
 from stonepass.fe.axisymmetric.profile import ROUND, Profile
+from stonepass.model.caution import Caution, caution
 
 __all__ = ["ASPECT", "Shape"]
 
@@ -96,14 +97,11 @@ class Shape:
         _, poles = self.meridian(np.array([0.0, np.pi]))
         return float(np.max(np.abs(poles)))
 
-    def warnings(self) -> list[str]:
-        """A sentence where the shape is only nearly that of its points."""
+    def warnings(self) -> list[Caution]:
+        """A caution where the shape is only nearly that of its points."""
         if self.deviation <= ROUGH:
             return []
-        return [
-            f"the stone's shape follows its points to {self.deviation:.1%} of its radius only: the "
-            "nearest smooth convex one is taken"
-        ]
+        return [caution("shape_deviation", deviation=self.deviation)]
 
     def turned(self) -> Shape:
         """The same stone the other way round."""

@@ -1,28 +1,38 @@
-"""Where a question goes beyond what the constants of its material are known for."""
+"""Cautions where a question goes beyond what material or model are known for."""
 
 from __future__ import annotations
 
-from stonepass.model.case import Case
+from stonepass.materials.derivatives import hoop_modulus
+from stonepass.model.caution import Caution, caution
 from stonepass.model.far_field import lumen_ratio
+from stonepass.model.problem import Problem
 
-__all__ = ["range_warnings"]
+__all__ = ["ring_buckling", "strain_range"]
 
 
-def range_warnings(case: Case) -> list[str]:
-    """Sentences where stone or load stretch the wall beyond the material's strain range."""
+def strain_range(case: Problem) -> list[Caution]:
+    """Cautions where stone or load stretch the wall beyond the material's strain range."""
     material = case.ureter.material
     low, high = material.strain_range
-    known = (
-        f"but the constants of material '{material.name}' were used for stretches "
-        f"{low:g} to {high:g} only"
-    )
-    warnings = []
+    known = {"material": material.name, "low": low, "high": high}
+    found = []
     if case.size_ratio > high:
-        warnings.append(
-            f"the stone stretches the wall to {case.size_ratio:.3g} times its circumference, "
-            + known
-        )
+        found.append(caution("wall_beyond_range", stretch=case.size_ratio, **known))
     lumen = lumen_ratio(case.wall_ratio, material.law, case.load)
     if lumen is not None and lumen < low:
-        warnings.append(f"the load shrinks the lumen to {lumen:.3g} times its width, {known}")
-    return warnings
+        found.append(caution("lumen_below_range", lumen=lumen, **known))
+    return found
+
+
+def ring_buckling(case: Problem) -> list[Caution]:
+    """A caution where the confining pressure alone would fold the tube into two lobes.
+
+    The ring buckles under an outside pressure of w″(1) h³/(4 R_m³) (Lévy; plane strain, wall
+    thickness h, mean radius R_m), which no axisymmetric model sees.
+    """
+    eta, pressure = case.wall_ratio, case.load.confining_pressure
+    slenderness = (eta - 1.0) / ((eta + 1.0) / 2.0)
+    buckling = hoop_modulus(case.ureter.material.law) * slenderness**3 / 4.0
+    if pressure <= buckling:
+        return []
+    return [caution("ring_buckling", pressure_kPa=pressure / 1e3, buckling_kPa=buckling / 1e3)]

@@ -11,9 +11,10 @@ from matplotlib.axes import Axes
 
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
-from stonepass.model.case import Case, Load
+from stonepass.model.case import Case
+from stonepass.model.load import Load
 from stonepass.paper.inputs import LATEX_WALLS, WATER, latex_case
-from stonepass.paper.section import Asked, Claim, Section, SurfaceImage, answers_table
+from stonepass.paper.section import Asked, Claim, Illustration, Section, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results
 
@@ -71,7 +72,7 @@ class Fig6:
             "Fig. 6: the in-vitro series",
             "",
             folder,
-            [SurfaceImage("fig6", figure, caption)],
+            [Illustration("fig6", figure, caption)],
             [answers_table("fig6", header, answers)],
             [_grows(found), _agreement(found, asked.points)],
         )

@@ -12,10 +12,11 @@ from matplotlib.axes import Axes
 from scipy.interpolate import PchipInterpolator
 
 from stonepass.errors import Outcome
-from stonepass.model.case import Load
+from stonepass.model.contact_state import SolvedState
+from stonepass.model.load import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, LIMIT, PASSING, PUBLISHED, ureter_case
-from stonepass.paper.section import Asked, Claim, Section, SurfaceImage, Table, answers_table
+from stonepass.paper.section import Asked, Claim, Illustration, Section, Table, answers_table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results, SizeJob
 from stonepass.units import Pressure
@@ -71,14 +72,14 @@ class Fig8:
             "",
             folder,
             [
-                SurfaceImage(
+                Illustration(
                     "fig8",
                     figure,
                     "(a) Critical pressure of both walls. (b) Critical pressure over size and wall "
                     "ratio; the line is the critical size at the limit. (c) Under confining "
                     "pressure (dead load). (d) Critical size over confining pressure.",
                 ),
-                SurfaceImage(
+                Illustration(
                     "fig8b_line",
                     lines,
                     "The critical size over the wall ratio, computed, beside the paper's linear "
@@ -201,14 +202,14 @@ def _sizes_under(found: Results, limit: Pressure) -> list[SizeAnswer]:
 
 
 def _size_row(size: SizeAnswer) -> list[object]:
-    state = None if size.at_size is None else size.at_size.state
+    state = None if size.at_size is None else size.at_size.contact
     return [
         size.case.wall_ratio,
         size.case.load.confining_pressure / 1e3,
         size.outcome.name,
         size.size_ratio,
         size.size_ratio_error,
-        None if state is None else state.stability.margin,
+        state.stability.margin if isinstance(state, SolvedState) else None,
     ]
 
 
@@ -342,8 +343,8 @@ def _beyond(found: Results, eta: float, xi: float) -> str:
     """A remark where the loaded wall is no longer stable."""
     margins = []
     for pressure in CONFINING:
-        seated = found.answer(ureter_case(eta, xi, Load(pressure))).seated
-        if seated is not None and seated.stability.margin < 0.0:
+        seated = found.answer(ureter_case(eta, xi, Load(pressure))).contact
+        if isinstance(seated, SolvedState) and seated.stability.margin < 0.0:
             margins.append(f"{seated.stability.margin:.2f} at {pressure / 1e3:g} kPa")
     if not margins:
         return ""

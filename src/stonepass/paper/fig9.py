@@ -10,11 +10,13 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.model.answer import Answer
-from stonepass.model.case import Case, Method, Stone
+from stonepass.model.case import Case
 from stonepass.model.critical import solve
+from stonepass.model.models.elastic_foundation import ElasticFoundation
 from stonepass.model.size import SizeAnswer, critical_size
+from stonepass.model.stone import Stone
 from stonepass.paper.inputs import BEAM, BEAM_SIZE, FRICTION, LIMIT, ureter_case
-from stonepass.paper.section import Asked, Claim, Section, SurfaceImage, Table
+from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
 from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results
 from stonepass.units import Pressure
@@ -39,7 +41,7 @@ class Fig9:
         """Draw both panels, judge the claims."""
         answers = [
             [found.answer(ureter_case(WALL, xi)) for xi in SIZES],
-            [solve(ureter_case(WALL, xi, method=BEAM)) for xi in SIZES],
+            [solve(ureter_case(WALL, xi, model=BEAM)) for xi in SIZES],
             [solve(_by_secants(xi)) for xi in SIZES],
         ]
         elements, published, secants = (_pressures(each) for each in answers)
@@ -79,7 +81,7 @@ class Fig9:
             "Fig. 9: the thin wall as a beam",
             "",
             folder,
-            [SurfaceImage("fig9", figure, caption)],
+            [Illustration("fig9", figure, caption)],
             [
                 Table("fig9c", ("size_ratio", *columns),
                       [_row(xi, row) for xi, *row in zip(SIZES, *answers, strict=True)]),
@@ -106,20 +108,20 @@ def _row(xi: float, answers: Sequence[Answer]) -> list[object]:
 
 
 def _by_secants(xi: float) -> Case:
-    return ureter_case(WALL, xi, method=Method(model="beam", secant_stretch=SECANT))
+    return ureter_case(WALL, xi, model=ElasticFoundation(secant_stretch=SECANT))
 
 
-def _scaled(factor: float) -> Method:
+def _scaled(factor: float) -> ElasticFoundation:
     moduli = (BEAM.circumferential_modulus, BEAM.longitudinal_modulus)
     hoop, axial = (Pressure(factor * float(each)) for each in moduli if each is not None)
     return replace(BEAM, circumferential_modulus=hoop, longitudinal_modulus=axial)
 
 
-def _size(limit: Pressure, method: Method, friction: float) -> SizeAnswer:
+def _size(limit: Pressure, model: ElasticFoundation, friction: float) -> SizeAnswer:
     """Critical size by the beam."""
-    case = ureter_case(WALL, 1.1, method=method)
+    case = ureter_case(WALL, 1.1, model=model)
     case = replace(case, stone=Stone(size_ratio=1.1, friction=friction))
-    return critical_size(case.ureter, limit, friction, method=method)
+    return critical_size(case.ureter, limit, friction, model=model)
 
 
 def _ratios(sizes: Sequence[SizeAnswer]) -> Float[np.ndarray, " sizes"]:

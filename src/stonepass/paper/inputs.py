@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.answer import Model
+from stonepass.model.case import Case
+from stonepass.model.load import Load
+from stonepass.model.models.elastic_foundation import ElasticFoundation
+from stonepass.model.models.seated_balance import SeatedBalance
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 from stonepass.units import Pressure
 
 __all__ = [
@@ -32,8 +38,7 @@ LATEX_WALLS = (1.5, 1.57, 2.0)  # section 2.2
 LATEX_FRICTION = 0.475  # section 2.4.1
 WATER = Pressure(5.4e3)  # 540 mm under water (section 2.2)
 # E₁ and E₂ of the thin wall as a beam (section 3.3.2)
-BEAM = Method(
-    model="beam",
+BEAM = ElasticFoundation(
     circumferential_modulus=Pressure(0.465e6),
     longitudinal_modulus=Pressure(0.02e6),
 )
@@ -42,11 +47,11 @@ SLOPES = (0.38, 0.12)  # k₀ and k₁ of a stone's surface (section 2.3)
 
 
 def ureter_case(
-    wall_ratio: float, size_ratio: float, load: Load | None = None, method: Method | None = None
+    wall_ratio: float, size_ratio: float, load: Load | None = None, model: Model | None = None
 ) -> Case:
     """A stone in the human ureter as the paper has it."""
     stone = Stone(size_ratio=size_ratio, friction=FRICTION)
-    return Case(stone, Ureter(wall_ratio=wall_ratio), load or Load(), method or Method())
+    return Case(stone, Ureter(wall_ratio=wall_ratio), load or Load(), model or SeatedBalance())
 
 
 def latex_case(wall_ratio: float, size_ratio: float, load: Load | None = None) -> Case:

@@ -12,9 +12,9 @@ from matplotlib.patches import Arc as Curve
 from stonepass.export.vtu import write_vtu
 from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.case import Case
-from stonepass.model.states.seated import SeatedState
+from stonepass.model.states.seated_state import SeatedState
 from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_case
-from stonepass.paper.section import Asked, Claim, Section, SurfaceImage, Table
+from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
 from stonepass.report.revolve import revolved_figure
 from stonepass.report.section import draw_section, element_rim
 from stonepass.report.stone import draw_radii
@@ -85,7 +85,7 @@ class Fig5:
             "Fig. 5: finite elements of the human ureter",
             "",
             folder,
-            [SurfaceImage("fig5", figure, caption)],
+            [Illustration("fig5", figure, caption)],
             [Table("fig5", header, rows)],
         )
 
@@ -134,7 +134,7 @@ class Fig7:
             "",
             "",
             folder,
-            [SurfaceImage("fig7_sizes", figure, "Contact pressure over the size of the stone.")],
+            [Illustration("fig7_sizes", figure, "Contact pressure over the size of the stone.")],
             [_profiles("fig7_sizes", [state for row in others.values() for state in row])],
         )
         return Section(
@@ -155,8 +155,8 @@ def _ureters() -> list[Case]:
 
 
 def _state(found: Results, case: Case, *, wall: bool = True) -> SeatedState:
-    state = found.answer(case, wall=wall).seated
-    assert state is not None, "a sphere a little above the lumen is seated"
+    state = found.answer(case, wall=wall).contact
+    assert isinstance(state, SeatedState), "a sphere a little above the lumen is seated"
     return state
 
 
@@ -205,7 +205,7 @@ def _sections(
         title,
         "",
         folder,
-        [SurfaceImage(name, figure, caption), SurfaceImage(f"{name}_3d", solid, revolved)],
+        [Illustration(name, figure, caption), Illustration(f"{name}_3d", solid, revolved)],
         [_profiles(name, states)],
         files=(f"{name}.vtu",),
     )

@@ -11,12 +11,13 @@ from matplotlib.figure import Figure
 
 from stonepass.errors import require
 from stonepass.inputs.measured_pressures import Point
+from stonepass.io.csv_file import write_csv
 from stonepass.model.answer import Answer
-from stonepass.records.answer import record, write_csv
+from stonepass.records.answer import answer_record
 from stonepass.report.style import save
 from stonepass.units import Pressure
 
-__all__ = ["Asked", "Claim", "Section", "SurfaceImage", "Table", "answers_table"]
+__all__ = ["Asked", "Claim", "Illustration", "Section", "Table", "answers_table"]
 
 LIMITS = (1e2, 1e5)  # Pa
 
@@ -86,16 +87,26 @@ def answers_table(name: str, header: Sequence[str], answers: Sequence[Answer]) -
     rows = []
     for answer in answers:
         confining = answer.case.load.confining_pressure
-        known = record(answer) | {
-            "confining_kPa": confining / 1e3,
-            "confinement": answer.case.load.confinement if confining else "",
-        }
+        found = answer_record(answer)
+        known = (
+            found.to_dict()
+            | dict.fromkeys(DETAILS)
+            | found.detail
+            | {
+                "confining_kPa": confining / 1e3,
+                "confinement": answer.case.load.confinement if confining else "",
+            }
+        )
         rows.append([known[column] for column in header])
     return Table(name, header, rows)
 
 
+# Numbers of one model alone that the tables have a column for.
+DETAILS = ("closure_end_pressure_kPa", "leak_pressure_kPa")
+
+
 @dataclass(frozen=True)
-class SurfaceImage:
+class Illustration:
     """A picture: file name without ending, the figure, and what it shows."""
 
     name: str
@@ -120,7 +131,7 @@ class Section:
         title: str,
         text: str,
         folder: Path,
-        pictures: Sequence[SurfaceImage] = (),
+        pictures: Sequence[Illustration] = (),
         tables: Sequence[Table] = (),
         claims: Sequence[Claim] = (),
         files: Sequence[str] = (),

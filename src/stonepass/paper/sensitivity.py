@@ -10,9 +10,16 @@ from stonepass.errors import UnstableLaw
 from stonepass.materials.catalogue import material
 from stonepass.materials.protocol import Material
 from stonepass.materials.stability import check
-from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.answer import Model
+from stonepass.model.case import Case
+from stonepass.model.load import Load
+from stonepass.model.models.push_through import PushThrough
+from stonepass.model.models.seated_balance import SeatedBalance
+from stonepass.model.numerics import Numerics
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 from stonepass.paper.inputs import FRICTION, PUBLISHED
-from stonepass.paper.section import Asked, Section, SurfaceImage, Table
+from stonepass.paper.section import Asked, Illustration, Section, Table
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.studies.jobs import Job, Results, SizeJob
 from stonepass.units import Pressure
@@ -32,13 +39,15 @@ class Choice:
     about: str
     what: str
     material: Material
-    method: Method
+    model: Model
+    numerics: Numerics
     load: Load
 
     def case(self, wall_ratio: float) -> Case:
         """The case, its size left open."""
         stone = Stone(size_ratio=1.1, friction=FRICTION)
-        return Case(stone, Ureter(None, None, self.material, wall_ratio), self.load, self.method)
+        ureter = Ureter(None, None, self.material, wall_ratio)
+        return Case(stone, ureter, self.load, self.model, self.numerics)
 
 
 class Sensitivity:
@@ -108,15 +117,15 @@ class Sensitivity:
             "Sensitivity to what had to be chosen",
             "",
             folder,
-            [SurfaceImage("sensitivity", figure, caption)],
+            [Illustration("sensitivity", figure, caption)],
             [Table("sensitivity", header, rows)],
         )
 
 
 def choices() -> Iterator[Choice]:
     """The defaults first, then one thing changed at a time."""
-    default = Choice("defaults", "as the paper, errata corrected", material("ureter"), Method(),
-                     Load())  # fmt: skip
+    default = Choice("defaults", "as the paper, errata corrected", material("ureter"),
+                     SeatedBalance(), Numerics(), Load())  # fmt: skip
     yield default
     for name, what in (("ureter-soft-cross", "a₁₁₂₂ = 0.0892"), ("ureter-printed", "as printed")):
         yield replace(default, about="constants", what=what, material=material(name))
@@ -126,25 +135,26 @@ def choices() -> Iterator[Choice]:
         named = replace(entry, law=law, name=f"ureter, G {modulus / 1e3:g} kPa", reference="")
         yield replace(default, about="ground matrix", what=f"G = {modulus / 1e3:g} kPa",
                       material=named)  # fmt: skip
-    yield _by(default, "far field", "with the ground matrix", far_field_ground=True)
-    yield _by(default, "sign of Eq. 5", "as printed", as_printed=True)
+    yield _by(default, "far field", "with the ground matrix", SeatedBalance(far_field_ground=True))
+    yield _by(default, "sign of Eq. 5", "as printed", SeatedBalance(as_printed=True))
     for seating in ("growing", "frictionless"):
-        yield _by(default, "seating", seating, seating=seating)
+        yield _by(default, "seating", seating, SeatedBalance(seating=seating))
     for length in LENGTHS:
-        yield _by(default, "half-length", f"{length:g} inner radii", half_length=length)
-    yield _by(default, "closure", "series fitted to direct states", closure="series")
-    yield _by(default, "model", "direct push-through", model="direct")
-    yield _by(default, "model", "direct, wetted", model="direct", wetted=True)
+        yield replace(default, about="half-length", what=f"{length:g} inner radii",
+                      numerics=Numerics(half_length=length))  # fmt: skip
+    yield _by(default, "closure", "series fitted to direct states",
+              SeatedBalance(closure="series"))  # fmt: skip
+    yield _by(default, "model", "direct push-through", PushThrough())
+    yield _by(default, "model", "direct, wetted", PushThrough(wetted=True))
     outside = f"P_out {OUTSIDE / 1e3:g} kPa"
     yield replace(default, about=outside, what="dead", load=Load(OUTSIDE))
     yield replace(default, about=outside, what="hydrostatic", load=Load(OUTSIDE, "hydrostatic"))
     yield _by(replace(default, load=Load(OUTSIDE)), outside, "dead, Eq. 15 from the lumen",
-              closure_start="lumen")  # fmt: skip
+              SeatedBalance(closure_start="lumen"))  # fmt: skip
 
 
-def _by(choice: Choice, about: str, what: str, **changed: object) -> Choice:
-    method = replace(choice.method, **changed)  # type: ignore[arg-type]
-    return replace(choice, about=about, what=what, method=method)
+def _by(choice: Choice, about: str, what: str, model: Model) -> Choice:
+    return replace(choice, about=about, what=what, model=model)
 
 
 def _refusal(entry: Material) -> str | None:

@@ -18,8 +18,8 @@ __all__ = ["beam_figure"]
 
 def beam_figure(answer: Answer) -> Figure:
     """Draw the wall as a beam above, contact pressure and force balance below."""
-    beam = answer.beam
-    if beam is None:
+    beam = answer.contact
+    if not isinstance(beam, BeamState):
         raise BadInput("figure", answer.outcome.name, "asked for where there is a contact to draw")
     figure = new_figure(8.4, 6.2)
     rows = figure.add_gridspec(2, 2, height_ratios=(1.1, 1.0))

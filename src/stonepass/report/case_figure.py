@@ -10,8 +10,8 @@ from stonepass.errors import BadInput
 from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.answer import Answer
 from stonepass.model.force_balance import drive, resistance
-from stonepass.model.models.seated_balance import pressure_of_angle
-from stonepass.model.states.seated import SeatedState
+from stonepass.model.models.seated_balance import SeatedBalance, SeatedBalanceDetail
+from stonepass.model.states.seated_state import SeatedState
 from stonepass.report.balance import draw_balance
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
@@ -22,8 +22,8 @@ __all__ = ["case_figure"]
 
 def case_figure(answer: Answer) -> Figure:
     """Draw the seated wall above, contact pressure and force balance below."""
-    seated = answer.seated
-    if seated is None or seated.wall is None:
+    seated = answer.contact
+    if not isinstance(seated, SeatedState) or seated.wall is None:
         raise BadInput(
             "figure", answer.outcome.name, "asked for where there is a seated state to draw"
         )
@@ -80,8 +80,11 @@ def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:
 
 
 def _balance(axes: Axes, answer: Answer, seated: SeatedState) -> None:
-    forces = resistance(seated)
+    model, detail = answer.model, answer.detail
+    assert isinstance(model, SeatedBalance)
+    assert isinstance(detail, SeatedBalanceDetail)
+    forces = resistance(seated, as_printed=model.as_printed)
     alpha = np.linspace(seated.contact_angle, np.pi / 2, 300)
-    opened = pressure_of_angle(seated, alpha, answer.series)
+    opened = np.asarray(detail.closure.pressure(seated, alpha))
     push = drive(opened, seated.case.stone.shape.width(alpha))
     draw_balance(axes, answer, alpha, forces.total(alpha), push, forces.friction(alpha))

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from stonepass.errors import BadInput, Outcome
 from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.answer import Answer
-from stonepass.model.states.loaded import PushedState
+from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
 from stonepass.report.style import COLOURS, new_figure, tidy
@@ -23,8 +23,8 @@ URINE = COLOURS["green"]
 
 def push_figure(answer: Answer) -> Figure:
     """Draw the loaded wall above, and the pressure on the stone below."""
-    pushed = answer.pushed
-    if pushed is None or pushed.wall is None:
+    pushed = answer.contact
+    if not isinstance(pushed, PushedState) or pushed.wall is None:
         raise BadInput(
             "figure", answer.outcome.name, "asked for where there is a loaded state to draw"
         )
@@ -34,7 +34,9 @@ def push_figure(answer: Answer) -> Figure:
     draw_wall(axes, pushed, pushed.peak_contact_pressure)
     what = "Stone about to move" if answer.outcome is Outcome.MOVES else "Urine about to pass"
     axes.set_title(f"{what}: radial compression in the loaded wall")
-    draw_pressure(figure.add_subplot(rows[1]), pushed, answer.leak_pressure)
+    draw_pressure(
+        figure.add_subplot(rows[1]), pushed, getattr(answer.detail, "leak_pressure", None)
+    )
     return figure
 
 

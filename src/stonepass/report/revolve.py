@@ -11,7 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from stonepass.export.vtu import SEGMENTS, meridian
 from stonepass.fe.axisymmetric.postprocessing import Field
-from stonepass.model.case import Case
+from stonepass.model.problem import Problem
 from stonepass.report.style import COLOURS, new_figure
 
 __all__ = ["revolved_figure"]
@@ -21,7 +21,7 @@ LIGHT = np.array([-0.45, 0.9, 0.25])
 STONE_RINGS = 40
 
 
-def revolved_figure(wall: Field, case: Case, top: float, extent: float = 3.0) -> Figure:
+def revolved_figure(wall: Field, case: Problem, top: float, extent: float = 3.0) -> Figure:
     """Draw wall and stone in space, coloured by radial compression in Pa from 0 to `top`."""
     mirrored = case.stone.shape.symmetric
     half = meridian(wall, mirrored=mirrored)

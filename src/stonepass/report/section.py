@@ -11,14 +11,14 @@ from matplotlib.collections import LineCollection
 from matplotlib.tri import Triangulation
 
 from stonepass.fe.axisymmetric.postprocessing import Field
-from stonepass.model.case import Case
+from stonepass.model.problem import Problem
 from stonepass.report.stone import draw_stone
 
 __all__ = ["draw_section", "element_rim"]
 
 
 def draw_section(
-    axes: Axes, wall: Field, case: Case, top: float, sides: Sequence[float] = (1.0,)
+    axes: Axes, wall: Field, case: Problem, top: float, sides: Sequence[float] = (1.0,)
 ) -> None:
     """Draw wall and stone, coloured by radial compression in Pa from 0 to `top`.
 

@@ -8,13 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
-from stonepass.model.case import Case
+from stonepass.model.problem import Problem
 from stonepass.report.style import COLOURS
 
 __all__ = ["draw_radii", "draw_stone"]
 
 
-def draw_stone(axes: Axes, case: Case) -> None:
+def draw_stone(axes: Axes, case: Problem) -> None:
     """Fill the stone's section, lengths in inner radii."""
     rho, along = case.stone.shape.meridian(np.linspace(0.0, np.pi, 361))
     axes.add_patch(
@@ -28,7 +28,7 @@ def draw_stone(axes: Axes, case: Case) -> None:
     )
 
 
-def draw_radii(axes: Axes, case: Case, angles: Sequence[float]) -> None:
+def draw_radii(axes: Axes, case: Problem, angles: Sequence[float]) -> None:
     """Dashed lines from the stone's centre to where the contact begins and ends, θ in rad."""
     rho, along = case.stone.shape.meridian(np.array(angles))
     for r, z in zip(case.size_ratio * rho, case.size_ratio * along, strict=True):

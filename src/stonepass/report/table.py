@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -11,8 +10,9 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from stonepass.model.answer import Answer
-from stonepass.model.case import Case
+from stonepass.model.answer import Answer, Quantity
+from stonepass.model.contact_state import SolvedState
+from stonepass.model.problem import Problem
 from stonepass.model.size import SizeAnswer
 from stonepass.units import PASCAL_PER
 
@@ -26,6 +26,9 @@ __all__ = [
 ]
 
 
+SYMMETRIC = 1e-9  # rad, within which a contact ends where its mirror image begins
+
+
 def pressure_table(answer: Answer) -> Table:
     """One answer: what was asked, then the pressures."""
     table = _pressures(case_title(answer.case))
@@ -33,7 +36,7 @@ def pressure_table(answer: Answer) -> Table:
         error = None if answer.error is None else answer.error.critical_pressure
         _pressure_row(table, "[bold]critical pressure[/bold]", answer.pressure, error)
     _state_rows(table, answer)
-    if answer.seated is not None and answer.critical_angle is not None:
+    if answer.critical_angle is not None and answer.closure_end_pressure is not None:
         _angle_row(table, "critical angle", answer.critical_angle)
     return table
 
@@ -65,7 +68,7 @@ def curve_table(answers: Sequence[Answer]) -> Table:
             if answer.pressure is None
             else [significant(answer.pressure / scale) for scale in PASCAL_PER.values()]
         )
-        angle = "–" if answer.touch is None else f"{_deg(answer.touch.contact_angle):.2f}°"
+        angle = "–" if answer.contact is None else f"{_deg(answer.contact.contact_angle):.2f}°"
         error = (
             "" if answer.error is None else _share(answer.error.critical_pressure, answer.pressure)
         )
@@ -79,8 +82,7 @@ def grouped_warnings(answers: Sequence[Answer]) -> list[str]:
     kinds: dict[str, list[tuple[float, str]]] = {}
     for answer in answers:
         for warning in answer.warnings:
-            kind = re.sub(r"[-+.e\d]+", "#", warning)
-            kinds.setdefault(kind, []).append((answer.case.size_ratio, warning))
+            kinds.setdefault(warning.code, []).append((answer.case.size_ratio, str(warning)))
     return [
         f"in {len(found)} of {len(answers)} cases, the last one ξ = {found[-1][0]:.4g}: "
         f"{found[-1][1]}"
@@ -122,33 +124,44 @@ def _up(error: float, least: float) -> str:
 
 
 def _state_rows(table: Table, answer: Answer) -> None:
-    state, touch, beam = answer.state, answer.touch, answer.beam
-    if answer.closure_end_pressure is not None:
-        _pressure_row(table, "closure end", answer.closure_end_pressure)
-    if answer.leak_pressure is not None:
-        _pressure_row(table, "leak pressure", answer.leak_pressure)
-    if touch is None:
+    contact = answer.contact
+    quantities = [] if answer.detail is None else answer.detail.quantities()
+    pressures = [each for each in quantities if each.unit == "kPa"]
+    for each in pressures:
+        _quantity_row(table, each)
+    if contact is None:
         return
     error = answer.error
     equator = None if error is None else error.equator_contact_pressure
-    _pressure_row(table, "contact pressure, equator", touch.equator_contact_pressure, equator)
-    _pressure_row(table, "contact pressure, peak", touch.peak_contact_pressure)
+    _pressure_row(table, "contact pressure, equator", contact.equator_contact_pressure, equator)
+    _pressure_row(table, "contact pressure, peak", contact.peak_contact_pressure)
     angle = None if error is None else error.contact_angle
-    _angle_row(table, "contact angle", touch.contact_angle, angle)
-    if answer.pushed is not None:
-        _angle_row(table, "seal", answer.pushed.seal_angle)
-    if answer.pushed is not None or not answer.case.stone.shape.symmetric:
-        _angle_row(table, "contact ends", touch.downstream_angle)
-    if state is not None:
-        table.add_row("stability margin", f"{state.stability.margin:.2f}")
-    if beam is not None:
-        moduli = (beam.circumferential_modulus, beam.longitudinal_modulus)
-        for name, modulus in zip(("E1", "E2"), moduli, strict=True):
-            table.add_row(name, significant(modulus / 1e3))
-        table.add_row("half contact length", f"{beam.half_length:.3f} R_a")
+    _angle_row(table, "contact angle", contact.contact_angle, angle)
+    for each in quantities:
+        if each not in pressures:
+            _quantity_row(table, each)
+    if abs(contact.contact_angle + contact.downstream_angle - math.pi) > SYMMETRIC:
+        _angle_row(table, "contact ends", contact.downstream_angle)
+    if isinstance(contact, SolvedState):
+        table.add_row("stability margin", f"{contact.stability.margin:.2f}")
 
 
-def case_title(case: Case, *, with_stone: bool = True) -> str:
+def _quantity_row(table: Table, quantity: Quantity) -> None:
+    """One of the numbers that only this model knows, where it has a title."""
+    value = quantity.value
+    if not quantity.title or not isinstance(value, float):
+        return
+    if quantity.unit == "kPa":
+        _pressure_row(table, quantity.title, value * 1e3)
+    elif quantity.unit == "Pa":
+        table.add_row(quantity.title, significant(value / 1e3))
+    elif quantity.unit == "deg":
+        _angle_row(table, quantity.title, math.radians(value))
+    else:
+        table.add_row(quantity.title, f"{value:.3f} {quantity.unit}".strip())
+
+
+def case_title(case: Problem, *, with_stone: bool = True) -> str:
     """What was asked, in one line."""
     stone, ureter = case.stone, case.ureter
     sizes = [f"η = {case.wall_ratio:.4g}"]
@@ -164,7 +177,7 @@ def case_title(case: Case, *, with_stone: bool = True) -> str:
         parts.append(f"P_out {case.load.confining_pressure / 1e3:g} kPa {case.load.confinement}")
     if case.load.prestretch != 1.0:
         parts.append(f"pre-stretch {case.load.prestretch:g}")
-    if case.method.as_printed:
+    if getattr(getattr(case, "model", None), "as_printed", False):
         parts.append("Eq. 5 as printed")
     return " · ".join(parts)
 

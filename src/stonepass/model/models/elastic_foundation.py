@@ -7,25 +7,178 @@ the stone presses on it as a disc does on a half-plane (Hertz). Lengths here are
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from jaxtyping import Float
 
-from stonepass.errors import BadInput, Outcome, require
-from stonepass.materials.secant import secant_moduli
-from stonepass.model.answer import Answer, unanswered
-from stonepass.model.case import Case
+from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.errors import BadInput, Misplaced, Outcome, require
+from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.materials.secant import STRETCH, secant_moduli
+from stonepass.model.answer import Answer, Quantity, unanswered
+from stonepass.model.caution import Caution, caution
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law
+from stonepass.model.numerics import Numerics
+from stonepass.model.problem import Problem
 from stonepass.model.roots import first_root
-from stonepass.units import Values
+from stonepass.model.states.state_solver import StateSolver
+from stonepass.units import Pressure, Values, pressure
 
-__all__ = ["BeamState", "beam_state", "largest_beam_size", "solve_by_beam"]
+__all__ = ["BeamState", "ElasticFoundation", "ElasticFoundationDetail"]
 
 THICKEST = 1.5  # η
 WIDEST = 2.0  # ξ
 THIN, SMALL = 0.1, 0.1  # of the inner radius: what is called so without a warning
 WHY = "the beam model is of a thin free tube round a sphere: take the paper's or the direct model"
+MODULUS = (1e2, 1e10)  # Pa
+
+
+@dataclass(frozen=True)
+class ElasticFoundation:
+    """A thin wall as a beam on an elastic foundation.
+
+    Parameters
+    ----------
+    circumferential_modulus, longitudinal_modulus : str or Pressure, optional
+        E₁ and E₂, Young's moduli of the fibres round and along the tube.
+    secant_stretch : float, optional
+        Take both as nominal plane-strain secants of the wall's law at this stretch.
+    far_field_ground : bool
+        Whether the law of the secants contains its ground matrix.
+    """
+
+    SECTION: ClassVar[str] = "method"
+    NAME: ClassVar[str] = "beam"
+    MEANING: ClassVar[str] = "a thin wall as a beam on an elastic foundation"
+    NEEDS_ELEMENTS: ClassVar[bool] = False
+
+    circumferential_modulus: Pressure | str | None = declared(
+        Kind.PRESSURE,
+        "--E1",
+        "Young's modulus of the fibres round the tube.",
+        default=None,
+        bounds=MODULUS,
+        metavar="PRESSURE",
+    )
+    longitudinal_modulus: Pressure | str | None = declared(
+        Kind.PRESSURE,
+        "--E2",
+        "Young's modulus of the fibres along the tube.",
+        default=None,
+        bounds=MODULUS,
+        metavar="PRESSURE",
+    )
+    secant_stretch: float | None = declared(
+        Kind.NUMBER,
+        "--secant-stretch",
+        "Take both moduli as secants of the wall's law at this stretch.",
+        default=None,
+        bounds=STRETCH,
+    )
+    far_field_ground: bool = declared(
+        Kind.FLAG,
+        "--far-field-ground/--far-field-fibres",
+        "Whether the far field contains the ground matrix.",
+        default=False,
+        shown_default="fibres",
+    )
+
+    def __post_init__(self) -> None:
+        check_inputs(self)
+        moduli = {
+            "circumferential_modulus": self.circumferential_modulus,
+            "longitudinal_modulus": self.longitudinal_modulus,
+        }
+        missing = [name for name, value in moduli.items() if value is None]
+        if self.secant_stretch is None and missing:
+            raise BadInput(missing[0], "missing", "given", "or give a secant_stretch")
+        if self.secant_stretch is not None and len(missing) < 2:
+            raise Misplaced("secant_stretch", "a modulus", "", "give both moduli, or the stretch")
+
+    def moduli(self, case: Problem) -> tuple[float, float]:
+        """E₁ and E₂ in Pa: given, or secants of the wall's law."""
+        if self.secant_stretch is not None:
+            law = far_field_law(case, ground=self.far_field_ground)
+            return secant_moduli(law, self.secant_stretch)
+        hoop, axial = self.circumferential_modulus, self.longitudinal_modulus
+        return pressure(hoop, "circumferential_modulus"), pressure(axial, "longitudinal_modulus")
+
+    def require_any_size(self) -> None:
+        """Accept: no option belongs to one stone."""
+
+    def largest_size(self, case: Problem) -> float:
+        """ξ below which the contact is shorter than the stone: a < R_s where c (ξ − 1) < ξ."""
+        at_one = _beam_state(self, case.with_size_ratio(2.0))
+        c = at_one.half_length**2 / 2.0
+        return WIDEST if c <= 2.0 else c / (c - 1.0) * (1.0 - 1e-9)
+
+    def solve(
+        self,
+        case: Problem,
+        numerics: Numerics,
+        states: StateSolver,
+        resolution: Resolution | None = None,
+    ) -> Answer:
+        """Answer a stuck stone by the beam; it needs no states and no mesh.
+
+        Raises
+        ------
+        BadInput
+            A stone that is no sphere, a tube under load or pre-stretch, a wall that is not thin.
+        """
+        state = _beam_state(self, case)
+        a, xi = state.half_length, case.size_ratio
+        if not a < xi:
+            reason = (
+                f"the beam model does not hold: half the contact would be {a:.3g} inner radii "
+                f"long, as long as the stone's radius or longer, {xi:.3g}"
+            )
+            return unanswered(case, self, numerics, reason)
+
+        def excess(y: Values) -> Values:
+            return state.friction(y) - state.urine_pressure(y) * np.pi * (xi**2 - y**2)
+
+        root = a if case.stone.friction == 0.0 else first_root(excess, a, 0.0)
+        return Answer(
+            case,
+            self,
+            numerics,
+            Outcome.BEYOND_CLOSURE if root is None else Outcome.MOVES,
+            pressure=None if root is None else float(state.urine_pressure(root)),
+            critical_angle=None if root is None else float(np.arccos(root / xi)),
+            contact=state,
+            detail=ElasticFoundationDetail(float(state.urine_pressure(0.0)), state),
+            warnings=tuple(state.warnings()),
+        )
+
+
+@dataclass(frozen=True)
+class ElasticFoundationDetail:
+    """What the beam model knows beside the answer.
+
+    Attributes
+    ----------
+    closure_end_pressure : float
+        P_u in Pa at which the closure ends (r_a = R_s), not a physical bound.
+    state : BeamState
+    """
+
+    closure_end_pressure: float
+    state: BeamState
+
+    def quantities(self) -> tuple[Quantity, ...]:
+        """The end of the closure, moduli, springs and length of the contact."""
+        state = self.state
+        return (
+            Quantity("closure_end_pressure", self.closure_end_pressure / 1e3, "kPa", "closure end"),
+            Quantity("circumferential_modulus", state.circumferential_modulus, "Pa", "E1"),
+            Quantity("longitudinal_modulus", state.longitudinal_modulus, "Pa", "E2"),
+            Quantity("foundation", state.foundation, "Pa"),
+            Quantity("decay", state.decay),
+            Quantity("half_contact_length", state.half_length, "R_a", "half contact length"),
+        )
 
 
 @dataclass(frozen=True)
@@ -47,7 +200,7 @@ class BeamState:
         a = √(4 R_s F_n/(π E₂)) (Eq. 25), half the contact's length in inner radii.
     """
 
-    case: Case
+    case: Problem
     circumferential_modulus: float
     longitudinal_modulus: float
     foundation: float
@@ -96,24 +249,22 @@ class BeamState:
         width, first = (np.sqrt(1.0 - (each / xi) ** 2) for each in (y, self.half_length))
         return self.foundation * (linear_closure(width, float(first), xi) - 1.0)
 
-    def warnings(self) -> list[str]:
+    def warnings(self) -> list[Caution]:
         """Where the beam's assumptions are strained."""
         found, reach = [], self.half_length * self.decay
         if reach > 1.0:
-            found.append(
-                f"half the contact is {reach:.2g} decay lengths of the beam long, which takes the "
-                "stone's push as a point load"
-            )
+            found.append(caution("long_beam_contact", decay_lengths=reach))
         thick, wide = self.case.wall_ratio - 1.0, self.case.size_ratio - 1.0
         if thick > THIN or wide > SMALL:
-            found.append(
-                f"the wall is {thick:.2g} inner radii thick and widened by {wide:.2g} of them, "
-                "which the beam takes as small"
-            )
+            found.append(caution("thick_beam", thickness=thick, widening=wide))
         return found
 
+    def without_wall(self) -> BeamState:
+        """Return itself: a beam has no stress field."""
+        return self
 
-def beam_state(case: Case) -> BeamState:
+
+def _beam_state(model: ElasticFoundation, case: Problem) -> BeamState:
     """Press the beam on the stone.
 
     Raises
@@ -130,55 +281,10 @@ def beam_state(case: Case) -> BeamState:
         shown = f"{load.confining_pressure / 1e3:g} kPa"
         raise BadInput("confining pressure", shown, "none", WHY)
     require(load.prestretch == 1.0, "prestretch", load.prestretch, "1", WHY)
-    hoop, axial = _moduli(case)
+    hoop, axial = model.moduli(case)
     h = eta - 1.0
     foundation = h * hoop
     decay = (3.0 * foundation / (axial * h**3)) ** 0.25
     line_load = 2.0 * foundation * (case.size_ratio - 1.0) / decay
     half_length = float(np.sqrt(4.0 * case.size_ratio * line_load / (np.pi * axial)))
     return BeamState(case, hoop, axial, foundation, decay, line_load, half_length)
-
-
-def largest_beam_size(case: Case) -> float:
-    """ξ below which the contact is shorter than the stone: a < R_s where c (ξ − 1) < ξ."""
-    at_one = beam_state(case.with_size_ratio(2.0))
-    c = at_one.half_length**2 / 2.0
-    return WIDEST if c <= 2.0 else c / (c - 1.0) * (1.0 - 1e-9)
-
-
-def solve_by_beam(case: Case) -> Answer:
-    """Answer a stuck stone by the beam."""
-    state = beam_state(case)
-    a, xi = state.half_length, case.size_ratio
-    if not a < xi:
-        reason = (
-            f"the beam model does not hold: half the contact would be {a:.3g} inner radii long, as "
-            f"long as the stone's radius or longer, {xi:.3g}"
-        )
-        return unanswered(case, Outcome.NO_SOLUTION, reason)
-
-    def excess(y: Values) -> Values:
-        return state.friction(y) - state.urine_pressure(y) * np.pi * (xi**2 - y**2)
-
-    root = a if case.stone.friction == 0.0 else first_root(excess, a, 0.0)
-    found = Outcome.BEYOND_CLOSURE if root is None else Outcome.MOVES
-    return Answer(
-        case=case,
-        outcome=found,
-        message=found.value,
-        pressure=None if root is None else float(state.urine_pressure(root)),
-        critical_angle=None if root is None else float(np.arccos(root / xi)),
-        closure_end_pressure=float(state.urine_pressure(0.0)),
-        beam=state,
-        warnings=tuple(state.warnings()),
-    )
-
-
-def _moduli(case: Case) -> tuple[float, float]:
-    """E₁ and E₂ in Pa: given, or secants of the wall's law."""
-    method = case.method
-    if method.secant_stretch is not None:
-        return secant_moduli(far_field_law(case), method.secant_stretch)
-    given = method.circumferential_modulus, method.longitudinal_modulus
-    hoop, axial = (float(each) for each in given if each is not None)  # Method has asked for both
-    return hoop, axial

@@ -2,67 +2,141 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
+from stonepass.declaration import Kind, check_inputs, declared
 from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.accuracy import LEVELS, ErrorEstimate, Level
-from stonepass.model.answer import Answer, unanswered
-from stonepass.model.case import Case
-from stonepass.model.states.loaded import Critical, NoPush, PushedState
-from stonepass.model.states.stability_report import folding_warning
+from stonepass.model.accuracy import ErrorEstimate, Level
+from stonepass.model.answer import Answer, Quantity, unanswered
+from stonepass.model.caution import caution
+from stonepass.model.numerics import Numerics
+from stonepass.model.problem import Problem
+from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
 from stonepass.model.states.state_solver import StateSolver
-from stonepass.model.states.uncached import UNCACHED
-from stonepass.model.validity import range_warnings
+from stonepass.model.validity import ring_buckling, strain_range
 
-__all__ = ["solve_by_push"]
-
-UNDECIDED = (
-    "a coarser solve ends otherwise: whether the stone moves before urine passes is within the "
-    "solver error"
-)
+__all__ = ["PushThrough", "PushThroughDetail"]
 
 
-def solve_by_push(
-    case: Case, resolution: Resolution | None = None, states: StateSolver = UNCACHED
-) -> Answer:
-    """Answer a stuck stone by the pressure at which no force is left on it."""
-    level = LEVELS[case.method.accuracy]
-    wanted = (level.companion, level.resolution) if resolution is None else (resolution,)
-    *coarser, found = states.push(case, wanted, leak=resolution is None)
-    if isinstance(found, NoPush):
-        return unanswered(
-            case, Outcome.NO_SOLUTION, found.reason, found.newton_steps, found.seconds
-        )
-    coarse = coarser[0] if coarser and isinstance(coarser[0], Critical) else None
-    state = found.state
-    undecided = coarse is not None and coarse.leaks != found.leaks
-    answer = Answer(
-        case=case,
-        outcome=Outcome.LEAKS if found.leaks else Outcome.MOVES,
-        message=(Outcome.LEAKS if found.leaks else Outcome.MOVES).value,
-        pushed=state,
-        leak_pressure=found.leak_pressure if coarse is None else coarse.leak_pressure,
-        newton_steps=sum(each.newton_steps for each in (*coarser, found)),
-        seconds=found.seconds,
-        warnings=(
-            *case.stone.shape.warnings(),
-            *range_warnings(case),
-            *folding_warning(case),
-            *state.warnings(),
-            *([UNDECIDED] if undecided else []),
-        ),
+@dataclass(frozen=True)
+class PushThrough:
+    """The loaded push-through itself, without a closure.
+
+    Parameters
+    ----------
+    wetted : bool
+        Whether urine takes its pressure off the friction, from the contact's upstream edge to the
+        seal.
+    far_field_ground : bool
+        Whether the far field of an assessment contains the ground matrix of the law; the
+        push-through itself always does.
+    """
+
+    SECTION: ClassVar[str] = "method"
+    NAME: ClassVar[str] = "direct"
+    MEANING: ClassVar[str] = "the loaded push-through itself"
+    NEEDS_ELEMENTS: ClassVar[bool] = True
+
+    wetted: bool = declared(
+        Kind.FLAG,
+        "--wetted/--dry",
+        "Whether urine takes friction off up to the seal.",
+        default=False,
+        shown_default="dry",
     )
-    if not found.leaks:
-        # Without friction nothing holds the stone: the root is 0, and rounding tells nothing.
-        pressure = 0.0 if case.stone.friction == 0.0 else state.urine_pressure
-        answer = replace(answer, pressure=pressure, critical_angle=state.contact_angle)
-    if coarse is None or undecided:
-        return answer
-    return replace(answer, error=_push_error(level, coarse.state, state, answer.pressure))
+    far_field_ground: bool = declared(
+        Kind.FLAG,
+        "--far-field-ground/--far-field-fibres",
+        "Whether the far field contains the ground matrix.",
+        default=False,
+        shown_default="fibres",
+    )
+
+    def __post_init__(self) -> None:
+        check_inputs(self)
+
+    def require_any_size(self) -> None:
+        """Accept: no option belongs to one stone."""
+
+    def largest_size(self, case: Problem) -> float:
+        """The end of the material's strain range."""
+        return case.ureter.material.strain_range[1]
+
+    def solve(
+        self,
+        case: Problem,
+        numerics: Numerics,
+        states: StateSolver,
+        resolution: Resolution | None = None,
+    ) -> Answer:
+        """Answer a stuck stone by the pressure at which no force is left on it."""
+        level = numerics.level
+        wanted = (level.companion, level.resolution) if resolution is None else (resolution,)
+        *coarser, found = states.push(
+            case, numerics, wanted, wetted=self.wetted, leak=resolution is None
+        )
+        if isinstance(found, NoPush):
+            return unanswered(case, self, numerics, found.reason, steps=found.newton_steps,
+                              seconds=found.seconds)  # fmt: skip
+        coarse = coarser[0] if coarser and isinstance(coarser[0], Critical) else None
+        state = found.state
+        undecided = coarse is not None and coarse.leaks != found.leaks
+        leak = found.leak_pressure if coarse is None else coarse.leak_pressure
+        answer = Answer(
+            case,
+            self,
+            numerics,
+            Outcome.LEAKS if found.leaks else Outcome.MOVES,
+            contact=state,
+            detail=PushThroughDetail(leak, state.seal_angle),
+            newton_steps=sum(each.newton_steps for each in (*coarser, found)),
+            seconds=found.seconds,
+            warnings=(
+                *case.stone.shape.warnings(),
+                *strain_range(case),
+                *ring_buckling(case),
+                *state.warnings(),
+                *([caution("leak_undecided")] if undecided else []),
+            ),
+        )
+        if not found.leaks:
+            # Without friction nothing holds the stone: the root is 0, and rounding tells nothing.
+            pressure = 0.0 if case.stone.friction == 0.0 else state.urine_pressure
+            answer = replace(answer, pressure=pressure, critical_angle=state.contact_angle)
+        if coarse is None or undecided:
+            return answer
+        return replace(answer, error=_error(level, coarse.state, state, answer.pressure))
 
 
-def _push_error(
+@dataclass(frozen=True)
+class PushThroughDetail:
+    """What the direct model knows beside the answer.
+
+    Attributes
+    ----------
+    leak_pressure : float or None
+        Urine pressure in Pa at which urine passes the held stone; None where it was not asked for,
+        or not found.
+    seal_angle : float
+        θ in rad of the largest contact pressure, which holds the urine back.
+    """
+
+    leak_pressure: float | None
+    seal_angle: float
+
+    def quantities(self) -> tuple[Quantity, ...]:
+        """Leak pressure and place of the seal."""
+        leak = None if self.leak_pressure is None else self.leak_pressure / 1e3
+        return (
+            Quantity("leak_pressure", leak, "kPa", "leak pressure"),
+            Quantity("seal_angle", math.degrees(self.seal_angle), "deg", "seal"),
+        )
+
+
+def _error(
     level: Level, coarse: PushedState, fine: PushedState, pressure: float | None
 ) -> ErrorEstimate:
     width = fine.downstream_angle - fine.contact_angle

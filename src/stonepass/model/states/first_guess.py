@@ -7,8 +7,8 @@ from jaxtyping import Float
 
 from stonepass.fe.axisymmetric.problem import Wrap
 from stonepass.fe.axisymmetric.profile import Profile
-from stonepass.model.case import Case
 from stonepass.model.far_field import inflation
+from stonepass.model.problem import Problem
 
 __all__ = ["wrap_round_arc"]
 
@@ -16,7 +16,9 @@ REACH = 1.2  # of the place where the wall leaves the arc: so far the contact is
 MERIDIAN = 2001  # samples of the arc
 
 
-def wrap_round_arc(case: Case, lumen: float, modulus: float, place: Profile) -> Wrap:
+def wrap_round_arc(
+    case: Problem, half_length: float, lumen: float, modulus: float, place: Profile
+) -> Wrap:
     """Inner radius and pressure along the tube round an arc at a place.
 
     The wall is taken to leave the arc where the axial coordinate is half that of the place at
@@ -24,7 +26,7 @@ def wrap_round_arc(case: Case, lumen: float, modulus: float, place: Profile) -> 
     lumen exponentially. The inner pressure is that of a uniform tube of the local radius.
     """
     stretch, law = case.load.prestretch, case.ureter.material.law
-    end = case.method.half_length * stretch
+    end = half_length * stretch
     z, inner, last = _side(place, lumen, end)
     first = last
     if not place.symmetric:

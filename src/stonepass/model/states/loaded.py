@@ -14,15 +14,12 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from jaxtyping import Float
 
 from stonepass.errors import require
 from stonepass.fe.axisymmetric.contact import joined, resampling
 from stonepass.fe.axisymmetric.discrete import inner_wall
 from stonepass.fe.axisymmetric.fitted_contact import Fitted
 from stonepass.fe.axisymmetric.postprocessing import (
-    Field,
-    Volume,
     deformation,
     field,
     loaded_balance,
@@ -35,14 +32,14 @@ from stonepass.fe.core.threads import one_thread
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.relaxed_energy import Relaxed, relaxed
 from stonepass.materials.stability import check
-from stonepass.model.accuracy import LEVELS
-from stonepass.model.case import Case
 from stonepass.model.energy_balance import opening_pressure
 from stonepass.model.far_field import stuck_lumen
+from stonepass.model.numerics import Numerics
+from stonepass.model.problem import Problem
 from stonepass.model.states.first_guess import wrap_round_arc
+from stonepass.model.states.loaded_state import Critical, NoPush, PushedState, PushReport
 from stonepass.model.states.nondimensional import profile_of, tube_of
-from stonepass.model.states.stability_report import (
-    StabilityReport,
+from stonepass.model.states.stability import (
     far_field_hint,
     oversize_hint,
     stability_of,
@@ -50,15 +47,7 @@ from stonepass.model.states.stability_report import (
 )
 from stonepass.units import Pressure, pressure
 
-__all__ = [
-    "Critical",
-    "NoPush",
-    "PushReport",
-    "PushedState",
-    "critical_push",
-    "push_along",
-    "push_through",
-]
+__all__ = ["solve_critical", "solve_loaded"]
 
 SAMPLES = 33  # of each column in contact
 # In units of the pressure that opens the tube to R_s: largest first guess, and a low start.
@@ -69,191 +58,34 @@ HIGHEST_EXCESS, LEAK_EXCESS, LEAK_STEP, LEAK_FAR = 3.0, 0.06, 0.6, 0.4
 NO_PRESSURE = 1e-9  # in units of the modulus: rounding around none
 LEAKS = "urine passes the stone: no contact pressure is above that of the urine"
 UNSEALED = "the state that balances does not hold the urine back"
-IMBALANCE = 0.01
 
 
-@dataclass(frozen=True)
-class PushReport:
-    """What the finite elements did.
-
-    Attributes
-    ----------
-    dofs, newton_steps, seconds : int, int, float
-        Unknowns of the mesh; Newton steps with a tangent of their own and seconds of all that was
-        solved for the answer.
-    residual : float
-        Relative to the contact force.
-    volume : Volume
-        How well volume is kept.
-    axial_balance : float
-        Axial force left over on tube and stone, relative to the forces at the tube's ends.
-    penetration : float
-        How far the open wall passes through the stone where friction begins with a step, in radii
-        of the stone.
-    """
-
-    dofs: int
-    newton_steps: int
-    seconds: float
-    residual: float
-    volume: Volume
-    axial_balance: float
-    penetration: float
-
-
-@dataclass(frozen=True)
-class PushedState:
-    """The loaded wall round the held stone, in SI.
-
-    Attributes
-    ----------
-    urine_pressure : float
-        P_u in Pa.
-    net_force : float
-        N/(π R_s²) in Pa: axial force on the stone over its cross-section, positive downstream;
-        negative while the stone is stuck.
-    friction_work : float
-        D/(π R_s²) in Pa, D = ∫ μ σ λ_s dA with λ_s the wall's meridional stretch: what friction
-        takes as the stone goes on by one length of wall, pre-stretched but not loaded. N = I − D
-        (`model.energy_balance`).
-    theta, contact_pressure : arrays
-        Total contact pressure in Pa (true stress, compression positive) over θ in rad from the
-        upstream axis (parametric where the stone is no sphere, `model.shape`), from the upstream
-        edge of the contact to the downstream one.
-    upstream_radius, upstream_stretch : float
-        r_a/R_a and axial stretch far from the stone.
-    downstream_stretch : float
-        Axial stretch far downstream.
-    wall : Field
-        Deformed wall and Cauchy stress (Pa, tension positive) of the whole tube, lengths in inner
-        radii, z from the stone's widest place downstream.
-    solver : PushReport
-    stability : StabilityReport
-        Stability of the wall's own law in this state, kinks left out.
-    kinked : bool
-        Whether the law was relaxed somewhere: axial fibres compressed until they kink.
-    """
-
-    case: Case
-    urine_pressure: float
-    net_force: float
-    friction_work: float
-    theta: Float[np.ndarray, " n"]
-    contact_pressure: Float[np.ndarray, " n"]
-    upstream_radius: float
-    upstream_stretch: float
-    downstream_stretch: float
-    wall: Field | None
-    solver: PushReport
-    stability: StabilityReport
-    kinked: bool
-
-    @property
-    def contact_angle(self) -> float:
-        """α in rad, at which the contact begins; upstream of it the wall has opened."""
-        return float(self.theta[0])
-
-    @property
-    def downstream_angle(self) -> float:
-        """θ in rad at which the contact ends."""
-        return float(self.theta[-1])
-
-    @property
-    def seal_angle(self) -> float:
-        """θ in rad of the largest contact pressure, which holds the urine back."""
-        return float(self.theta[np.argmax(self.contact_pressure)])
-
-    @property
-    def peak_contact_pressure(self) -> float:
-        """Largest σ(θ) in Pa."""
-        return float(self.contact_pressure.max())
-
-    @property
-    def equator_contact_pressure(self) -> float:
-        """σ(π/2) in Pa: the urine pressure where the wall has opened beyond the equator."""
-        return float(self.pressure_at(np.array(np.pi / 2)))
-
-    def warnings(self) -> list[str]:
-        """What a reader of the state must know."""
-        found = []
-        if self.solver.axial_balance > IMBALANCE:
-            found.append(
-                f"the axial forces on tube and stone miss their balance by "
-                f"{self.solver.axial_balance:.1%}"
-            )
-        if self.kinked and self.stability.margin <= 0.0:
-            R, Z = self.stability.weakest_at
-            found.append(
-                f"the wall kinks at R = {R:.3g}, Z = {Z:.3g} (inner radii, downstream positive), "
-                "where its axial fibres are compressed: it is solved with the energy that it has "
-                "in the limit of fine kinks"
-            )
-            return [*found, *self.stability.folding()]
-        return [*found, *self.stability.warnings()]
-
-    def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
-        """Pressure on the stone in Pa at any θ in [0, π]: P_u before the contact, 0 behind it."""
-        inside: Float[np.ndarray, "*m"] = np.interp(
-            theta, self.theta, self.contact_pressure, left=self.urine_pressure, right=0.0
-        )
-        return inside
-
-
-@dataclass(frozen=True)
-class NoPush:
-    """The finite elements found no loaded state."""
-
-    reason: str
-    newton_steps: int
-    seconds: float
-
-
-@dataclass(frozen=True)
-class Critical:
-    """How a held stone is let go.
-
-    Attributes
-    ----------
-    state : PushedState
-        Where no force is left on the stone; where urine passes first, the last state before.
-    leak_pressure : float or None
-        P_u in Pa at which urine passes the held stone; None where it was not asked for, or not
-        found.
-    leaks : bool
-        Whether urine passes first.
-    """
-
-    state: PushedState
-    leak_pressure: float | None
-    leaks: bool
-
-    @property
-    def newton_steps(self) -> int:
-        """Newton steps with a tangent of their own."""
-        return self.state.solver.newton_steps
-
-    @property
-    def seconds(self) -> float:
-        """Seconds of all that was solved for it."""
-        return self.state.solver.seconds
-
-
-def push_through(
-    case: Case,
-    urine: str | Pressure,
+def solve_loaded(
+    case: Problem,
+    numerics: Numerics,
+    urine: Sequence[str | Pressure],
     resolution: Resolution | None = None,
     *,
+    wetted: bool = False,
     tether: float = 0.0,
     offset: float = 0.0,
-) -> PushedState | NoPush:
-    """Hold the stone under a urine pressure, the slide imminent everywhere (model: section 7).
+) -> list[PushedState | NoPush]:
+    """Hold the stone under one pressure after the other, each state the start of the next.
+
+    The slide is imminent everywhere (theory: the push-through, solved directly). Once a state is
+    not found, the rest is not tried.
 
     Parameters
     ----------
-    urine : str or Pressure
+    case : Problem
+    numerics : Numerics
+    urine : sequence of str or Pressure
         P_u above the stone, e.g. ``"8 kPa"``; zero or positive.
     resolution : Resolution, optional
-        The mesh; by default that of the case's accuracy.
+        The mesh; by default the finer one of the accuracy.
+    wetted : bool
+        Whether urine takes its pressure off the friction, from the contact's upstream edge to the
+        seal.
     tether : float
         Stiffness of springs that hold the outer wall along the axis, per reference area, in units
         of w″(1)/R_a. The ends hold the wall only far away, so it shortens upstream and lengthens
@@ -268,28 +100,12 @@ def push_through(
     BadInput
         The stone is not larger than the lumen, or a number is out of range.
     """
-    (found,) = push_along(case, [urine], resolution, tether=tether, offset=offset)
-    return found
-
-
-def push_along(
-    case: Case,
-    urine: Sequence[str | Pressure],
-    resolution: Resolution | None = None,
-    *,
-    tether: float = 0.0,
-    offset: float = 0.0,
-) -> list[PushedState | NoPush]:
-    """Hold the stone under one pressure after the other, each state the start of the next.
-
-    See `push_through`. Once a state is not found, the rest is not tried.
-    """
     bounds = [pressure(each, "urine pressure") for each in urine]
     for bound, each in zip(bounds, urine, strict=True):
         require(0.0 <= bound < np.inf, "urine pressure", each, "zero or positive")
     started = time.perf_counter()
-    wanted = resolution or LEVELS[case.method.accuracy].resolution
-    (ready,) = _slides(case, [wanted], tether, offset)
+    wanted = resolution or numerics.resolution
+    (ready,) = _slides(case, numerics, [wanted], wetted=wetted, tether=tether, offset=offset)
     if isinstance(ready, Failure):
         return [_no_push(case, ready, started)] * len(bounds)
     states: list[PushedState | NoPush] = []
@@ -305,8 +121,13 @@ def push_along(
     return states
 
 
-def critical_push(
-    case: Case, resolutions: Sequence[Resolution], *, leak: bool = True
+def solve_critical(
+    case: Problem,
+    numerics: Numerics,
+    resolutions: Sequence[Resolution],
+    *,
+    wetted: bool = False,
+    leak: bool = True,
 ) -> list[Critical | NoPush]:
     """Find the pressure that moves the stone, once for each resolution, coarse before fine.
 
@@ -315,7 +136,7 @@ def critical_push(
     """
     started, found = time.perf_counter(), list[Critical | NoPush]()
     guess = None
-    for ready in _slides(case, resolutions):
+    for ready in _slides(case, numerics, resolutions, wetted=wetted):
         if isinstance(ready, Failure):
             found.append(_no_push(case, ready, started))
             continue
@@ -339,18 +160,24 @@ class _Ready:
 
 
 def _slides(
-    case: Case, resolutions: Sequence[Resolution], tether: float = 0.0, offset: float = 0.0
+    case: Problem,
+    numerics: Numerics,
+    resolutions: Sequence[Resolution],
+    *,
+    wetted: bool,
+    tether: float = 0.0,
+    offset: float = 0.0,
 ) -> list[_Ready | Failure]:
     """Seat the stone without friction, for each resolution, and make a loaded tube of it."""
     check(case.ureter.material)
     lumen = stuck_lumen(case)
-    unstable = waves(case)
+    unstable = waves(case, numerics.half_length)
     if unstable:
         return [Failure(unstable, 0)] * len(resolutions)
     law = relaxed(case.ureter.material.law)
     modulus = hoop_modulus(law)
-    tube = tube_of(law, case.wall_ratio, case.load, case.method.half_length)
-    wrap_at = partial(wrap_round_arc, case, lumen, modulus)
+    tube = tube_of(law, case.wall_ratio, case.load, numerics.half_length)
+    wrap_at = partial(wrap_round_arc, case, numerics.half_length, lumen, modulus)
     opening = opening_pressure(case)
     found: list[_Ready | Failure] = []
     for half, resolution in zip(
@@ -363,7 +190,7 @@ def _slides(
             replace(tube, tether=tether),
             half,
             resolution,
-            wetted=case.method.wetted,
+            wetted=wetted,
             offset=offset,
         )
         guess = _guess(case, half, opening / modulus)
@@ -371,7 +198,7 @@ def _slides(
     return found
 
 
-def _guess(case: Case, half: Fitted, opening: float) -> float:
+def _guess(case: Problem, half: Fitted, opening: float) -> float:
     """P_ucr by energy from the unloaded contact: P V = ∫ μ λ dA for an advance by one length."""
     wall = inner_wall(half.discrete, "closed")
     halves = 1.0 if half.layout.whole else 2.0
@@ -382,7 +209,7 @@ def _guess(case: Case, half: Fitted, opening: float) -> float:
 
 
 def _critical(
-    case: Case, ready: _Ready, guess: float | None, started: float, *, leak: bool
+    case: Problem, ready: _Ready, guess: float | None, started: float, *, leak: bool
 ) -> Critical | NoPush:
     slide, friction = ready.slide, case.stone.friction
     found = slide.moving(ready.guess if guess is None else guess, friction)
@@ -440,12 +267,12 @@ def _excess(state: Slid) -> float:
     return float(state.contact_pressure.max()) / state.pressure - 1.0
 
 
-def _no_push(case: Case, failure: Failure, started: float) -> NoPush:
+def _no_push(case: Problem, failure: Failure, started: float) -> NoPush:
     reason = failure.reason + far_field_hint(case) + oversize_hint(case)
     return NoPush(reason, failure.steps, time.perf_counter() - started)
 
 
-def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedState:
+def _state(case: Problem, ready: _Ready, found: Slid, started: float) -> PushedState:
     slide, modulus = ready.slide, ready.modulus
     order = found.station.shape[1] - 1
     fine = resampling(order, SAMPLES)[0].T
@@ -479,7 +306,7 @@ def _state(case: Case, ready: _Ready, found: Slid, started: float) -> PushedStat
     )
 
 
-def _kinked(case: Case, slide: Slide) -> bool:
+def _kinked(case: Problem, slide: Slide) -> bool:
     """Whether C_zz is anywhere below that at which the relaxed law begins."""
     law = relaxed(case.ureter.material.law)
     if not isinstance(law, Relaxed):

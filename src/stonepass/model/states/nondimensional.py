@@ -6,7 +6,8 @@ from stonepass.fe.axisymmetric.problem import Tube
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.materials.derivatives import hoop_modulus, rest_gradient
 from stonepass.materials.protocol import Law
-from stonepass.model.case import Case, Load
+from stonepass.model.load import Load
+from stonepass.model.problem import Problem
 
 __all__ = ["profile_of", "tube_of"]
 
@@ -42,7 +43,7 @@ def tube_of(law: Law, wall_ratio: float, load: Load, half_length: float) -> Tube
     )
 
 
-def profile_of(case: Case) -> Profile:
+def profile_of(case: Problem) -> Profile:
     """The stone in inner radii, its axis that of the tube."""
     shape = case.stone.shape
     return Profile(case.size_ratio, shape.aspect, outline=shape.outline)

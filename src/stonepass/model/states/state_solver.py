@@ -1,32 +1,49 @@
-"""What the models ask of the finite elements, so that it may be remembered, not solved again."""
+"""The contract of whoever finds finite-element states: solved afresh, or remembered."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
-from stonepass.model.case import Case
+from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
-
-if TYPE_CHECKING:  # each loads the finite elements
-    from stonepass.fe.axisymmetric.problem import Resolution
-    from stonepass.model.states.loaded import Critical, NoPush
-    from stonepass.model.states.seated import NoSeat, SeatedState
+from stonepass.model.problem import Problem
+from stonepass.model.seating import Seating
+from stonepass.model.states.loaded_state import Critical, NoPush
+from stonepass.model.states.seated_state import NoSeat, SeatedState
 
 __all__ = ["StateSolver"]
 
 
 @runtime_checkable
 class StateSolver(Protocol):
-    """A source of finite-element results: `uncached` solves, `studies.solution_cache` remembers."""
+    """A source of finite-element states.
 
-    def seat(self, case: Case, resolution: Resolution | None) -> SeatedState | NoSeat:
-        """See `model.states.seated.seat`."""
+    `uncached.UNCACHED` solves each time, `studies.solution_cache` remembers. Whoever
+    implements it must return what the functions named below return for the same arguments, to the
+    bit, and must not keep anything that a caller could change.
+    """
+
+    def seat(
+        self,
+        case: Problem,
+        seating: Seating,
+        numerics: Numerics,
+        resolution: Resolution | None = None,
+    ) -> SeatedState | NoSeat:
+        """See `model.states.seated.solve_seated`."""
 
     def push(
-        self, case: Case, resolutions: Sequence[Resolution], *, leak: bool
+        self,
+        case: Problem,
+        numerics: Numerics,
+        resolutions: Sequence[Resolution],
+        *,
+        wetted: bool,
+        leak: bool,
     ) -> list[Critical | NoPush]:
-        """See `model.states.loaded.critical_push`."""
+        """See `model.states.loaded.solve_critical`."""
 
-    def pairs(self, case: Case) -> OpeningCurve | None:
+    def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
         """See `model.states.opening.solve_opening_curve`."""

@@ -1,31 +1,52 @@
-"""Finite-element results, solved every time."""
+"""Finite-element states, solved every time."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.case import Case
+from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
-from stonepass.model.states.loaded import Critical, NoPush, critical_push
-from stonepass.model.states.opening import solve_opening_curve
-from stonepass.model.states.seated import NoSeat, SeatedState, seat
+from stonepass.model.problem import Problem
+from stonepass.model.seating import Seating
+from stonepass.model.states.loaded_state import Critical, NoPush
+from stonepass.model.states.seated_state import NoSeat, SeatedState
 from stonepass.model.states.state_solver import StateSolver
 
 __all__ = ["UNCACHED"]
 
 
 class _Uncached:
-    def seat(self, case: Case, resolution: Resolution | None) -> SeatedState | NoSeat:
-        return seat(case, resolution)
+    """Solves each state when it is asked for; only then are the finite elements loaded."""
+
+    def seat(
+        self,
+        case: Problem,
+        seating: Seating,
+        numerics: Numerics,
+        resolution: Resolution | None = None,
+    ) -> SeatedState | NoSeat:
+        from stonepass.model.states.seated import solve_seated
+
+        return solve_seated(case, seating, numerics, resolution)
 
     def push(
-        self, case: Case, resolutions: Sequence[Resolution], *, leak: bool
+        self,
+        case: Problem,
+        numerics: Numerics,
+        resolutions: Sequence[Resolution],
+        *,
+        wetted: bool,
+        leak: bool,
     ) -> list[Critical | NoPush]:
-        return critical_push(case, resolutions, leak=leak)
+        from stonepass.model.states.loaded import solve_critical
 
-    def pairs(self, case: Case) -> OpeningCurve | None:
-        return solve_opening_curve(case)
+        return solve_critical(case, numerics, resolutions, wetted=wetted, leak=leak)
+
+    def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
+        from stonepass.model.states.opening import solve_opening_curve
+
+        return solve_opening_curve(case, numerics)
 
 
 UNCACHED: StateSolver = _Uncached()

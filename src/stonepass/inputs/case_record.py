@@ -1,0 +1,98 @@
+"""The canonical record of a case: one closed, versioned description in plain values and SI units.
+
+JSON records, fingerprints and whoever compares two cases use this description; what it leaves out
+(where a file lay) does not change an answer.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict, is_dataclass
+from typing import Any
+
+from stonepass.declaration import inputs_of
+from stonepass.materials.protocol import Material
+from stonepass.model.answer import Model
+from stonepass.model.numerics import Numerics
+from stonepass.model.opening_curve import OpeningCurve
+from stonepass.model.problem import Problem
+from stonepass.model.shape import Shape
+
+__all__ = ["VERSION", "describe", "describe_material", "fingerprint"]
+
+VERSION = 1  # raised when a key changes its name or its meaning
+
+
+def describe(case: Problem, model: Model, numerics: Numerics) -> dict[str, Any]:
+    """Describe a problem, its model and its numerics.
+
+    Returns
+    -------
+    dict
+        JSON-ready: lengths in m, pressures in Pa, angles in degrees. Size and wall ratio stand
+        there whatever the case was given by; diameters only where the ureter has lengths.
+    """
+    stone, ureter, load = case.stone, case.ureter, case.load
+    return {
+        "version": VERSION,
+        "stone": {
+            "diameter_m": case.stone_diameter,
+            "size_ratio": case.size_ratio,
+            "friction": stone.friction,
+            "shape": _shape(stone.shape),
+        },
+        "ureter": {
+            "inner_diameter_m": ureter.inner_diameter,
+            "outer_diameter_m": ureter.outer_diameter,
+            "wall_ratio": ureter.wall_ratio,
+            "material": describe_material(ureter.material),
+        },
+        "load": {
+            "confining_pressure_Pa": float(load.confining_pressure),
+            "confinement": load.confinement,
+            "prestretch": load.prestretch,
+        },
+        "model": {"name": model.NAME} | _options(model),
+        "numerics": _options(numerics),
+    }
+
+
+def describe_material(material: Material) -> dict[str, Any]:
+    """A material by its law and constants; a user's function by its name alone."""
+    law = material.law
+    constants: dict[str, Any] = asdict(law) if is_dataclass(law) else {}  # type: ignore[call-overload]
+    constants.pop("function", None)
+    return {
+        "name": material.name,
+        "law": type(law).__name__,
+        "constants": constants,
+        "strain_range": list(material.strain_range),
+    }
+
+
+def fingerprint(case: Problem, model: Model, numerics: Numerics) -> str:
+    """SHA-256 of the canonical record in hexadecimal digits.
+
+    A user's function enters by its name alone, so two versions of it are not told apart.
+    """
+    text = json.dumps(describe(case, model, numerics), sort_keys=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _shape(shape: Shape) -> dict[str, Any]:
+    return {
+        "aspect": shape.aspect,
+        "outline": list(shape.outline),
+        "deviation": shape.deviation,
+    }
+
+
+def _options(part: Any) -> dict[str, Any]:
+    return {name: _plain(getattr(part, name)) for name in inputs_of(type(part))}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, OpeningCurve):
+        return {"alpha_rad": list(value.alpha), "radius_ratio": list(value.radius)}
+    return float(value) if isinstance(value, float) else value

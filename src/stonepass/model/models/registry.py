@@ -1,0 +1,22 @@
+"""The models by their name at the doors. A new model is one file and one line here."""
+
+from __future__ import annotations
+
+from stonepass.errors import refuse_unknown
+from stonepass.model.answer import Model
+from stonepass.model.models.elastic_foundation import ElasticFoundation
+from stonepass.model.models.push_through import PushThrough
+from stonepass.model.models.seated_balance import SeatedBalance
+
+__all__ = ["MODELS", "model_named"]
+
+MODELS: dict[str, type[Model]] = {
+    each.NAME: each for each in (SeatedBalance, PushThrough, ElasticFoundation)
+}
+
+
+def model_named(name: str) -> type[Model]:
+    """Look up a model by its name; an unknown one is refused, naming the nearest."""
+    if name not in MODELS:
+        refuse_unknown("model", name, list(MODELS))
+    return MODELS[name]

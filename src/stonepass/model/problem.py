@@ -1,0 +1,78 @@
+"""The physical problem: a stone in a ureter under a load, whatever model answers it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Self
+
+from stonepass.errors import BadInput, require
+from stonepass.model.load import Load
+from stonepass.model.stone import SIZE_RATIO, Stone
+from stonepass.model.ureter import BY_RATIO, Ureter
+from stonepass.units import Length
+
+__all__ = ["Problem"]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A stone in a ureter under a load.
+
+    Raises
+    ------
+    BadInput
+        The stone has a diameter but the ureter has none, or the size ratio is out of bounds.
+    """
+
+    stone: Stone
+    ureter: Ureter
+    load: Load = field(default_factory=Load)
+
+    def __post_init__(self) -> None:
+        if self.stone.diameter is not None and self.ureter.inner_diameter is None:
+            raise BadInput(
+                "inner diameter", "missing", "given where the stone has a diameter", BY_RATIO
+            )
+        low, high = SIZE_RATIO
+        require(
+            low <= self.size_ratio <= high,
+            "size ratio (stone diameter over inner diameter)",
+            round(self.size_ratio, 6),
+            f"{low:g} to {high:g}",
+        )
+
+    @property
+    def size_ratio(self) -> float:
+        """ξ = R_s/R_a."""
+        if self.stone.size_ratio is not None:
+            return self.stone.size_ratio
+        assert isinstance(self.stone.diameter, Length)
+        assert isinstance(self.ureter.inner_diameter, Length)
+        return self.stone.diameter / self.ureter.inner_diameter
+
+    @property
+    def stone_diameter(self) -> Length | None:
+        """Diameter of the stone in m, where the ureter has lengths."""
+        inner = self.ureter.inner_diameter
+        if self.stone.diameter is not None or inner is None:
+            return self.stone.diameter
+        return Length(self.size_ratio * inner)
+
+    @property
+    def extent(self) -> float:
+        """Distance from the stone's widest place to its farther pole, at least R_s, in R_a."""
+        return self.size_ratio * max(1.0, self.stone.shape.reach)
+
+    @property
+    def wall_ratio(self) -> float:
+        """η = R_b/R_a."""
+        return self.ureter.wall_ratio
+
+    def with_friction(self, friction: float) -> Self:
+        """Return the same problem with another friction coefficient."""
+        return replace(self, stone=replace(self.stone, friction=friction))
+
+    def with_size_ratio(self, size_ratio: float) -> Self:
+        """Return the same problem with another stone of the same friction and shape."""
+        stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, shape=self.stone.shape)
+        return replace(self, stone=stone)

@@ -1,0 +1,105 @@
+"""Strong-ellipticity and buckling checks of a solved wall."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from jaxtyping import Int
+
+from stonepass.fe.axisymmetric.buckling import unstable_wave
+from stonepass.fe.axisymmetric.postprocessing import Field, Solved, deformation
+from stonepass.materials.derivatives import rest_moduli
+from stonepass.materials.ellipticity import weakest
+from stonepass.materials.protocol import Law
+from stonepass.model.far_field import lumen_ratio
+from stonepass.model.load import Load
+from stonepass.model.problem import Problem
+from stonepass.model.states.nondimensional import tube_of
+from stonepass.model.states.stability_report import StabilityReport
+
+__all__ = [
+    "far_field_hint",
+    "oversize_hint",
+    "stability_of",
+    "waves",
+]
+
+
+def stability_of(case: Problem, solved: Solved, wall: Field) -> StabilityReport:
+    """Check strong ellipticity and hoop compression at points of every element."""
+    law = case.ureter.material.law
+    F, some = deformation(solved), _some_points(wall)
+    columns = [getattr(F, name)[:, some].ravel() for name in ("F_rr", "F_rz", "F_zr", "F_zz")]
+    worst = weakest(law, np.column_stack([*columns, F.F_tt[:, some].ravel()]))
+    compression = wall.stress_rr - wall.stress_tt
+    most = int(np.argmax(compression))
+    return StabilityReport(
+        margin=worst.stiffness,
+        weakest_at=(
+            float(wall.R[:, some].flat[worst.index]),
+            float(wall.Z[:, some].flat[worst.index]),
+        ),
+        hoop_compression=float(compression.flat[most] / rest_moduli(law)[1]),
+        compressed_at=(float(wall.R.flat[most]), float(wall.Z.flat[most])),
+    )
+
+
+def waves(case: Problem, half_length: float) -> str:
+    """Why the loaded tube does not stay straight, or nothing where it does."""
+    load = case.load
+    if load.confining_pressure == 0.0 and load.prestretch >= 1.0:
+        return ""
+    length = _wave(case.ureter.material.law, case.wall_ratio, load, half_length)
+    if length is None:
+        return ""
+    return (
+        "the tube itself is not stable under this load: far from the stone axisymmetric waves of "
+        f"half-length {length:.2g} inner radii lower its energy, so it wrinkles or kinks all along"
+    )
+
+
+def far_field_hint(case: Problem) -> str:
+    """What to think of first where no state was found: the loaded tube has lost its ellipticity.
+
+    In all directions of space, so it tells more than `waves`, which are axisymmetric.
+    """
+    law, eta, stretch = case.ureter.material.law, case.wall_ratio, case.load.prestretch
+    lumen = lumen_ratio(eta, law, case.load)
+    if lumen is None:
+        return ""
+    R = np.linspace(1.0, eta, 9)
+    hoop = np.sqrt(lumen**2 + (R**2 - 1.0) / stretch) / R
+    zero, axial = np.zeros_like(R), np.full_like(R, stretch)
+    margin = weakest(law, np.column_stack([1 / (hoop * axial), zero, zero, axial, hoop])).stiffness
+    if margin > 0.0:
+        return ""
+    return (
+        "; under this load the tube itself has lost its stability far from the stone "
+        f"(margin {margin:.2g}; 1 unloaded, 0 lost)"
+    )
+
+
+def oversize_hint(case: Problem) -> str:
+    """What to think of first where a stone is too large to be solved for."""
+    material = case.ureter.material
+    if case.size_ratio <= material.strain_range[1]:
+        return ""
+    return (
+        f"; the stone stretches the wall to {case.size_ratio:.3g} times its circumference, while "
+        f"the constants of '{material.name}' were used to {material.strain_range[1]:g}"
+    )
+
+
+@lru_cache(maxsize=64)
+def _wave(law: Law, wall_ratio: float, load: Load, half_length: float) -> float | None:
+    lumen = lumen_ratio(wall_ratio, law, load)
+    assert lumen is not None, "asked before a case without a lumen is answered"
+    return unstable_wave(tube_of(law, wall_ratio, load, half_length), lumen)
+
+
+def _some_points(wall: Field) -> Int[np.ndarray, " some"]:
+    """First, middle and last Gauss–Lobatto point of each direction: nine of every element."""
+    count = round(np.sqrt(wall.R.shape[1]))
+    lines = np.array([0, count // 2, count - 1])
+    return (lines[:, None] * count + lines[None, :]).ravel()

@@ -1,0 +1,53 @@
+"""The critical size at a pressure limit as a record."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from stonepass.model.answer import Answer
+from stonepass.model.size import SizeAnswer
+from stonepass.records.answer import AnswerRecord, answer_fields
+from stonepass.records.base import CautionRecord, kilo
+
+__all__ = ["SizeRecord", "size_record"]
+
+
+class SizeRecord(AnswerRecord):
+    """The critical size, and the state at it; without a size the keys of the state are null."""
+
+    critical_size_ratio: float | None = Field(description="ξ of the critical size")
+    critical_size_ratio_error: float | None = Field(
+        description="estimated discretisation error of it"
+    )
+    critical_diameter_mm: float | None = Field(
+        description="critical stone diameter, where the ureter has lengths"
+    )
+    limit_kPa: float = Field(description="the pressure limit")
+
+
+def size_record(answer: SizeAnswer) -> SizeRecord:
+    """Make the record of a critical size."""
+    case = answer.case
+    found = answer.size_ratio is not None and answer.at_size is not None
+    state = Answer(case, case.model, case.numerics, answer.outcome)
+    if found and answer.at_size is not None:
+        state = answer.at_size
+    fields = answer_fields(state)
+    if not found:
+        fields["size_ratio"] = None
+        fields["case"]["stone"] |= {"size_ratio": None, "diameter_m": None}
+    diameter = answer.diameter
+    limit = kilo(answer.limit)
+    assert limit is not None
+    return SizeRecord(
+        **{
+            **fields,
+            "outcome": answer.outcome.name,
+            "message": answer.message,
+            "critical_size_ratio": answer.size_ratio,
+            "critical_size_ratio_error": answer.size_ratio_error,
+            "critical_diameter_mm": None if diameter is None else diameter * 1e3,
+            "limit_kPa": limit,
+            "warnings": [CautionRecord.of(each) for each in answer.warnings],
+        }
+    )

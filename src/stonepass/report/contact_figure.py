@@ -1,0 +1,27 @@
+"""The picture of any contact: its pressure over the angle on the stone."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from stonepass.model.answer import Answer
+from stonepass.report.style import COLOURS, new_figure, tidy
+
+__all__ = ["contact_figure"]
+
+
+def contact_figure(answer: Answer) -> Figure:
+    """Draw the contact pressure in kPa over θ from the upstream axis."""
+    contact = answer.contact
+    assert contact is not None
+    figure = new_figure(6.4, 4.0)
+    axes = figure.add_subplot()
+    theta = np.linspace(contact.contact_angle, contact.downstream_angle, 400)
+    pressure = contact.pressure_at(theta) / 1e3
+    axes.fill_between(np.degrees(theta), pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
+    axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"])
+    axes.set(xlabel="θ from the upstream axis (°)", ylabel="pressure on the stone (kPa)")
+    axes.set_title(f"Contact pressure, model '{answer.model.NAME}'")
+    tidy(axes)
+    return figure

@@ -8,21 +8,18 @@ from hypothesis import strategies as st
 from scipy.special import ellipeinc
 
 from stonepass.fe.axisymmetric.buckling import unstable_motions
-from stonepass.fe.axisymmetric.contact import Arc, lobatto, unilateral
-from stonepass.fe.axisymmetric.discrete import (
-    discretise,
-    free_unknowns,
-    inner_wall,
-    set_at_nodes,
-    wall_form,
-)
+from stonepass.fe.axisymmetric.contact import Arc, unilateral
+from stonepass.fe.axisymmetric.discretisation import discretise, free_unknowns, wall_form
 from stonepass.fe.axisymmetric.friction import open_contact
+from stonepass.fe.axisymmetric.inner_wall import inner_wall, set_at_nodes
 from stonepass.fe.axisymmetric.mesh import Layout, place, structured_mesh
 from stonepass.fe.axisymmetric.problem import Tube
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.fe.axisymmetric.wall import SYMBOLS, cauchy_stress, wall_energy
 from stonepass.fe.core.grading import graded, growing, intervals
-from stonepass.fe.core.newton import Plain, newton
+from stonepass.fe.core.lobatto import lobatto
+from stonepass.fe.core.newton import newton
+from stonepass.fe.core.systems import FormSystem
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import NAMESPACE
@@ -88,7 +85,7 @@ def test_coarse_long_columns_do_not_make_an_unloaded_wall_unstable(name, order):
     layout = Layout(np.array([1.0, 1.12, 1.28, 1.5]), np.linspace(0.0, 12.0, 9), closed=1)
     wall = discretise(tube, Arc.at(Profile(1.0)), layout, order)
     free = free_unknowns(wall, "")
-    assert newton(Plain(wall_form(wall), wall.state, free), 1e-12).converged
+    assert newton(FormSystem(wall_form(wall), wall.state, free), 1e-12).converged
     assert unstable_motions(wall, free) == 0
 
 
@@ -97,7 +94,7 @@ def homogeneous(law, a, b, c, d):
     scale = hoop_modulus(law)
     tube = Tube(lambda *C: law.energy(*C) / scale, 1.5, 2.0)
     wall = discretise(tube, Arc.at(Profile(1.2)), LAYOUT, 3)
-    u, w, p, *_ = wall.state.components
+    u, w, p, *_ = wall.fields
     u.Set(a * ng.x + c * ng.y)
     w.Set(b * ng.y + d * ng.x)
     p.Set(ng.CF(0.3))
@@ -110,7 +107,7 @@ def test_cauchy_stress_is_the_slope_of_the_energy(name):
     law = CATALOGUE[name].law
     a, b, c, d = 0.12, -0.05, 0.07, 0.04
     tube, wall = homogeneous(law, a, b, c, d)
-    u, w, p, *_ = wall.state.components
+    u, w, p, *_ = wall.fields
     at = wall.mesh(1.3, 0.7)
     F = np.array([[1 + a, 0.0, c], [0.0, 1 + a + c * 0.7 / 1.3, 0.0], [d, 0.0, 1 + b]])
 
@@ -134,30 +131,26 @@ def touching_wall():
     """A deformed wall with contact forces; some points inside the arc, some outside."""
     _, wall = homogeneous(CATALOGUE["ureter"].law, 0.15, -0.02, 0.01, 0.0)
     boundary = wall.mesh.Boundaries("closed|open")
-    wall.state.components[3].Set(0.2 + 0.1 * ng.y, definedon=boundary)
-    wall.state.components[4].Set(0.05 * ng.y - 0.02, definedon=boundary)
+    wall.fields.normal.Set(0.2 + 0.1 * ng.y, definedon=boundary)
+    wall.fields.tangential.Set(0.05 * ng.y - 0.02, definedon=boundary)
     return wall
 
 
 def frictionless_form(wall, *, condense):
-    u, w, _, multiplier, _ = wall.state.space.TrialFunction()
+    trial = wall.trial
     form = wall_form(wall) if condense else ng.BilinearForm(wall.state.space)
     if not condense:
         form += ng.Variation(
-            wall_energy(wall.tube.energy, *wall.state.space.TrialFunction()[:3]).Compile()
-            * ng.dx(bonus_intorder=2)
+            wall_energy(wall.tube.energy, *trial[:3]).Compile() * ng.dx(bonus_intorder=2)
         )
-    contact = unilateral(multiplier, wall.arc.gap(u, w), ng.Parameter(5.0))
+    contact = unilateral(trial.normal, wall.arc.gap(trial.u, trial.w), ng.Parameter(5.0))
     form += ng.Variation(contact.Compile() * ng.ds("closed|open", intrules={ng.SEGM: wall.rule}))
     return form
 
 
 def frictional_form(wall):
-    space = wall.state.space
-    form = ng.BilinearForm(space)
-    residual = open_contact(
-        space.TrialFunction(), space.TestFunction(), wall.arc, ng.CF(0.01) * ng.y, 0.4, 5.0
-    )
+    form = ng.BilinearForm(wall.state.space)
+    residual = open_contact(wall.trial, wall.test, wall.arc, ng.CF(0.01) * ng.y, 0.4, 5.0)
     form += residual.Compile() * ng.ds("closed|open", intrules={ng.SEGM: wall.rule})
     return form
 
@@ -247,7 +240,7 @@ def test_a_spheroid_by_its_meridian(aspect):
 
 def test_values_set_at_nodes_are_read_there():
     _, wall = homogeneous(CATALOGUE["latex"].law, 0.1, 0.0, 0.0, 0.0)
-    set_at_nodes(wall.state.components[3], ng.sin(3.0 * ng.y), wall)
+    set_at_nodes(wall.fields.normal, ng.sin(3.0 * ng.y), wall)
     read = inner_wall(wall)
     np.testing.assert_allclose(read.normal, np.sin(3.0 * read.station), atol=1e-13)
     assert np.all(np.diff(read.station.ravel()) >= 0.0)
@@ -271,11 +264,11 @@ def test_a_free_tube_under_load_is_the_far_field():
         free = free_unknowns(wall, "closed")
         for index in wall.state.space.Range(3):
             free[index] = False
-        wall.state.components[1].Set(0.1 * ng.y)
-        wall.state.components[2].Set(ng.CF(0.25))
-        report = newton(Plain(form, wall.state, free), 1e-13)
+        wall.fields.w.Set(0.1 * ng.y)
+        wall.fields.p.Set(ng.CF(0.25))
+        report = newton(FormSystem(form, wall.state, free), 1e-13)
         assert report.converged, report.reason
-        radius = 1.0 + float(wall.state.components[0](wall.mesh(1.0, 1.0)))
+        radius = 1.0 + float(wall.fields.u(wall.mesh(1.0, 1.0)))
         assert radius == pytest.approx(lumen_ratio(1.5, law, load), rel=1e-7)
 
 

@@ -76,7 +76,7 @@ def solved():
 )
 def test_a_real_wall_that_meets_itself_is_found(solved, component, change, where):
     assert self_contact(solved) is None
-    displacement = solved.discrete.state.components[component]
+    displacement = solved.discretisation.fields[component]
     kept = displacement.vec.CreateVector()
     kept.data = displacement.vec
     displacement.Set(displacement + change())
@@ -89,14 +89,14 @@ def test_a_real_wall_that_meets_itself_is_found(solved, component, change, where
 
 def test_a_real_wall_that_folds_over_is_found(solved):
     """An S: the wall comes back over itself with the radius changed on the way."""
-    u, w, *_ = solved.discrete.state.components
-    kept = solved.discrete.state.vec.CreateVector()
-    kept.data = solved.discrete.state.vec
+    u, w, *_ = solved.discretisation.fields
+    kept = solved.discretisation.state.vec.CreateVector()
+    kept.data = solved.discretisation.state.vec
     turn = ng.IfPos(ng.y - 4.0, ng.IfPos(7.0 - ng.y, ng.y - 4.0, 3.0), 0.0) * 2.0 * np.pi / 3.0
     w.Set(w - 1.5 * ng.sin(turn))
     u.Set(u + 0.5 * (1.0 - ng.cos(turn)) + 0.3 * ng.sin(2.0 * turn))
     try:
         assert self_contact(solved) is not None
     finally:
-        solved.discrete.state.vec.data = kept
+        solved.discretisation.state.vec.data = kept
     assert self_contact(solved) is None

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import stonepass as sp
-from stonepass.fe.axisymmetric.postprocessing import contact_profile, stored_energy
+from stonepass.fe.axisymmetric.balances import stored_energy
+from stonepass.fe.axisymmetric.postprocessing import contact_profile
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.fe.axisymmetric.seating import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus

@@ -16,7 +16,7 @@ from stonepass.errors import Outcome
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.states.stability_report import waves
+from stonepass.model.states.stability_report import axisymmetric_buckling
 
 SEED, FAMILIES, SIZES = 20244, 200, 3
 TOP = {"latex": 0.6, "ureter": 0.35}  # largest ξ − 1
@@ -144,9 +144,9 @@ def run_case(number: int, case: sp.Case) -> Row:
         pressure=answer.pressure,
         at_edge=any("as soon as the stone is seated" in text for text in answer.warnings),
         cause=answer.message.partition(": ")[2] if no_solution else "",
-        unstable_tube=no_solution and bool(waves(case)),
+        unstable_tube=no_solution and bool(axisymmetric_buckling(case)),
         estimated=answer.error is not None,
-        slack=state is not None and state.contact_angle_slack > 0.0,
+        slack=state is not None and state.contact_angle_uncertainty > 0.0,
         flaws=() if state is None else tuple(flaws(state)),
         tube=describe(case, size=False),
         case=describe(case),
@@ -178,7 +178,7 @@ def flaws(state: sp.SeatedState) -> list[str]:
         gap.min() > -1e-6,
         pressure.min() >= 0.0,
         # Where there is pressure there is no gap; beyond, there is none by construction.
-        np.abs(gap[closed]).max() < 1e-6 or state.contact_angle_slack > 0.0,
+        np.abs(gap[closed]).max() < 1e-6 or state.contact_angle_uncertainty > 0.0,
         abs(solver.volume.wall) <= 1e-8,
         solver.volume.smallest > 0.0,
         solver.axial_balance <= balance,

@@ -112,7 +112,7 @@ def line(case: sp.Case, variable: str) -> Line:
     answers = [sp.solve(moved(case, variable, each)) for each in share]
     angle = np.array([a.seated.contact_angle for a in answers if a.seated is not None])
     pressure = np.array([a.pressure for a in answers if a.pressure is not None])
-    kinked = any(a.seated.contact_angle_slack > 0.0 for a in answers if a.seated is not None)
+    kinked = any(a.seated.contact_angle_uncertainty > 0.0 for a in answers if a.seated is not None)
     if not len(angle) == len(pressure) == POINTS:
         return Line(case, variable, *([np.inf] * 4), kinked)
     open_angle = np.degrees(np.pi / 2 - angle)  # vanishes with the stretch, as P_ucr does

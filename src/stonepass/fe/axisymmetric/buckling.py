@@ -1,9 +1,9 @@
-"""Does the loaded tube stay straight far from the stone, or do axisymmetric waves run along it?
+"""Axisymmetric buckling of the uniform loaded tube, far from the stone.
 
-A pressure from outside shortens hoop and axial fibres. Beyond some pressure the uniform tube is an
-equilibrium still, but not a stable one: waves u(R) cos qZ, w(R) sin qZ lower its energy, as they do
-in a shell under axial thrust, or kinks in a wall without shear stiffness. No tube stays so, and a
-solver that starts from it finds no state, or one that means nothing.
+An outside pressure shortens hoop and axial fibres. Beyond some pressure the uniform tube is still
+an equilibrium, but not a stable one: waves u(R) cos qZ, w(R) sin qZ lower its energy, as in a shell
+under axial thrust, or as microbuckling in a wall without shear stiffness. No real tube stays in
+such a state, and a solver that starts from it finds no solution, or a meaningless one.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ import ngsolve as ng
 import numpy as np
 
 from stonepass.fe.axisymmetric.contact import Arc
-from stonepass.fe.axisymmetric.discrete import (
-    Discrete,
+from stonepass.fe.axisymmetric.discretisation import (
+    PRESSURE,
+    Discretisation,
     discretise,
     free_unknowns,
     wall_form,
@@ -23,26 +24,39 @@ from stonepass.fe.axisymmetric.discrete import (
 from stonepass.fe.axisymmetric.mesh import Layout, place
 from stonepass.fe.axisymmetric.problem import Tube
 from stonepass.fe.axisymmetric.profile import Profile
-from stonepass.fe.core.newton import Plain, newton
+from stonepass.fe.core.newton import newton
+from stonepass.fe.core.systems import FormSystem
 
-__all__ = ["unstable_motions", "unstable_wave"]
+__all__ = ["buckling_half_wave", "unstable_motions"]
 
 ORDER, ROWS = 6, 2
 STEP = 1.3  # between the half-waves tried, from a third of the wall's thickness to L
 TOLERANCE = 1e-12
 
 
-def unstable_wave(tube: Tube, lumen: float) -> float | None:
-    """Half-length, in inner radii, of a wave that lowers the energy of the loaded tube, or None.
+def buckling_half_wave(tube: Tube, lumen: float) -> float | None:
+    """Shortest half-wave length found at which the loaded tube buckles axisymmetrically.
 
-    `lumen` is the inner radius of the uniform tube in equilibrium. One column of elements is half a
-    wave long; the wave lowers the energy where the tangent has more negative eigenvalues than it
-    has pressure unknowns, which are as many as its constraints of volume.
+    One column of elements is half a wave long. The wave lowers the energy where the tangent has
+    more negative eigenvalues than pressure unknowns, each of which constrains the volume once.
+
+    Parameters
+    ----------
+    tube : Tube
+        With its axial stretch and outside pressure.
+    lumen : float
+        Inner radius of the uniform tube in equilibrium, in undeformed inner radii.
+
+    Returns
+    -------
+    float or None
+        Reference length in inner radii, among lengths that grow by the factor `STEP`; None where
+        the tube is stable against all of them.
     """
     d = discretise(tube, Arc.at(Profile(lumen)), _half_wave(tube, 1.0), ORDER)
     _uniform(d, lumen)
     free = free_unknowns(d, "")
-    if not newton(Plain(wall_form(d), d.state, free), TOLERANCE).converged:
+    if not newton(FormSystem(wall_form(d), d.state, free), TOLERANCE).converged:
         return None
     shortest = (tube.wall_ratio - 1.0) / 3.0
     count = 1 + int(np.ceil(np.log(tube.half_length / shortest) / np.log(STEP)))
@@ -54,11 +68,18 @@ def unstable_wave(tube: Tube, lumen: float) -> float | None:
     return None
 
 
-def unstable_motions(d: Discrete, free: Any) -> int:
-    """How many independent motions that keep volume lower the energy of the wall as it is.
+def unstable_motions(d: Discretisation, free: Any) -> int:
+    """Number of independent volume-preserving motions that lower the energy of the current state.
 
-    The tangent's negative eigenvalues, less one for each free pressure unknown: each constrains
-    the volume once.
+    It is the number of negative eigenvalues of the tangent, less the number of free pressure
+    unknowns, each of which constrains the volume once.
+
+    Parameters
+    ----------
+    d : Discretisation
+        Holds an equilibrium.
+    free : ngsolve.BitArray
+        Unknowns that may change.
     """
     tangent = wall_form(d, condense=False)
     tangent.AssembleLinearization(d.state.vec)
@@ -66,7 +87,7 @@ def unstable_motions(d: Discrete, free: Any) -> int:
     matrix = np.zeros((len(free), len(free)))
     matrix[rows, columns] = values
     used = np.flatnonzero(np.array(list(free)))
-    pressure = d.state.space.Range(2)
+    pressure = d.state.space.Range(PRESSURE)
     constraints = ((used >= pressure.start) & (used < pressure.stop)).sum()
     return int((np.linalg.eigvalsh(matrix[np.ix_(used, used)]) < 0.0).sum() - constraints)
 
@@ -75,11 +96,11 @@ def _half_wave(tube: Tube, length: float) -> Layout:
     return Layout(np.linspace(1.0, tube.wall_ratio, ROWS + 1), np.array([0.0, length]), 1)
 
 
-def _uniform(d: Discrete, lumen: float) -> None:
+def _uniform(d: Discretisation, lumen: float) -> None:
     r = ng.sqrt((ng.x * ng.x - 1.0) / d.tube.axial_stretch + lumen * lumen)
-    d.state.components[0].Set(r - ng.x)
+    d.fields.u.Set(r - ng.x)
     _stretch(d)
 
 
-def _stretch(d: Discrete) -> None:
-    d.state.components[1].Set((d.tube.axial_stretch - 1.0) * ng.y)
+def _stretch(d: Discretisation) -> None:
+    d.fields.w.Set((d.tube.axial_stretch - 1.0) * ng.y)

@@ -8,26 +8,16 @@ holds, or pressure vanishes, exactly at each of them, and no penalty error remai
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import ngsolve as ng
-import numpy as np
-from jaxtyping import Float
 
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.fe.axisymmetric.wall import SYMBOLS
 
-__all__ = [
-    "Arc",
-    "bilateral",
-    "joined",
-    "lobatto",
-    "lobatto_rule",
-    "lobatto_slopes",
-    "resampling",
-    "unilateral",
-]
+__all__ = ["AUGMENTATION", "Arc", "bilateral", "unilateral"]
+
+AUGMENTATION = 8.0  # factor of gap and slip in the augmented forms, in units of the modulus
 
 
 @dataclass(frozen=True)
@@ -88,63 +78,3 @@ def unilateral(multiplier: Any, gap: Any, c: Any) -> Any:
 def bilateral(multiplier: Any, gap: Any) -> Any:
     """Lagrangian of gap = 0, per reference length (2π left out)."""
     return -1.0 * multiplier * gap * ng.x
-
-
-@lru_cache(maxsize=8)
-def lobatto(order: int) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Gauss–Lobatto points and weights on [0, 1], `order` + 1 of them.
-
-    ``lobatto(2)`` is Simpson's rule: points 0, ½, 1 and weights 1/6, 4/6, 1/6.
-    """
-    legendre = np.polynomial.legendre.Legendre.basis(order)
-    x = np.concatenate([[-1.0], np.sort(legendre.deriv().roots().real), [1.0]])
-    weights = 2.0 / (order * (order + 1) * legendre(x) ** 2)
-    return (x + 1.0) / 2.0, weights / 2.0
-
-
-@lru_cache(maxsize=8)
-def resampling(
-    order: int, count: int
-) -> tuple[Float[np.ndarray, "count n"], Float[np.ndarray, "count n"]]:
-    """Matrices from the values of a polynomial at the Gauss–Lobatto points to others.
-
-    To its values and its slopes at `count` equidistant points of [0, 1], both ends included:
-    ``resampling(1, 3)`` is [[1, 0], [0.5, 0.5], [0, 1]] and three rows of [-1, 1].
-    """
-    return _basis_change(order, np.linspace(0.0, 1.0, count))
-
-
-def joined(samples: Float[np.ndarray, "edges count"]) -> Float[np.ndarray, " n"]:
-    """Samples of neighbouring columns in one line, what two columns share once.
-
-    ``joined`` of [[1, 2], [2, 3]] is [1, 2, 3].
-    """
-    return np.concatenate([samples[0, :1], samples[:, 1:].ravel()])
-
-
-@lru_cache(maxsize=8)
-def lobatto_slopes(order: int) -> Float[np.ndarray, "n n"]:
-    """Matrix from the values of a polynomial at the Gauss–Lobatto points to its slopes there.
-
-    ``lobatto_slopes(1)`` is [[-1, 1], [-1, 1]].
-    """
-    return _basis_change(order, lobatto(order)[0])[1]
-
-
-def _basis_change(
-    order: int, points: Float[np.ndarray, " m"]
-) -> tuple[Float[np.ndarray, "m n"], Float[np.ndarray, "m n"]]:
-    """Matrices from values at the Gauss–Lobatto points to values and slopes at `points`."""
-    basis = [np.polynomial.legendre.Legendre.basis(k, domain=[0.0, 1.0]) for k in range(order + 1)]
-    inverse = np.linalg.inv(np.column_stack([b(lobatto(order)[0]) for b in basis]))
-    values = np.column_stack([b(points) for b in basis])
-    slopes = np.column_stack([b.deriv()(points) for b in basis])
-    return values @ inverse, slopes @ inverse
-
-
-def lobatto_rule(order: int) -> ng.IntegrationRule:
-    """The same rule for the engine's edges."""
-    points, weights = lobatto(order)
-    return ng.IntegrationRule(
-        points=[(float(p), 0.0, 0.0) for p in points], weights=[float(w) for w in weights]
-    )

@@ -1,8 +1,7 @@
-"""The scout: frictionless contact as an inequality on a coarse mesh, to find the contact edge."""
+"""The contact predictor: frictionless contact on a coarse mesh, to find the contact's edges."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import ngsolve as ng
@@ -10,54 +9,57 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.fe.axisymmetric.contact import Arc, unilateral
-from stonepass.fe.axisymmetric.discrete import (
-    Discrete,
+from stonepass.fe.axisymmetric.discretisation import (
+    Discretisation,
     contact_force,
     discretise,
     free_unknowns,
-    inner_wall,
     wall_form,
 )
-from stonepass.fe.axisymmetric.mesh import INNER, Layout
+from stonepass.fe.axisymmetric.inner_wall import contact_edges
+from stonepass.fe.axisymmetric.layouts import equal_layout
+from stonepass.fe.axisymmetric.mesh import INNER
 from stonepass.fe.axisymmetric.problem import Failure, Tube, Wrap
 from stonepass.fe.axisymmetric.profile import Profile
+from stonepass.fe.axisymmetric.start import Start
 from stonepass.fe.axisymmetric.wall import SYMBOLS
-from stonepass.fe.core.grading import growing
-from stonepass.fe.core.newton import Plain, newton_or_homotopy
+from stonepass.fe.core.newton import newton_or_homotopy
+from stonepass.fe.core.systems import FormSystem
 
-__all__ = ["SCOUT_ORDER", "Start", "contact_edges", "scout", "scout_layout", "wrap_round"]
+__all__ = ["PREDICTOR_ORDER", "predict_contact", "wrap_round"]
 
-SCOUT_ORDER = 4
-SCOUT_TOLERANCE = 1e-6  # of the contact force
+PREDICTOR_ORDER = 4  # of the displacements
+PREDICTOR_TOLERANCE = 1e-6  # of the contact force
 
 
-@dataclass(frozen=True)
-class Start:
-    """A solution to start from: stations of the contact's edges, norm of its force, steps so far.
+def predict_contact(
+    tube: Tube, stone: Profile, wrap: Wrap, columns: int, weight: float
+) -> Start | Failure:
+    """Solve the contact inequality without friction on a coarse mesh.
 
-    With friction, `origin` has the stations and the places on the arc from which the last
-    increment slips, and `dissipated` the energy that the increments before it took.
+    Parameters
+    ----------
+    tube : Tube
+    stone : Profile
+        The rigid body, lengths in inner radii.
+    wrap : Wrap
+        First guess of the deformed wall.
+    columns : int
+        Equal columns over each half of the guessed contact.
+    weight : float
+        Factor of the gap in the augmented Lagrangian, in units of the modulus, positive.
+
+    Returns
+    -------
+    Start or Failure
+        The edges of the contact are known to one nodal spacing.
     """
-
-    discrete: Discrete
-    contact: tuple[float, float]
-    force: float
-    steps: int
-    origin: tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]] | None = None
-    dissipated: float = 0.0
-
-
-def scout(tube: Tube, stone: Profile, wrap: Wrap, columns: int, weight: float) -> Start | Failure:
-    """Solve the contact inequality on `columns` equal columns over the guessed contact.
-
-    `weight` is the factor of the gap in the augmented Lagrangian, in units of the modulus.
-    """
-    layout = scout_layout(tube, wrap.contact, columns, growth=2.0, whole=not stone.symmetric)
-    d = discretise(tube, Arc.at(stone), layout, SCOUT_ORDER)
+    layout = equal_layout(tube, wrap.contact, columns, growth=2.0, whole=not stone.symmetric)
+    d = discretise(tube, Arc.at(stone), layout, PREDICTOR_ORDER)
     wrap_round(d, wrap)
-    system = Plain(_form(d, weight), d.state, free_unknowns(d, INNER))
+    system = FormSystem(_form(d, weight), d.state, free_unknowns(d, INNER))
     force = contact_force(d, system)
-    report = newton_or_homotopy(system, d.stiffening.Set, SCOUT_TOLERANCE * force)
+    report = newton_or_homotopy(system, d.stiffening.Set, PREDICTOR_TOLERANCE * force)
     if not report.converged:
         return Failure(report.reason, report.steps)
     edges = contact_edges(d)
@@ -66,48 +68,22 @@ def scout(tube: Tube, stone: Profile, wrap: Wrap, columns: int, weight: float) -
     return Start(d, edges, force, report.steps)
 
 
-def _form(d: Discrete, weight: float) -> Any:
-    u, w, _, multiplier, _ = d.state.space.TrialFunction()
+def _form(d: Discretisation, weight: float) -> Any:
+    trial = d.trial
     form = wall_form(d)
     form += ng.Variation(
-        unilateral(multiplier, d.arc.gap(u, w), ng.Parameter(weight)).Compile()
+        unilateral(trial.normal, d.arc.gap(trial.u, trial.w), ng.Parameter(weight)).Compile()
         * ng.ds(INNER, intrules={ng.SEGM: d.rule})
     )
     return form
 
 
-def scout_layout(
-    tube: Tube, contact: tuple[float, float], columns: int, growth: float, *, whole: bool
-) -> Layout:
-    """Equal columns over the contact, `columns` in each half; growing ones beyond."""
-    first, last = contact
-    equal = np.linspace(first, last, 2 * columns + 1)
-    size = (last - first) / (2 * columns)
-    downstream = last + growing(size, tube.half_length - last, growth)
-    radial = 1.0 + growing(size, tube.wall_ratio - 1.0, 1.5 * growth)
-    if not whole:
-        half = equal[columns:] - equal[columns]
-        return Layout(radial, np.concatenate([half, downstream[1:]]), closed=columns)
-    upstream = first - growing(size, tube.half_length + first, growth)[::-1]
-    axial = np.concatenate([upstream[:-1], equal, downstream[1:]])
-    return Layout(radial, axial, closed=2 * columns, wet=len(upstream) - 1)
+def wrap_round(d: Discretisation, wrap: Wrap) -> None:
+    """Set the state of `d` to a first guess: the wall wrapped round the arc at constant volume.
 
-
-def contact_edges(d: Discrete) -> tuple[float, float] | None:
-    """First and last station of the inner wall with contact force; None where there is none.
-
-    On a half the first is the mirror image of the last.
+    Every cross-section is that of a tube whose inner radius and inner pressure are those of `wrap`
+    at its station, in plane strain at the imposed axial stretch; friction is zero.
     """
-    wall = inner_wall(d)
-    touching = wall.station[wall.normal > 1e-6 * wall.normal.max()]
-    if not touching.size:
-        return None
-    last = float(touching.max())
-    return (float(touching.min()) if d.whole else -last), last
-
-
-def wrap_round(d: Discrete, wrap: Wrap) -> None:
-    """Wrap the wall isochorically round the arc, with plane-strain pressures and no friction."""
     tube = d.tube
     stretch = tube.axial_stretch
 
@@ -117,7 +93,7 @@ def wrap_round(d: Discrete, wrap: Wrap) -> None:
 
     inner = along(wrap.inner_radius)
     r = ng.sqrt((ng.x * ng.x - 1.0) / stretch + inner * inner)
-    u, w, p, multiplier, tangential = d.state.components
+    u, w, p, normal, tangential = d.fields
     u.Set(r - ng.x)
     w.Set((stretch - 1.0) * ng.y)
     hoop = r / ng.x
@@ -129,7 +105,7 @@ def wrap_round(d: Discrete, wrap: Wrap) -> None:
     p.Set(2.0 * c_rr * U.Diff(c_rr) + pressure * (1.0 - depth) + tube.outside_pressure * depth)
     first, last = wrap.contact
     force = pressure * inner * stretch
-    multiplier.Set(
+    normal.Set(
         ng.IfPos(last - ng.y, ng.IfPos(ng.y - first, force, 0.0), 0.0),
         definedon=d.mesh.Boundaries(INNER),
     )

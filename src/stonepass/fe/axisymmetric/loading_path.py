@@ -1,9 +1,9 @@
-"""The path with friction: the arc moves in increments, wall points stick or slip on it.
+"""The loading path with friction: the arc moves in increments, wall points stick or slip on it.
 
-Contact grows with the square root of the way, so t = s² with equal increments of s: each adds about
-as much contact as the others. Wall points remember where they stuck. A point that comes into
-contact within an increment starts from the place at which it touches, extrapolated from its free
-motion in the increment before.
+The contact grows with the square root of the path parameter t, so the increments are equal in √t:
+each adds about as much contact as the others. Every wall point has a slip origin, the place on the
+arc at which it sticks. A point that comes into contact within an increment has the place at which
+it touches as its origin, which is extrapolated from its free motion in the increment before.
 """
 
 from __future__ import annotations
@@ -16,44 +16,45 @@ import ngsolve as ng
 import numpy as np
 from jaxtyping import Bool, Float
 
-from stonepass.fe.axisymmetric.contact import Arc
-from stonepass.fe.axisymmetric.contact_predictor import (
-    SCOUT_ORDER,
-    Start,
-    contact_edges,
-    scout_layout,
-    wrap_round,
-)
-from stonepass.fe.axisymmetric.discrete import (
-    Discrete,
-    InnerWall,
+from stonepass.fe.axisymmetric.contact import AUGMENTATION, Arc
+from stonepass.fe.axisymmetric.contact_predictor import PREDICTOR_ORDER, wrap_round
+from stonepass.fe.axisymmetric.discretisation import (
+    Discretisation,
     discretise,
     free_unknowns,
-    inner_wall,
-    set_at_nodes,
     wall_form,
 )
 from stonepass.fe.axisymmetric.friction import open_contact
+from stonepass.fe.axisymmetric.inner_wall import (
+    InnerWall,
+    contact_edges,
+    inner_wall,
+    piecewise_linear,
+    set_at_nodes,
+)
+from stonepass.fe.axisymmetric.layouts import equal_layout
 from stonepass.fe.axisymmetric.mesh import INNER
-from stonepass.fe.axisymmetric.problem import Failure, Path, Resolution, Tube, Wrap
+from stonepass.fe.axisymmetric.problem import Failure, LoadingPath, Resolution, Tube, Wrap
 from stonepass.fe.axisymmetric.profile import Profile
-from stonepass.fe.core.newton import Plain, newton_or_homotopy
+from stonepass.fe.axisymmetric.slip import dissipation
+from stonepass.fe.axisymmetric.start import Start
+from stonepass.fe.core.newton import newton_or_homotopy
+from stonepass.fe.core.systems import FormSystem
 
-__all__ = ["FRICTION_WEIGHT", "WrapAt", "along_wall", "dissipation", "press"]
+__all__ = ["WrapAt", "follow_loading_path"]
 
 PATH_TOLERANCE = 1e-5  # of the contact force
-FRICTION_WEIGHT = 8.0  # factor of gap and slip in the augmented forms, in units of the modulus
 MARGIN = 1.15  # the equal columns reach this much beyond the frictionless contact edge
 MOST_HALVINGS = 4
-CARRIES = 1e-6  # share of the largest contact force that a point in contact carries at least
+TOUCHES = 1e-6  # of the largest contact force, at a point in contact
 
-# The arc at a place to a first guess for it.
+# From a place of the arc to a first guess of the wall round it.
 WrapAt = Callable[[Profile], Wrap]
 
 
 @dataclass(frozen=True)
 class _Moment:
-    """The inner wall seen from the arc: gap, place along it, which points touch; the state."""
+    """The inner wall at the path parameter t: contact, gap, place on the arc; all unknowns."""
 
     t: float
     touching: Bool[np.ndarray, "edges points"]
@@ -62,25 +63,40 @@ class _Moment:
     state: Any
 
 
-def press(
-    tube: Tube, path: Path, wrap_at: WrapAt, frictionless: Start, resolution: Resolution
+def follow_loading_path(
+    tube: Tube, path: LoadingPath, wrap_at: WrapAt, frictionless: Start, resolution: Resolution
 ) -> Start | Failure:
-    """Follow the path, from the unloaded wall that the arc just touches to the arc's last place.
+    """Follow a loading path from the tube that the arc just touches to the arc's last place.
 
     The mesh has equal columns to beyond the contact edges of the frictionless solution. An
     increment that does not converge is halved, down to 1/16 of its size.
+
+    Parameters
+    ----------
+    tube : Tube
+    path : LoadingPath
+    wrap_at : callable
+        From a place of the arc to a first guess of the wall round it.
+    frictionless : Start
+        The predicted contact at the last place, without friction.
+    resolution : Resolution
+
+    Returns
+    -------
+    Start or Failure
+        The state at the last place, with the slip origins of the last increment.
     """
     first, last = frictionless.contact
-    layout = scout_layout(
+    layout = equal_layout(
         tube,
         (MARGIN * first, MARGIN * last),
         resolution.path_columns,
         growth=1.7,
-        whole=frictionless.discrete.whole,
+        whole=frictionless.discretisation.whole,
     )
-    d = discretise(tube, Arc.at(path.place(0.0)), layout, SCOUT_ORDER)
+    d = discretise(tube, Arc.at(path.place(0.0)), layout, PREDICTOR_ORDER)
     origin = ng.GridFunction(d.nodal[0])
-    system = Plain(_form(d, path, origin), d.state, free_unknowns(d, INNER, friction=True))
+    system = FormSystem(_form(d, path, origin), d.state, free_unknowns(d, INNER, friction=True))
     before, now = None, _untouched(d, path)
     usual = step = 1.0 / resolution.increments
     s, steps, dissipated = 0.0, 0, 0.0
@@ -89,7 +105,7 @@ def press(
         t = ahead**2
         d.arc.move(path.place(t))
         touch = _touching_place(before or _rigid_motion(now, d, path, t), now, t)
-        set_at_nodes(origin, along_wall(inner_wall(d).station, touch), d)
+        set_at_nodes(origin, piecewise_linear(inner_wall(d).station, touch), d)
         _guess(d, before, now, t, path, wrap_at)
         tolerance = PATH_TOLERANCE * frictionless.force
         report = newton_or_homotopy(system, d.stiffening.Set, tolerance)
@@ -112,51 +128,30 @@ def press(
     return Start(d, edges, frictionless.force, steps, (stations, touch.ravel()[at]), dissipated)
 
 
-def dissipation(
-    wall: InnerWall, place: Profile, origin: Float[np.ndarray, "edges points"]
-) -> float:
-    """Energy that friction took in one increment on the wall given: −2π ∫ λ_t slip R_a dZ."""
-    slip = place.radius * (place.along(wall.r, wall.z) - origin)
-    return float(-2.0 * np.pi * (wall.weight * wall.tangential * slip).sum())
-
-
-def along_wall(
-    station: Float[np.ndarray, "..."], values: Float[np.ndarray, "..."]
-) -> ng.CoefficientFunction:
-    """A function of Z, piecewise linear through values at stations (each exact)."""
-    Z, first = np.unique(station, return_index=True)
-    v = values.ravel()[first]
-    knots = [Z[0], *Z, Z[-1]]
-    return ng.BSpline(2, [float(k) for k in knots], [float(x) for x in v])(ng.y)
-
-
-def _form(d: Discrete, path: Path, origin: Any) -> Any:
-    space = d.state.space
-    residual = open_contact(
-        space.TrialFunction(), space.TestFunction(), d.arc, origin, path.friction, FRICTION_WEIGHT
-    )
+def _form(d: Discretisation, path: LoadingPath, origin: Any) -> Any:
+    residual = open_contact(d.trial, d.test, d.arc, origin, path.friction, AUGMENTATION)
     form = wall_form(d)
     form += residual.Compile() * ng.ds(INNER, intrules={ng.SEGM: d.rule})
     return form
 
 
-def _moment(t: float, wall: InnerWall, path: Path, d: Discrete) -> _Moment:
+def _moment(t: float, wall: InnerWall, path: LoadingPath, d: Discretisation) -> _Moment:
     state = d.state.vec.CreateVector()
     state.data = d.state.vec
-    touching = wall.normal > CARRIES * wall.normal.max()
+    touching = wall.normal > TOUCHES * wall.normal.max()
     return _seen(t, wall.r, wall.z, path.place(t), state, touching)
 
 
-def _untouched(d: Discrete, path: Path) -> _Moment:
-    """The start: a uniform tube whose lumen is what the arc reaches."""
+def _untouched(d: Discretisation, path: LoadingPath) -> _Moment:
+    """The start of the path: a uniform tube whose lumen the arc just touches."""
     place = path.place(0.0)
     Z = inner_wall(d).station
     lumen = np.full_like(Z, place.radius + place.offset)
     return _seen(0.0, lumen, d.tube.axial_stretch * Z, place)
 
 
-def _rigid_motion(start: _Moment, d: Discrete, path: Path, t: float) -> _Moment:
-    """A moment before the start, made up: the wall at rest, the arc coming at its first speed."""
+def _rigid_motion(start: _Moment, d: Discretisation, path: LoadingPath, t: float) -> _Moment:
+    """A fictitious moment before the start: the same wall, the arc moving at its first speed."""
     place, ahead = path.place(0.0), path.place(t)
     Z = inner_wall(d).station
     lumen = np.full_like(Z, place.radius + place.offset)
@@ -182,9 +177,10 @@ def _seen(
 
 
 def _touching_place(before: _Moment, now: _Moment, t: float) -> Float[np.ndarray, "edges points"]:
-    """Where on the arc each wall point touches before `t`; where it is, if it touches already.
+    """Place on the arc at which each wall point first touches before `t`, by extrapolation.
 
-    Gap and place of open points are taken to go on as between the last two moments.
+    For a point in contact it is the present place. The gap and the place of other points are
+    extrapolated linearly from the last two moments.
     """
     ahead = (t - now.t) / (now.t - before.t)
     closing = np.maximum((before.gap - now.gap) * ahead, 1e-15)
@@ -194,9 +190,14 @@ def _touching_place(before: _Moment, now: _Moment, t: float) -> Float[np.ndarray
 
 
 def _guess(
-    d: Discrete, before: _Moment | None, now: _Moment, t: float, path: Path, wrap_at: WrapAt
+    d: Discretisation,
+    before: _Moment | None,
+    now: _Moment,
+    t: float,
+    path: LoadingPath,
+    wrap_at: WrapAt,
 ) -> None:
-    """First guess of an increment: the wall wrapped, or the motion so far continued."""
+    """Set the first guess of an increment: the wrapped wall, or an extrapolation of the motion."""
     if now.state is None:
         wrap_round(d, wrap_at(path.place(t)))
     elif before is None or before.state is None:

@@ -11,7 +11,7 @@ from jaxtyping import Float
 
 from stonepass.fe.axisymmetric.profile import Profile
 
-__all__ = ["Energy", "Failure", "Path", "Resolution", "Tube", "Wrap"]
+__all__ = ["Energy", "Failure", "LoadingPath", "Resolution", "Tube", "Wrap"]
 
 # energy(C_rr, C_tt, C_zz, C_rz, xp): any hyperelastic law, dimensionless.
 Energy = Callable[[Any, Any, Any, Any, Any], Any]
@@ -50,7 +50,7 @@ class Wrap:
 
 
 @dataclass(frozen=True)
-class Path:
+class LoadingPath:
     """How the arc comes to its final place, with friction on the way.
 
     Attributes

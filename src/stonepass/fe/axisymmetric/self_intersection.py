@@ -1,7 +1,7 @@
-"""Does the solved wall pass through itself, or through the axis?
+"""Self-intersection: whether a solved wall passes through itself, or through the axis.
 
-The finite elements know of contact with the stone alone. A wall that has folded, or a lumen that
-has closed, would touch itself; then the state found is none of a real tube.
+The only contact that the finite elements model is that with the stone. A wall that has folded, or a
+lumen that has closed, would touch itself, so such a state is not that of a real tube.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from stonepass.fe.axisymmetric.discrete import inner_wall
-from stonepass.fe.axisymmetric.fitted_contact import Fitted
+from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
+from stonepass.fe.axisymmetric.inner_wall import inner_wall
 
 __all__ = ["crossing", "self_contact"]
 
@@ -19,12 +19,16 @@ NUDGE = 1e-12
 ROUNDING = 1e-9  # of z at the middle, where symmetry makes it 0
 
 
-def self_contact(solved: Fitted) -> float | None:
-    """Station Z/R_a where the inner or outer wall meets itself, the axis or its mirror image.
+def self_contact(solved: EquilibriumState) -> float | None:
+    """Where the inner or outer wall meets itself, the axis, or the other half of the tube.
 
-    None where it does not. Of a half tube the other half is the mirror image.
+    Returns
+    -------
+    float or None
+        Station Z, in inner radii; None where nothing meets. Where a half is solved, the other half
+        of the tube is its mirror image.
     """
-    wall = inner_wall(solved.discrete)
+    wall = inner_wall(solved.discretisation)
     Z, first = np.unique(wall.station, return_index=True)
     r, z = wall.r.ravel()[first], wall.z.ravel()[first]
     if r.min() <= 0.0:
@@ -39,9 +43,18 @@ def self_contact(solved: Fitted) -> float | None:
 
 
 def crossing(r: Float[np.ndarray, " n"], z: Float[np.ndarray, " n"]) -> int | None:
-    """First segment of a polyline that crosses a later one which is not its neighbour.
+    """First segment of a polyline that crosses a later segment which is not its neighbour.
 
-    ``crossing`` of (0,0), (2,0), (2,2), (1,-1) is 0: the last segment cuts the first.
+    Parameters
+    ----------
+    r, z : arrays (n,)
+        Coordinates of the vertices.
+
+    Returns
+    -------
+    int or None
+        ``crossing`` of (0,0), (2,0), (2,2), (1,-1) is 0: the last segment cuts the first. None
+        where nothing crosses.
     """
     if np.all(np.diff(z) > 0.0):
         return None
@@ -68,14 +81,14 @@ def _sides(
 
 
 def _outer(
-    solved: Fitted,
+    solved: EquilibriumState,
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
     """Station, r and z of points of the outer wall."""
     lines = solved.layout.axial
     share = np.arange(OUTER_POINTS) / OUTER_POINTS
     Z = np.append((lines[:-1, None] + np.diff(lines)[:, None] * share).ravel(), lines[-1])
-    u, w, *_ = solved.discrete.state.components
+    u, w, *_ = solved.discretisation.fields
     radius = solved.layout.radial[-1]
-    # A hair inside the mesh: a point on its boundary may not be found in it.
-    at = solved.discrete.mesh(np.full_like(Z, radius - NUDGE), Z * (1.0 - NUDGE))
+    # Slightly inside the mesh, because a point on its boundary may not be found in it.
+    at = solved.discretisation.mesh(np.full_like(Z, radius - NUDGE), Z * (1.0 - NUDGE))
     return Z, radius + u(at).ravel(), Z + w(at).ravel()

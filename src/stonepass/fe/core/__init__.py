@@ -1,1 +1,5 @@
-"""Newton's method, mesh grading and threads, independent of the dimension of the problem."""
+"""Numerical methods that do not depend on the dimension of the problem.
+
+Newton's method, systems with reused factorisations, mesh grading, Gauss–Lobatto quadrature and
+threads.
+"""

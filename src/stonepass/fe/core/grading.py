@@ -10,9 +10,22 @@ __all__ = ["graded", "growing", "intervals"]
 
 
 def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points"]:
-    """Points 0 … `total` whose intervals grow geometrically from `first`; even if that is large.
+    """Points from 0 to `total` whose intervals grow geometrically.
 
-    ``graded(2, 1.0, 3.0)`` is 0, 1, 3: the intervals 1 and 2 have the ratio 2.
+    Parameters
+    ----------
+    count : int
+        Number of intervals, at least 2.
+    first : float
+        Length of the first interval, positive. Where `count` intervals of this length would not
+        fit into `total`, all intervals are equal instead.
+    total : float
+        Length of all intervals together, positive.
+
+    Returns
+    -------
+    array (count + 1,)
+        ``graded(2, 1.0, 3.0)`` is 0, 1, 3: the intervals 1 and 2 have the ratio 2.
     """
     if first * count >= total:
         return np.linspace(0.0, total, count + 1)
@@ -27,7 +40,17 @@ def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points
 
 
 def intervals(first: float, total: float, growth: float, least: int = 2) -> int:
-    """Fewest geometric intervals from `first` to `total` whose ratio stays below `growth`."""
+    """Smallest number of geometric intervals whose ratio does not exceed `growth`.
+
+    Parameters
+    ----------
+    first, total : float
+        Length of the first interval and of all together, positive.
+    growth : float
+        Largest ratio of neighbouring intervals, greater than 1.
+    least : int
+        The number returned is at least this.
+    """
     if first >= total:
         return least
     return max(least, int(np.ceil(np.log1p(total / first * (growth - 1.0)) / np.log(growth))))
@@ -36,5 +59,5 @@ def intervals(first: float, total: float, growth: float, least: int = 2) -> int:
 def growing(
     first: float, total: float, growth: float, least: int = 2
 ) -> Float[np.ndarray, " points"]:
-    """Points 0 … `total`, the first interval `first`, as few as the largest `growth` allows."""
+    """Points of `graded` with the smallest number of intervals that `intervals` allows."""
     return graded(intervals(first, total, growth, least), first, total)

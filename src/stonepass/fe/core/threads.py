@@ -1,4 +1,4 @@
-"""The matrices are too small for threads: one is faster, and takes half the processor time."""
+"""One BLAS thread: the matrices are small, so one thread is faster and needs half the CPU time."""
 
 from __future__ import annotations
 
@@ -12,7 +12,12 @@ __all__ = ["one_thread"]
 
 
 def one_thread() -> AbstractContextManager[Any]:
-    """Let BLAS run on one thread within a ``with`` block."""
+    """Limit BLAS to one thread within a ``with`` block; the old limit returns at its end.
+
+    Returns
+    -------
+    context manager
+    """
     limit: AbstractContextManager[Any] = _blas().limit(limits=1, user_api="blas")
     return limit
 

@@ -16,18 +16,24 @@ from functools import partial
 import numpy as np
 
 from stonepass.errors import require
-from stonepass.fe.axisymmetric.contact import joined, resampling
-from stonepass.fe.axisymmetric.discrete import inner_wall
-from stonepass.fe.axisymmetric.fitted_contact import Fitted
-from stonepass.fe.axisymmetric.postprocessing import (
-    deformation,
-    field,
-    loaded_balance,
-    volume,
-)
+from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
+from stonepass.fe.axisymmetric.inner_wall import inner_wall
+from stonepass.fe.axisymmetric.loaded_wall import loaded_wall
+from stonepass.fe.axisymmetric.postprocessing import Deformation
 from stonepass.fe.axisymmetric.problem import Failure, Resolution
 from stonepass.fe.axisymmetric.seating import seat_on_stone
-from stonepass.fe.axisymmetric.sliding_contact import Slid, Slide
+from stonepass.fe.axisymmetric.sliding_contact import (
+    solve_at_pressure,
+    solve_at_seal,
+    solve_critical,
+)
+from stonepass.fe.axisymmetric.sliding_state import Configuration, SlidingState, sliding_problem
+from stonepass.fe.axisymmetric.sliding_workspace import (
+    Workspace,
+    seated_configuration,
+    workspace_for,
+)
+from stonepass.fe.core.lobatto import joined, resampling
 from stonepass.fe.core.threads import one_thread
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.relaxed_energy import Relaxed, relaxed
@@ -40,14 +46,14 @@ from stonepass.model.states.first_guess import wrap_round_arc
 from stonepass.model.states.loaded_state import Critical, NoPush, PushedState, PushReport
 from stonepass.model.states.nondimensional import profile_of, tube_of
 from stonepass.model.states.stability import (
+    axisymmetric_buckling,
     far_field_hint,
     oversize_hint,
     stability_of,
-    waves,
 )
 from stonepass.units import Pressure, pressure
 
-__all__ = ["solve_critical", "solve_loaded"]
+__all__ = ["find_critical", "solve_loaded"]
 
 SAMPLES = 33  # of each column in contact
 # In units of the pressure that opens the tube to R_s: largest first guess, and a low start.
@@ -105,23 +111,25 @@ def solve_loaded(
         require(0.0 <= bound < np.inf, "urine pressure", each, "zero or positive")
     started = time.perf_counter()
     wanted = resolution or numerics.resolution
-    (ready,) = _slides(case, numerics, [wanted], wetted=wetted, tether=tether, offset=offset)
-    if isinstance(ready, Failure):
-        return [_no_push(case, ready, started)] * len(bounds)
+    (setup,) = _set_up(case, numerics, [wanted], wetted=wetted, tether=tether, offset=offset)
+    if isinstance(setup, Failure):
+        return [_no_push(case, setup, started)] * len(bounds)
     states: list[PushedState | NoPush] = []
+    workspace, at, friction = setup.workspace, setup.seated, case.stone.friction
     with one_thread():
         for bound in bounds:
-            found = ready.slide.held(bound / ready.modulus, case.stone.friction)
-            if isinstance(found, Slid) and not _sealed(found):
+            found = solve_at_pressure(workspace, at, bound / setup.modulus, friction)
+            if isinstance(found, SlidingState) and not _sealed(found):
                 found = Failure(LEAKS, found.steps)
             if isinstance(found, Failure):
                 lost = _no_push(case, found, started)
                 return states + [lost] * (len(bounds) - len(states))
-            states.append(_state(case, ready, found, started))
+            states.append(_state(case, setup, found, started))
+            at = found.configuration
     return states
 
 
-def solve_critical(
+def find_critical(
     case: Problem,
     numerics: Numerics,
     resolutions: Sequence[Resolution],
@@ -136,30 +144,35 @@ def solve_critical(
     """
     started, found = time.perf_counter(), list[Critical | NoPush]()
     guess = None
-    for ready in _slides(case, numerics, resolutions, wetted=wetted):
-        if isinstance(ready, Failure):
-            found.append(_no_push(case, ready, started))
+    for setup in _set_up(case, numerics, resolutions, wetted=wetted):
+        if isinstance(setup, Failure):
+            found.append(_no_push(case, setup, started))
             continue
         with one_thread():
-            critical = _critical(case, ready, guess, started, leak=leak and not found)
+            critical = _critical(case, setup, guess, started, leak=leak and not found)
         if isinstance(critical, Critical) and not critical.leaks:
-            guess = critical.state.urine_pressure / ready.modulus
+            guess = critical.state.urine_pressure / setup.modulus
         found.append(critical)
     return found
 
 
 @dataclass(frozen=True)
-class _Ready:
-    """A tube ready to be loaded: first guess of P_ucr, and the pressure that opens it to R_s."""
+class _Setup:
+    """A seated tube, ready to be loaded; pressures in units of the modulus.
 
-    slide: Slide
+    `guess` is a first guess of P_ucr, `opening` the pressure that opens the tube to R_s, `steps`
+    are the Newton steps of the seating.
+    """
+
+    workspace: Workspace
+    seated: Configuration
     modulus: float
     guess: float
     opening: float
     steps: int
 
 
-def _slides(
+def _set_up(
     case: Problem,
     numerics: Numerics,
     resolutions: Sequence[Resolution],
@@ -167,11 +180,11 @@ def _slides(
     wetted: bool,
     tether: float = 0.0,
     offset: float = 0.0,
-) -> list[_Ready | Failure]:
-    """Seat the stone without friction, for each resolution, and make a loaded tube of it."""
+) -> list[_Setup | Failure]:
+    """Seat the stone without friction, for each resolution, and prepare the loading."""
     check(case.ureter.material)
     lumen = stuck_lumen(case)
-    unstable = waves(case, numerics.half_length)
+    unstable = axisymmetric_buckling(case, numerics.half_length)
     if unstable:
         return [Failure(unstable, 0)] * len(resolutions)
     law = relaxed(case.ureter.material.law)
@@ -179,29 +192,31 @@ def _slides(
     tube = tube_of(law, case.wall_ratio, case.load, numerics.half_length)
     wrap_at = partial(wrap_round_arc, case, numerics.half_length, lumen, modulus)
     opening = opening_pressure(case)
-    found: list[_Ready | Failure] = []
+    found: list[_Setup | Failure] = []
     for half, resolution in zip(
         seat_on_stone(tube, profile_of(case), wrap_at, resolutions), resolutions, strict=True
     ):
         if isinstance(half, Failure):
             found.append(half)
             continue
-        slide = Slide(
+        problem = sliding_problem(
             replace(tube, tether=tether),
             half,
             resolution,
             wetted=wetted,
             offset=offset,
         )
+        workspace = workspace_for(problem)
+        seated = seated_configuration(workspace, half)
         guess = _guess(case, half, opening / modulus)
-        found.append(_Ready(slide, modulus, guess, opening / modulus, half.steps))
+        found.append(_Setup(workspace, seated, modulus, guess, opening / modulus, half.steps))
     return found
 
 
-def _guess(case: Problem, half: Fitted, opening: float) -> float:
+def _guess(case: Problem, seated: EquilibriumState, opening: float) -> float:
     """P_ucr by energy from the unloaded contact: P V = ∫ μ λ dA for an advance by one length."""
-    wall = inner_wall(half.discrete, "closed")
-    halves = 1.0 if half.layout.whole else 2.0
+    wall = inner_wall(seated.discretisation, "closed")
+    halves = 1.0 if seated.layout.whole else 2.0
     normal = halves * 2.0 * np.pi * float((wall.weight * wall.normal).sum())
     rubbed = case.stone.friction * normal
     section = np.pi * ((1.0 + case.size_ratio) / 2.0) ** 2
@@ -209,33 +224,34 @@ def _guess(case: Problem, half: Fitted, opening: float) -> float:
 
 
 def _critical(
-    case: Problem, ready: _Ready, guess: float | None, started: float, *, leak: bool
+    case: Problem, setup: _Setup, guess: float | None, started: float, *, leak: bool
 ) -> Critical | NoPush:
-    slide, friction = ready.slide, case.stone.friction
-    found = slide.moving(ready.guess if guess is None else guess, friction)
-    if isinstance(found, Slid) and _sealed(found):
-        state = _state(case, ready, found, started)
-        passed = _leak(slide, found, ready.opening)[0] if leak else None
-        return Critical(state, None if passed is None else passed * ready.modulus, leaks=False)
-    start = slide.held(LOW_START * ready.opening, friction)
-    if isinstance(start, Slid):
-        passed, last = _leak(slide, start, ready.opening)
-        # Only from close by: what is extrapolated from afar says nothing of the force there.
+    workspace, friction = setup.workspace, case.stone.friction
+    first_guess = setup.guess if guess is None else guess
+    found = solve_critical(workspace, setup.seated, first_guess, friction)
+    if isinstance(found, SlidingState) and _sealed(found):
+        passed = _leak(workspace, found, setup.opening)[0] if leak else None
+        state = _state(case, setup, found, started)
+        return Critical(state, None if passed is None else passed * setup.modulus, leaks=False)
+    low = solve_at_pressure(workspace, setup.seated, LOW_START * setup.opening, friction)
+    if isinstance(low, SlidingState):
+        passed, last = _leak(workspace, low, setup.opening)
+        # An extrapolation from far below the leak pressure does not tell the force there.
         if passed is not None and last.force < 0.0 and _excess(last) <= 2.0 * LEAK_EXCESS:
-            again = slide.held(last.pressure, friction)  # the search may have gone on from there
-            if isinstance(again, Slid):
-                state = _state(case, ready, again, started)
-                return Critical(state, passed * ready.modulus, leaks=True)
+            state = _state(case, setup, last, started)
+            return Critical(state, passed * setup.modulus, leaks=True)
     reason = found if isinstance(found, Failure) else Failure(UNSEALED, found.steps)
     return _no_push(case, reason, started)
 
 
-def _sealed(state: Slid) -> bool:
+def _sealed(state: SlidingState) -> bool:
     """Whether the contact pressure rises above that of the fluid behind the first edge."""
     return int(np.argmax(state.contact_pressure)) > 0
 
 
-def _leak(slide: Slide, start: Slid, opening: float) -> tuple[float | None, Slid]:
+def _leak(
+    workspace: Workspace, start: SlidingState, opening: float
+) -> tuple[float | None, SlidingState]:
     """The leak pressure, and the last state before it.
 
     The excess of the largest contact pressure over P is lowered in steps, and P found for each.
@@ -245,7 +261,8 @@ def _leak(slide: Slide, start: Slid, opening: float) -> tuple[float | None, Slid
     excess = min(_excess(start), HIGHEST_EXCESS)
     while excess > LEAK_EXCESS or len(states) < 3:
         excess *= LEAK_STEP
-        found = slide.sealing(excess, pressure, start.friction)
+        at = states[-1].configuration
+        found = solve_at_seal(workspace, at, excess, pressure, start.friction)
         if isinstance(found, Failure) or found.pressure <= states[-1].pressure:
             break
         states.append(found)
@@ -260,7 +277,7 @@ def _leak(slide: Slide, start: Slid, opening: float) -> tuple[float | None, Slid
     return now.pressure + ahead, now
 
 
-def _excess(state: Slid) -> float:
+def _excess(state: SlidingState) -> float:
     """How far the seal is above the fluid, in units of the fluid's pressure."""
     if state.pressure <= NO_PRESSURE:
         return np.inf
@@ -272,13 +289,12 @@ def _no_push(case: Problem, failure: Failure, started: float) -> NoPush:
     return NoPush(reason, failure.steps, time.perf_counter() - started)
 
 
-def _state(case: Problem, ready: _Ready, found: Slid, started: float) -> PushedState:
-    slide, modulus = ready.slide, ready.modulus
+def _state(case: Problem, setup: _Setup, found: SlidingState, started: float) -> PushedState:
+    modulus, wall = setup.modulus, loaded_wall(setup.workspace, found)
     order = found.station.shape[1] - 1
     fine = resampling(order, SAMPLES)[0].T
     r, z, sigma = (joined(x @ fine) for x in (found.r, found.z, found.contact_pressure))
-    in_pascals = field(slide).in_units(modulus)
-    far = slide.far_field()
+    in_pascals, far = wall.field.in_units(modulus), wall.far_field
     return PushedState(
         case=case,
         urine_pressure=modulus * found.pressure,
@@ -286,30 +302,29 @@ def _state(case: Problem, ready: _Ready, found: Slid, started: float) -> PushedS
         friction_work=modulus
         * found.friction_work
         / (np.pi * case.size_ratio**2 * case.load.prestretch),
-        theta=slide.stone.parametric(r, z),
+        theta=setup.workspace.problem.stone.parametric(r, z),
         contact_pressure=modulus * np.maximum(sigma, 0.0),
         upstream_radius=far.radius,
         upstream_stretch=far.upstream,
         downstream_stretch=far.downstream,
         wall=in_pascals,
         solver=PushReport(
-            dofs=slide.dofs,
-            newton_steps=ready.steps + found.steps,
+            dofs=setup.workspace.dofs,
+            newton_steps=setup.steps + found.steps,
             seconds=time.perf_counter() - started,
             residual=found.residual,
-            volume=volume(slide),
-            axial_balance=loaded_balance(slide, found.pressure, found.force),
+            volume=wall.volume,
+            axial_balance=wall.axial_balance,
             penetration=found.penetration,
         ),
-        stability=stability_of(case, slide, in_pascals),
-        kinked=_kinked(case, slide),
+        stability=stability_of(case, wall.deformation, in_pascals),
+        microbuckled=_microbuckled(case, wall.deformation),
     )
 
 
-def _kinked(case: Problem, slide: Slide) -> bool:
-    """Whether C_zz is anywhere below that at which the relaxed law begins."""
+def _microbuckled(case: Problem, F: Deformation) -> bool:
+    """Whether C_zz is anywhere below the value at which the law is relaxed."""
     law = relaxed(case.ureter.material.law)
     if not isinstance(law, Relaxed):
         return False
-    F = deformation(slide)
     return bool((F.F_rz**2 + F.F_zz**2 < law.kink(F.F_tt**2, np)).any())

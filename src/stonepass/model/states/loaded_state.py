@@ -77,9 +77,9 @@ class PushedState:
         radii, z from the stone's widest place downstream.
     solver : PushReport
     stability : StabilityReport
-        Stability of the wall's own law in this state, kinks left out.
-    kinked : bool
-        Whether the law was relaxed somewhere: axial fibres compressed until they kink.
+        Stability of the wall's own law in this state, without the relaxation.
+    microbuckled : bool
+        Whether the law was relaxed somewhere: axial fibres compressed until they buckle.
     """
 
     case: Problem
@@ -94,7 +94,7 @@ class PushedState:
     wall: Field | None
     solver: PushReport
     stability: StabilityReport
-    kinked: bool
+    microbuckled: bool
 
     @property
     def contact_angle(self) -> float:
@@ -126,7 +126,7 @@ class PushedState:
         found = []
         if self.solver.axial_balance > LOADED_IMBALANCE:
             found.append(caution("loaded_imbalance", imbalance=self.solver.axial_balance))
-        if self.kinked and self.stability.margin <= 0.0:
+        if self.microbuckled and self.stability.margin <= 0.0:
             R, Z = self.stability.weakest_at
             return [*found, caution("microbuckling", R=R, Z=Z), *self.stability.folding()]
         return [*found, *self.stability.warnings()]

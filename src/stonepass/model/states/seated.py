@@ -9,16 +9,16 @@ from functools import partial
 
 import numpy as np
 
-from stonepass.fe.axisymmetric.fitted_contact import Fitted
+from stonepass.fe.axisymmetric.balances import axial_balance, cone_excess
+from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
 from stonepass.fe.axisymmetric.postprocessing import (
     ContactProfile,
-    axial_balance,
-    cone_excess,
     contact_profile,
+    deformation,
     field,
     volume,
 )
-from stonepass.fe.axisymmetric.problem import Failure, Path, Resolution
+from stonepass.fe.axisymmetric.problem import Failure, LoadingPath, Resolution
 from stonepass.fe.axisymmetric.seating import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
@@ -31,15 +31,15 @@ from stonepass.model.states.first_guess import wrap_round_arc
 from stonepass.model.states.nondimensional import profile_of, tube_of
 from stonepass.model.states.seated_state import Contact, NoSeat, SeatedState, SolverReport
 from stonepass.model.states.stability import (
+    axisymmetric_buckling,
     far_field_hint,
     oversize_hint,
     stability_of,
-    waves,
 )
 
 __all__ = ["solve_seated"]
 
-INNER = 0.5  # share of the contact whose pressure tells the error at the equator
+INNER = 0.5  # fraction of the contact whose pressure tells the error at the equator
 
 
 def solve_seated(
@@ -60,7 +60,7 @@ def solve_seated(
     check(case.ureter.material)
     started = time.perf_counter()
     lumen = stuck_lumen(case)
-    unstable = waves(case, numerics.half_length)
+    unstable = axisymmetric_buckling(case, numerics.half_length)
     if unstable:
         return NoSeat(unstable, 0, time.perf_counter() - started)
     level = numerics.level
@@ -71,7 +71,7 @@ def solve_seated(
         reason = solved.reason + far_field_hint(case) + oversize_hint(case)
         return NoSeat(reason, steps, time.perf_counter() - started)
     state = _state(case, seating, replace(solved, steps=steps), started)
-    if coarser and isinstance(coarser[0], Fitted):
+    if coarser and isinstance(coarser[0], EquilibriumState):
         coarse = _contact(case, contact_profile(coarser[0]))
         return replace(state, coarse=coarse, error=_error(state, coarse, level))
     return state
@@ -83,7 +83,7 @@ def _solve(
     numerics: Numerics,
     lumen: float,
     wanted: Sequence[Resolution],
-) -> list[Fitted | Failure]:
+) -> list[EquilibriumState | Failure]:
     law, load = case.ureter.material.law, case.load
     tube = tube_of(law, case.wall_ratio, load, numerics.half_length)
     wrap_at = partial(wrap_round_arc, case, numerics.half_length, lumen, hoop_modulus(law))
@@ -102,20 +102,20 @@ def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
     ripple = np.abs(state.contact_pressure - coarse.pressure_at(state.theta))[inner].max()
     angle = level.claim(state.contact_angle - coarse.contact_angle, width)
     return ErrorEstimate(
-        contact_angle=float(angle + state.contact_angle_slack),
+        contact_angle=float(angle + state.contact_angle_uncertainty),
         equator_contact_pressure=level.claim(float(ripple), state.equator_contact_pressure),
     )
 
 
-def _path(case: Problem, seating: Seating, lumen: float) -> Path | None:
+def _path(case: Problem, seating: Seating, lumen: float) -> LoadingPath | None:
     """How the stone comes to its place; None where no friction acts on the way."""
     friction, last = seating.friction, profile_of(case)
     if friction == 0.0:
         return None
     more = last.radius - lumen
     if seating.kind == "growing":
-        return Path(friction, lambda t: replace(last, radius=lumen + t * more))
-    return Path(friction, lambda t: replace(last, offset=(t - 1.0) * more))
+        return LoadingPath(friction, lambda t: replace(last, radius=lumen + t * more))
+    return LoadingPath(friction, lambda t: replace(last, offset=(t - 1.0) * more))
 
 
 def _contact(case: Problem, profile: ContactProfile) -> Contact:
@@ -123,7 +123,9 @@ def _contact(case: Problem, profile: ContactProfile) -> Contact:
     return Contact(case, float(profile.theta[0]), profile.theta, pressure)
 
 
-def _state(case: Problem, seating: Seating, solved: Fitted, started: float) -> SeatedState:
+def _state(
+    case: Problem, seating: Seating, solved: EquilibriumState, started: float
+) -> SeatedState:
     modulus = hoop_modulus(case.ureter.material.law)
     profile, kept = contact_profile(solved), volume(solved)
     in_pascals = field(solved).in_units(modulus)
@@ -147,8 +149,8 @@ def _state(case: Problem, seating: Seating, solved: Fitted, started: float) -> S
             cone_excess=cone_excess(solved),
             dissipated=(1.0 if solved.layout.whole else 2.0) * modulus * solved.dissipated,
         ),
-        stability=stability_of(case, solved, in_pascals),
-        contact_angle_slack=solved.slack
+        stability=stability_of(case, deformation(solved), in_pascals),
+        contact_angle_uncertainty=solved.edge_uncertainty
         * case.load.prestretch
         / (case.size_ratio * case.stone.aspect),
     )

@@ -112,7 +112,7 @@ class SeatedState(Contact):
     solver : SolverReport
     stability : StabilityReport
         Stability of the wall, and whether it would fold.
-    contact_angle_slack : float
+    contact_angle_uncertainty : float
         How far α₀ is known in rad where the contact edge could not be made an unknown, else 0.
     coarse : Contact or None
         The same contact from a coarser solve; None where none was asked for, or none was found.
@@ -124,7 +124,7 @@ class SeatedState(Contact):
     wall: Field | None
     solver: SolverReport
     stability: StabilityReport
-    contact_angle_slack: float = 0.0
+    contact_angle_uncertainty: float = 0.0
     coarse: Contact | None = None
     error: ErrorEstimate | None = None
 
@@ -137,8 +137,8 @@ class SeatedState(Contact):
             found.append(caution("friction_cone"))
         if self.error is None:
             found.append(caution("error_not_estimated"))
-        if self.contact_angle_slack > 0.0:
-            uncertainty = float(np.degrees(self.contact_angle_slack))
+        if self.contact_angle_uncertainty > 0.0:
+            uncertainty = float(np.degrees(self.contact_angle_uncertainty))
             found.append(caution("contact_angle_uncertain", uncertainty_deg=uncertainty))
         return found
 

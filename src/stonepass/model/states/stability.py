@@ -7,8 +7,8 @@ from functools import lru_cache
 import numpy as np
 from jaxtyping import Int
 
-from stonepass.fe.axisymmetric.buckling import unstable_wave
-from stonepass.fe.axisymmetric.postprocessing import Field, Solved, deformation
+from stonepass.fe.axisymmetric.buckling import buckling_half_wave
+from stonepass.fe.axisymmetric.postprocessing import Deformation, Field
 from stonepass.materials.derivatives import rest_moduli
 from stonepass.materials.ellipticity import weakest
 from stonepass.materials.protocol import Law
@@ -19,17 +19,25 @@ from stonepass.model.states.nondimensional import tube_of
 from stonepass.model.states.stability_report import StabilityReport
 
 __all__ = [
+    "axisymmetric_buckling",
     "far_field_hint",
     "oversize_hint",
     "stability_of",
-    "waves",
 ]
 
 
-def stability_of(case: Problem, solved: Solved, wall: Field) -> StabilityReport:
-    """Check strong ellipticity and hoop compression at points of every element."""
-    law = case.ureter.material.law
-    F, some = deformation(solved), _some_points(wall)
+def stability_of(case: Problem, F: Deformation, wall: Field) -> StabilityReport:
+    """Check strong ellipticity and hoop compression at points of every element.
+
+    Parameters
+    ----------
+    case : Problem
+    F : Deformation
+        Deformation gradient of the solved wall, at the points of `wall`.
+    wall : Field
+        The solved wall, stresses in Pa.
+    """
+    law, some = case.ureter.material.law, _some_points(wall)
     columns = [getattr(F, name)[:, some].ravel() for name in ("F_rr", "F_rz", "F_zr", "F_zz")]
     worst = weakest(law, np.column_stack([*columns, F.F_tt[:, some].ravel()]))
     compression = wall.stress_rr - wall.stress_tt
@@ -45,24 +53,24 @@ def stability_of(case: Problem, solved: Solved, wall: Field) -> StabilityReport:
     )
 
 
-def waves(case: Problem, half_length: float) -> str:
-    """Why the loaded tube does not stay straight, or nothing where it does."""
+def axisymmetric_buckling(case: Problem, half_length: float) -> str:
+    """A sentence where the loaded tube itself buckles axisymmetrically; empty where it does not."""
     load = case.load
     if load.confining_pressure == 0.0 and load.prestretch >= 1.0:
         return ""
-    length = _wave(case.ureter.material.law, case.wall_ratio, load, half_length)
+    length = _half_wave(case.ureter.material.law, case.wall_ratio, load, half_length)
     if length is None:
         return ""
     return (
         "the tube itself is not stable under this load: far from the stone axisymmetric waves of "
-        f"half-length {length:.2g} inner radii lower its energy, so it wrinkles or kinks all along"
+        f"half-length {length:.2g} inner radii lower its energy, so it buckles all along"
     )
 
 
 def far_field_hint(case: Problem) -> str:
     """What to think of first where no state was found: the loaded tube has lost its ellipticity.
 
-    In all directions of space, so it tells more than `waves`, which are axisymmetric.
+    In all directions of space, so it tells more than `axisymmetric_buckling`.
     """
     law, eta, stretch = case.ureter.material.law, case.wall_ratio, case.load.prestretch
     lumen = lumen_ratio(eta, law, case.load)
@@ -92,10 +100,10 @@ def oversize_hint(case: Problem) -> str:
 
 
 @lru_cache(maxsize=64)
-def _wave(law: Law, wall_ratio: float, load: Load, half_length: float) -> float | None:
+def _half_wave(law: Law, wall_ratio: float, load: Load, half_length: float) -> float | None:
     lumen = lumen_ratio(wall_ratio, law, load)
     assert lumen is not None, "asked before a case without a lumen is answered"
-    return unstable_wave(tube_of(law, wall_ratio, load, half_length), lumen)
+    return buckling_half_wave(tube_of(law, wall_ratio, load, half_length), lumen)
 
 
 def _some_points(wall: Field) -> Int[np.ndarray, " some"]:

@@ -43,7 +43,7 @@ class StateSolver(Protocol):
         wetted: bool,
         leak: bool,
     ) -> list[Critical | NoPush]:
-        """See `model.states.loaded.solve_critical`."""
+        """See `model.states.loaded.find_critical`."""
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
         """See `model.states.opening.solve_opening_curve`."""

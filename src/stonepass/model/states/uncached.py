@@ -39,9 +39,9 @@ class _Uncached:
         wetted: bool,
         leak: bool,
     ) -> list[Critical | NoPush]:
-        from stonepass.model.states.loaded import solve_critical
+        from stonepass.model.states.loaded import find_critical
 
-        return solve_critical(case, numerics, resolutions, wetted=wetted, leak=leak)
+        return find_critical(case, numerics, resolutions, wetted=wetted, leak=leak)
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
         from stonepass.model.states.opening import solve_opening_curve

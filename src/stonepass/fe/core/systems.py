@@ -1,0 +1,222 @@
+"""Systems of equations for Newton's method: a form, and a form bordered by scalar unknowns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import ngsolve as ng
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.fe.core.newton import SingularTangent
+
+__all__ = ["BorderedSystem", "FormSystem"]
+
+MOST = 0.3  # largest change of a scalar unknown in one step, in units of its scale
+DIFFERENCE = 1e-6  # of the scale, for difference quotients
+
+
+class FormSystem:
+    """A finite-element form whose residual in the free unknowns is to vanish.
+
+    The object is a workspace of the engine: it reads and moves `state`, a grid function, and keeps
+    the factorisation of the condensed tangent.
+
+    Parameters
+    ----------
+    form : ngsolve.BilinearForm
+        The nonlinear form, with static condensation.
+    state : ngsolve.GridFunction
+        The current state.
+    free : ngsolve.BitArray
+        Which unknowns are solved for.
+    """
+
+    def __init__(self, form: Any, state: Any, free: Any) -> None:
+        self.form, self.state, self.free = form, state, free
+        self._keep = ng.Projector(free, True)
+        self._inverse: Any = None
+        self._coupling = free & state.space.FreeDofs(True)
+        self._force, self._change, self._origin = (state.vec.CreateVector() for _ in range(3))
+        self._known = False  # whether `_force` is the residual at the current state
+
+    def evaluate(self, into: Any) -> None:
+        """Write the residual vector at the current state into `into`."""
+        self.form.Apply(self.state.vec, into)
+        self._keep.Project(into)
+
+    def residual(self) -> float:
+        """Norm of the residual at the current state."""
+        self.evaluate(self._force)
+        self._known = True
+        return float(ng.Norm(self._force))
+
+    def direction(self, *, again: bool = False) -> None:
+        """Linearise and factorise, unless `again`, and solve."""
+        self._origin.data = self.state.vec
+        if not self._known:
+            self.evaluate(self._force)
+        if not again:
+            self.factorise()
+        self.solve(self._force, self._change)
+        self._known = False
+
+    def move(self, step: float) -> None:
+        """Go to origin − step × change."""
+        self._known = False
+        self.state.vec.data = self._origin
+        if step != 0.0:  # 0 × NaN is NaN, and this is the way back
+            self.state.vec.data -= step * self._change
+
+    def remember(self) -> Any:
+        """Return a copy of the current state."""
+        kept = self.state.vec.CreateVector()
+        kept.data = self.state.vec
+        return kept
+
+    def recall(self, kept: Any) -> None:
+        """Set the state to a copy that `remember` returned."""
+        self._known = False
+        self.state.vec.data = kept
+
+    def factorise(self) -> None:
+        """Assemble the tangent at the current state and factorise its condensed part.
+
+        The sparsity pattern does not change, so it is analysed only once.
+        """
+        try:
+            self.form.AssembleLinearization(self.state.vec)
+            if self._inverse is None:
+                self._inverse = self.form.mat.Inverse(self._coupling, inverse="umfpack")
+            else:
+                self._inverse.Update()
+        except Exception as problem:  # the engine's own kinds have no public name
+            raise SingularTangent from problem
+
+    def solve(self, rhs: Any, into: Any) -> None:
+        """Solve tangent × into = rhs, element interiors included; overwrites `rhs`."""
+        form = self.form
+        rhs.data += form.harmonic_extension_trans * rhs
+        into.data = self._inverse * rhs
+        into.data += form.harmonic_extension * into
+        into.data += form.inner_solve * rhs
+
+
+class BorderedSystem(FormSystem):
+    """A form with additional scalar unknowns and as many conditions that must vanish.
+
+    The contributions of the scalars to the tangent are difference quotients, so each Newton step
+    costs one factorisation, and one solve more for each scalar. A step changes no scalar by more
+    than the fraction `MOST` of its scale.
+
+    Parameters
+    ----------
+    form, state, free
+        See `FormSystem`.
+    values : array (scalars,)
+        First guess of the scalar unknowns.
+    scale : array (scalars,)
+        Their typical size, positive.
+    apply : callable
+        ``apply(values)`` makes the form depend on the scalars, e.g. by moving mesh nodes, and
+        returns whether these values are possible.
+    conditions : callable
+        ``conditions()`` returns, for the current state, the scalars that must vanish.
+    """
+
+    def __init__(
+        self,
+        form: Any,
+        state: Any,
+        free: Any,
+        *,
+        values: Float[np.ndarray, " scalars"],
+        scale: Float[np.ndarray, " scalars"],
+        apply: Callable[[Float[np.ndarray, " scalars"]], bool],
+        conditions: Callable[[], Float[np.ndarray, " scalars"]],
+    ) -> None:
+        super().__init__(form, state, free)
+        self.values, self._scale, self._apply, self._conditions = values, scale, apply, conditions
+        self._columns = [state.vec.CreateVector() for _ in values]
+        self._shifted = state.vec.CreateVector()
+        self._possible = apply(values)
+
+    def remember(self) -> Any:
+        """Return copies of the current state and of the scalars."""
+        return super().remember(), self.values
+
+    def recall(self, kept: Any) -> None:
+        """Set state and scalars to copies that `remember` returned."""
+        state, self.values = kept
+        super().recall(state)
+        self._possible = self._apply(self.values)
+
+    def residual(self) -> float:
+        """Norm of the residual and the conditions together; infinite for impossible scalars."""
+        if not self._possible:
+            return math.inf
+        self._missed = self._conditions()
+        # `math.hypot` does not overflow, so a step to huge numbers is refused like any other.
+        return math.hypot(super().residual(), *self._missed.tolist())
+
+    def direction(self, *, again: bool = False) -> None:
+        """Solve the bordered system by block elimination."""
+        self._origin_values = self.values
+        if not again:
+            if not self._known:
+                self.residual()
+            partial = self._by_values()
+        super().direction(again=again)
+        missed = self._missed - self._along(self._change)
+        if not again:
+            for column in self._columns:
+                self._shifted.data = column
+                self.solve(self._shifted, column)
+            by_state = [self._along(column) for column in self._columns]
+            self._schur = np.column_stack(by_state) - partial
+        try:
+            self._rates = np.linalg.solve(self._schur, missed)
+        except np.linalg.LinAlgError as problem:
+            raise SingularTangent from problem
+        if not np.all(np.isfinite(self._rates)):
+            raise SingularTangent
+
+    def move(self, step: float) -> None:
+        """Go to origin + step × direction."""
+        farthest = np.abs(step * self._rates / self._scale).max() / MOST
+        if farthest > 1.0:
+            step /= farthest
+        super().move(step)
+        self.values = self._origin_values + step * self._rates
+        self._possible = self._apply(self.values)
+        if step == 0.0:
+            return
+        for rate, column in zip(self._rates, self._columns, strict=True):
+            self.state.vec.data -= step * rate * column
+
+    def _by_values(self) -> Float[np.ndarray, "scalars scalars"]:
+        """Derivatives by the scalars: the residual's into the columns, the conditions' returned."""
+        slopes = []
+        for k, column in enumerate(self._columns):
+            increment = DIFFERENCE * self._scale[k]
+            moved = self.values.copy()
+            moved[k] += increment
+            self._apply(moved)
+            self.evaluate(column)
+            column.data = (1.0 / increment) * (column - self._force)
+            slopes.append((self._conditions() - self._missed) / increment)
+        self._apply(self.values)
+        return np.column_stack(slopes)
+
+    def _along(self, way: Any) -> Float[np.ndarray, " scalars"]:
+        """Derivative of the conditions along a change of the state."""
+        length = float(ng.Norm(way))
+        if length == 0.0:
+            return np.zeros_like(self._missed)
+        increment = DIFFERENCE * max(float(ng.Norm(self._origin)), 1.0) / length
+        self.state.vec.data = self._origin + increment * way
+        slope = (self._conditions() - self._missed) / increment
+        self.state.vec.data = self._origin
+        return slope

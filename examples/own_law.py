@@ -9,7 +9,11 @@ strain_range = (1.0, 1.4)
 MU, STIFFENING = 60e3, 2.0  # Pa, –
 
 
-def energy(C_rr, C_tt, C_zz, C_rz, xp):
-    """Exponential isotropic law (Demiray), in J/m³; xp is the array namespace."""
-    I1 = C_rr + C_tt + C_zz
-    return MU / (2.0 * STIFFENING) * (xp.exp(STIFFENING * (I1 - 3.0)) - 1.0)
+def energy(C, place, xp):
+    """Exponential isotropic law (Demiray), in J/m³.
+
+    C has the right Cauchy–Green components C.rr, C.tt, C.zz, C.rz, C.rt, C.tz and the invariants
+    C.I1, C.I2, C.I3; place has the reference coordinates place.R and place.Z in inner radii; xp is
+    the array namespace.
+    """
+    return MU / (2.0 * STIFFENING) * (xp.exp(STIFFENING * (C.I1 - 3.0)) - 1.0)

@@ -162,7 +162,7 @@ def test_present_pressure_is_the_far_field(tmp_path):
     wide = '[dilated]\ninner_diameter = "9 mm ± 0 mm"'
     found = assess(person(tmp_path, dilated=wide), MadeUp())
     assert found.present.median is None
-    law = found.person.material.law.without_ground_matrix()
+    law = found.person.material.law.fibres
     assert found.present.at_least == pytest.approx(float(inflation(1.8, 1.4, law)))
     assert found.below_present == Share(1.0, 1.0)
 

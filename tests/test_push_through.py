@@ -14,7 +14,7 @@ from stonepass.fe.axisymmetric.sliding_state import Configuration, SlidingState
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import energy_derivatives, hoop_modulus
 from stonepass.materials.protocol import Material
-from stonepass.materials.relaxed_energy import KEPT, Relaxed, relaxed
+from stonepass.materials.relaxed_energy import KEPT, RelaxedEnergy, relaxed
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.energy_balance import advance_force, opened_radius, strained_force
 from stonepass.model.far_field import urine_pressure
@@ -27,6 +27,7 @@ from stonepass.model.states.loaded import (
     _Setup,
     push_through,
 )
+from stonepass.strain import INNER_WALL, CauchyGreen
 
 DIRECT = sp.Method(model="direct")
 FAST = LEVELS["fast"].resolution
@@ -231,20 +232,22 @@ URETER = CATALOGUE["ureter"].law
 
 
 def test_the_kink_is_where_the_axial_slope_has_fallen_to_the_part_that_is_kept():
-    wall = Relaxed(URETER)
+    wall = RelaxedEnergy(URETER)
     C_tt = np.array([0.8, 1.0, 1.3, 1.7])
-    kink = wall.kink(C_tt, np)
+    kink = wall.threshold(C_tt, np)
     one, zero = np.ones_like(C_tt), np.zeros_like(C_tt)
-    slope, _ = energy_derivatives(URETER, one, C_tt, kink, zero)
+    slope, _ = energy_derivatives(
+        URETER, CauchyGreen(one, C_tt, kink, zero, zero, zero), INNER_WALL
+    )
     np.testing.assert_allclose(slope[:, 2], KEPT * URETER.G / 2.0, rtol=1e-9)
 
 
 def test_beyond_the_kink_energy_goes_on_along_its_tangent_and_before_it_nothing_changes():
-    wall, C_tt = Relaxed(URETER), np.array([1.3])
-    kink = wall.kink(C_tt, np)
+    wall, C_tt = RelaxedEnergy(URETER), np.array([1.3])
+    kink = wall.threshold(C_tt, np)
 
     def energy(law, C_zz):
-        return law.energy(np.ones(1), C_tt, np.array([C_zz]), np.zeros(1), np)[0]
+        return law.energy(CauchyGreen(np.ones(1), C_tt, np.array([C_zz])), INNER_WALL, np)[0]
 
     assert energy(wall, 1.0) == energy(URETER, 1.0)
     at, below = energy(wall, kink[0]), energy(wall, kink[0] - 0.1)
@@ -255,14 +258,16 @@ def test_beyond_the_kink_energy_goes_on_along_its_tangent_and_before_it_nothing_
 
 def test_fine_kinks_in_the_mean_undeformed_fibres_reach_the_relaxed_energy():
     """With nothing kept: a layer of shears ±ε e_r ⊗ e_z, mean deformation kept, C_zz + ε² C_rr."""
-    wall, C_zz = Relaxed(URETER, kept=1e-12), 0.8
+    wall, C_zz = RelaxedEnergy(URETER, kept=1e-12), 0.8
     one = np.ones(1)
     layered = [
-        URETER.energy(one, 1.2 * one, np.array([C_zz + e * e]), np.array([e]), np)[0]
+        URETER.energy(
+            CauchyGreen(one, 1.2 * one, np.array([C_zz + e * e]), np.array([e])), INNER_WALL, np
+        )[0]
         for e in np.linspace(0.0, 1.0, 2001)
     ]
     # U depends on C_rz not at all, so both halves of the layer have the same energy.
-    relaxed_energy = wall.energy(one, 1.2 * one, C_zz * one, 0.0 * one, np)[0]
+    relaxed_energy = wall.energy(CauchyGreen(one, 1.2 * one, C_zz * one), INNER_WALL, np)[0]
     assert relaxed_energy == pytest.approx(min(layered), rel=1e-6)
     assert relaxed_energy < layered[0]
 

@@ -6,12 +6,13 @@ import pytest
 import stonepass as sp
 from stonepass.inputs.material_file import load_material
 from stonepass.materials.derivatives import hoop_energy_slope
+from stonepass.strain import INNER_WALL, CauchyGreen
 
 RUBBER = """
 source = "a bench"
 strain_range = (1.0, 1.6)
-def energy(C_rr, C_tt, C_zz, C_rz, xp):
-    return 146.5e3 * (C_rr + C_tt + C_zz - 3.0)
+def energy(C, place, xp):
+    return 146.5e3 * (C.rr + C.tt + C.zz - 3.0)
 """
 
 
@@ -33,22 +34,22 @@ def test_a_law_may_import_what_lies_beside_it(tmp_path):
     (tmp_path / "constants_of_mine.py").write_text("MU = 146.5e3\n")
     text = RUBBER.replace("source =", "from constants_of_mine import MU\nsource =")
     mine = load_material(write(tmp_path, text.replace("146.5e3", "MU")))
-    assert mine.law.energy(0.25, 4.0, 1.0, 0.0, np) == 146.5e3 * 2.25
+    assert mine.law.energy(CauchyGreen(0.25, 4.0, 1.0), INNER_WALL, np) == 146.5e3 * 2.25
 
 
 def test_every_function_of_the_namespace_may_be_used(tmp_path):
     """The same law in NumPy and in the engine: |x|, max, min and all the rest cancel out."""
     text = """
-def energy(C_rr, C_tt, C_zz, C_rz, xp):
-    I1 = C_rr + C_tt + C_zz - 3.0
-    x = C_tt - 1.0
+def energy(C, place, xp):
+    I1 = C.rr + C.tt + C.zz - 3.0
+    x = C.tt - 1.0
     odd = xp.sin(x) - xp.tan(xp.arctan(xp.sin(x)))
     odd = odd + xp.cosh(x) ** 2 - xp.sinh(x) ** 2 - 1.0
     odd = odd + xp.tanh(x) - xp.sinh(x) / xp.cosh(x)
     odd = odd + xp.cos(x) ** 2 + xp.sin(x) ** 2 - 1.0
-    odd = odd + xp.log(xp.exp(x)) - x + xp.sqrt(C_tt * C_tt) - C_tt
+    odd = odd + xp.log(xp.exp(x)) - x + xp.sqrt(C.tt * C.tt) - C.tt
     odd = odd + xp.maximum(x, 0.5 + 0 * x) + xp.minimum(x, 0.5 + 0 * x) - x - 0.5
-    odd = odd + xp.abs(C_tt) - C_tt
+    odd = odd + xp.abs(C.tt) - C.tt
     return 146.5e3 * (I1 + odd)
 """
     mine = load_material(write(tmp_path, text))
@@ -65,17 +66,17 @@ def energy(C_rr, C_tt, C_zz, C_rz, xp):
     ("body", "words"),
     [
         ("1 / 0", "raising ZeroDivisionError"),
-        ("xp.erf(C_tt)", r"raising AttributeError.*xp\.exp"),
+        ("xp.erf(C.tt)", r"raising AttributeError.*xp\.exp"),
         ("None", "None, but must be an energy"),
         ("'text'", "one real energy in J/m³ per strain"),
-        ("xp.log(C_tt - 10.0)", "nan at circumferential stretch"),
+        ("xp.log(C.tt - 10.0)", "nan at circumferential stretch"),
         ("3.0", "strain-dependent"),
-        ("C_tt * float('inf')", "finite energy"),
-        ("1e5 * C_tt * (1 + 0j)", "one real energy"),
+        ("C.tt * float('inf')", "finite energy"),
+        ("1e5 * C.tt * (1 + 0j)", "one real energy"),
     ],
 )
 def test_bad_functions_are_refused(tmp_path, body, words):
-    text = f"def energy(C_rr, C_tt, C_zz, C_rz, xp):\n    return {body}\n"
+    text = f"def energy(C, place, xp):\n    return {body}\n"
     with pytest.raises(sp.BadInput, match=words) as refusal:
         load_material(write(tmp_path, text))
     assert "\n" not in str(refusal.value)
@@ -84,10 +85,10 @@ def test_bad_functions_are_refused(tmp_path, body, words):
 def test_a_law_that_only_numpy_can_evaluate_is_refused_by_the_engine(tmp_path):
     text = """
 import numpy as np
-def energy(C_rr, C_tt, C_zz, C_rz, xp):
+def energy(C, place, xp):
     if xp.__name__.startswith("autograd"):
-        return 1e5 * (C_rr + C_tt + C_zz - 3.0)
-    return np.exp(C_tt)
+        return 1e5 * (C.rr + C.tt + C.zz - 3.0)
+    return np.exp(C.tt)
 """
     mine = load_material(write(tmp_path, text))
     with pytest.raises(sp.BadInput, match=r"it may use .*xp\.exp"):

@@ -19,7 +19,7 @@ def section() -> Section:
             error = float(np.abs(quadrature / closed - 1.0).max())
             worst = max(worst, error)
             rows.append([name, f"{eta:g}", f"{error:.0e}"])
-    fung = CATALOGUE["ureter"].law.without_ground_matrix()
+    fung = CATALOGUE["ureter"].law.fibres
     printed = float(
         as_printed(fung, 1.3, 1.3) / inflation_by_quadrature(np.array(1.3), 1.3, fung) - 1.0
     )

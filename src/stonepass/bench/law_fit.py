@@ -5,7 +5,7 @@ The fit and the profile likelihood behind the intervals are lmfit's.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -15,7 +15,8 @@ from scipy.stats import spearmanr
 
 from stonepass.bench.least_squares import correlations, intervals, lmfit
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
-from stonepass.materials.known_laws import KNOWN_LAWS, KnownLaw
+from stonepass.materials.constants import ConstantDeclaration, Unit
+from stonepass.materials.known_laws import constants_by_name, known_law
 from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import check
 
@@ -27,9 +28,8 @@ SMALLEST_SHARE = 0.01  # of the largest stress: below it an error is no longer p
 FEWEST_OF_A_TREND = 8  # points
 UNLIKELY = 0.01  # chance of so clear a trend where there is none
 SHARE = 0.3  # of a constant in what the data cannot tell, for it to be named
-NUMBER = (1e-6, 1e3)  # of constants without unit
-CROSS = (-1e2, 1e2)
-MODULI_OF_ANY_SIGN = ("C01", "C20", "C30")
+NUMBER = (1e-6, 1e3)  # widest interval of a positive constant that is no modulus
+ANY_SIGN = (-1e2, 1e2)  # widest interval of one that may be negative
 SPAN = 1e6  # of moduli over the first guess
 IMPOSSIBLE = 1e3  # times the data, where a law has no stress
 
@@ -64,12 +64,12 @@ class Constant:
     """A constant of a law.
 
     `low` and `high` bound its 95 % interval; None where it was given, and one of them None where
-    the data set no bound on that side. Moduli are in Pa.
+    the data set no bound on that side. `unit` is that of the stored numbers.
     """
 
     name: str
     value: float
-    modulus: bool
+    unit: Unit
     low: float | None = None
     high: float | None = None
     given: bool = False
@@ -120,6 +120,7 @@ def fit_law(
     name: str = "fitted",
     *,
     relative: bool = False,
+    free: Sequence[str] = (),
 ) -> FittedLaw:
     """Fit the constants of a law to data by least squares.
 
@@ -130,12 +131,15 @@ def fit_law(
     law : str
         A name in `materials.known_laws.KNOWN_LAWS`.
     given : mapping, optional
-        Constants that are not fitted, moduli in Pa.
+        Constants that are not fitted, in SI units.
     name : str
-        Of the material.
+        Name of the material.
     relative : bool
         Whether errors are proportional to what was measured, as a gauge's often are, instead of
         equally large everywhere. Intervals are right only for the one that is true.
+    free : sequence of str
+        Constants to be fitted that otherwise keep their default, as the second and third term of
+        the Ogden law and the dispersion of fibres.
 
     Raises
     ------
@@ -144,13 +148,14 @@ def fit_law(
         tell from one another, naming them.
     """
     fitting = lmfit()
-    if law not in KNOWN_LAWS:
-        refuse_unknown("law", law, list(KNOWN_LAWS))
-    known, fixed = KNOWN_LAWS[law], dict(given or {})
-    for each in fixed:
-        if each not in known.constants:
-            refuse_unknown(f"constant of law '{law}'", each, list(known.constants))
-    free = [each for each in known.constants if each not in fixed]
+    make, declared, fixed = known_law(law), constants_by_name(law), dict(given or {})
+    for each in (*fixed, *free):
+        if each not in declared:
+            refuse_unknown(f"constant of law '{law}'", each, list(declared))
+    for constant in declared.values():
+        if constant.held and constant.default is not None and constant.name not in free:
+            fixed.setdefault(constant.name, constant.default)
+    free = [each for each in declared if each not in fixed]
     points = len(data.observed)
     require(len(free) > 0, "constants", "all given", "some to be fitted")
     require(points > len(free), "data", f"{points} points", f"more than the {len(free)} constants")
@@ -164,7 +169,7 @@ def fit_law(
     def residuals(parameters: Any) -> Float[np.ndarray, " n"]:
         """Predicted less observed over what is expected; far off where the law has no stress."""
         try:
-            found = data.predicted(known.make(**parameters.valuesdict()))
+            found = data.predicted(make(**parameters.valuesdict()))
         except BadInput:
             found = np.full(points, np.nan)
         off = (found - data.observed) / spread
@@ -172,7 +177,7 @@ def fit_law(
 
     best = None
     for start in STARTS:
-        parameters = _parameters(fitting, known, fixed, _modulus(data), start)
+        parameters = _parameters(fitting, declared, fixed, _modulus(data), start)
         minimizer = fitting.Minimizer(residuals, parameters)
         with np.errstate(all="ignore"):
             found = minimizer.minimize(method="least_squares")
@@ -183,7 +188,7 @@ def fit_law(
     values = {each: float(value) for each, value in result.params.valuesdict().items()}
     _check_told(residuals, result, free)
     bounds, warnings = intervals(minimizer, result, free)
-    fitted = known.make(**values)
+    fitted = make(**values)
     predicted = data.predicted(fitted)
     off = predicted - data.observed
     warnings += _growing(off, data.observed, relative)
@@ -204,9 +209,9 @@ def fit_law(
     return FittedLaw(
         material=material,
         constants=tuple(
-            Constant(each, values[each], each in known.moduli, *bounds.get(each, (None, None)),
+            Constant(each, values[each], declared[each].unit, *bounds.get(each, (None, None)),
                      given=each in fixed)
-            for each in known.constants
+            for each in declared
         ),
         data=data,
         predicted=predicted,
@@ -226,20 +231,26 @@ def _modulus(data: Data) -> float:
 
 
 def _parameters(
-    fitting: Any, known: KnownLaw, fixed: Mapping[str, float], modulus: float, start: float
+    fitting: Any,
+    declared: Mapping[str, ConstantDeclaration],
+    fixed: Mapping[str, float],
+    modulus: float,
+    start: float,
 ) -> Any:
     parameters = fitting.Parameters()
-    for name in known.constants:
+    for name, each in declared.items():
         if name in fixed:
             parameters.add(name, fixed[name], vary=False)
-        elif name in MODULI_OF_ANY_SIGN:
-            parameters.add(name, 0.1 * modulus, min=-SPAN * modulus, max=SPAN * modulus)
-        elif name in known.moduli:
-            parameters.add(name, 0.5 * modulus, min=modulus / SPAN, max=SPAN * modulus)
-        elif name == "a1122":
-            parameters.add(name, 0.2 * start, min=CROSS[0], max=CROSS[1])
+        elif each.unit == "Pa":
+            low = modulus / SPAN if each.positive else -SPAN * modulus
+            parameters.add(name, each.guess * modulus, min=low, max=SPAN * modulus)
         else:
-            parameters.add(name, start, min=NUMBER[0], max=NUMBER[1])
+            low, high = NUMBER if each.positive else ANY_SIGN
+            low, high = max(low, each.low), min(high, each.high)
+            # A first guess beyond a bound would be put on it, where nothing changes any more.
+            guess = each.guess * start
+            inside = guess if low < guess < high else (low + high) / 2.0
+            parameters.add(name, inside, min=low, max=high)
     return parameters
 
 

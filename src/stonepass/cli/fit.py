@@ -18,10 +18,14 @@ __all__ = ["app"]
 app = typer.Typer(help="Fit the constants of a law to bench data.", rich_markup_mode=None)
 
 File = Annotated[Path, typer.Argument(metavar="DATA.csv")]
-Law = Annotated[str, typer.Option("--law", help="neo-hookean, mooney-rivlin, yeoh or fung.")]
+Law = Annotated[str, typer.Option("--law", help="See 'stonepass material laws'.")]
 Fix = Annotated[
     list[str] | None,
     typer.Option("--fix", metavar="NAME=VALUE", help="A constant that is known, e.g. G=12kPa."),
+]
+Free = Annotated[
+    list[str] | None,
+    typer.Option("--free", metavar="NAME", help="Fit a constant that otherwise keeps its default."),
 ]
 Out = Annotated[
     Path | None, typer.Option("--out", metavar="LAW.toml", help="Write the law, for --material.")
@@ -52,6 +56,7 @@ def tensile(
         str | None, typer.Option("--thickness", metavar="LENGTH", help="Of the strip.")
     ] = None,
     fix: Fix = None,
+    free: Free = None,
     relative: Relative = False,
     out: Out = None,
     figure: Drawn = None,
@@ -66,7 +71,7 @@ def tensile(
         for name, side in (("--width", width), ("--thickness", thickness))
     ]
     inputs = {"file": data.name, "width_m": sides[0], "thickness_m": sides[1]}
-    return _fit(read_tension(data, *sides), law, fix, relative, out, figure, json, inputs)
+    return _fit(read_tension(data, *sides), law, fix, free, relative, out, figure, json, inputs)
 
 
 @app.command("inflation")
@@ -80,6 +85,7 @@ def inflation(
         str, typer.Option("--outer", metavar="LENGTH", help="Outer diameter of the tube at rest.")
     ],
     fix: Fix = None,
+    free: Free = None,
     relative: Relative = False,
     out: Out = None,
     figure: Drawn = None,
@@ -95,13 +101,14 @@ def inflation(
         "inner_diameter_m": tube.inner_diameter,
         "outer_diameter_m": tube.outer_diameter,
     }
-    return _fit(read_inflation(data, tube), law, fix, relative, out, figure, json, inputs)
+    return _fit(read_inflation(data, tube), law, fix, free, relative, out, figure, json, inputs)
 
 
 def _fit(
     data: Data,
     law: str,
     fix: list[str] | None,
+    free: list[str] | None,
     relative: bool,
     out: Path | None,
     figure: Path | None,
@@ -116,7 +123,7 @@ def _fit(
     writable(figure, FIGURES)
     with working("fitting"):
         name = Path(inputs["file"]).stem
-        found = fit_law(data, law, _given(law, fix or []), name, relative=relative)
+        found = fit_law(data, law, _given(law, fix or []), name, relative=relative, free=free or ())
     if figure is not None:
         from stonepass.report.fit_figure import fit_figure
         from stonepass.report.style import save
@@ -140,23 +147,16 @@ def _fit(
 
 def _given(law: str, fix: list[str]) -> dict[str, float]:
     from stonepass.errors import BadInput, refuse_unknown
-    from stonepass.materials.known_laws import KNOWN_LAWS
-    from stonepass.units import pressure
+    from stonepass.materials.constants import read_constant
+    from stonepass.materials.known_laws import constants_by_name, known_law
 
-    if law not in KNOWN_LAWS:
-        refuse_unknown("--law", law, list(KNOWN_LAWS))
-    found: dict[str, float] = {}
+    known_law(law, "--law")
+    declared, found = constants_by_name(law), {}
     for text in fix:
         name, separator, value = (part.strip() for part in text.partition("="))
         if not separator:
             raise BadInput("--fix", text, "written NAME=VALUE")
-        if name not in KNOWN_LAWS[law].constants:
-            refuse_unknown(f"--fix, constant of law '{law}'", name, list(KNOWN_LAWS[law].constants))
-        if name in KNOWN_LAWS[law].moduli:
-            found[name] = float(pressure(value, f"--fix {name}"))
-            continue
-        try:
-            found[name] = float(value)
-        except ValueError as problem:
-            raise BadInput(f"--fix {name}", value, "a number") from problem
+        if name not in declared:
+            refuse_unknown(f"--fix, constant of law '{law}'", name, list(declared))
+        found[name] = read_constant(value, declared[name], f"--fix {name}")
     return found

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 __all__ = ["app"]
-
-MODULI = ("C10", "C", "G")
 
 app = typer.Typer(help="List, show and check material laws.", rich_markup_mode=None)
 
@@ -38,23 +36,41 @@ def list_materials() -> int:
     return 0
 
 
+@app.command("laws")
+def list_laws() -> int:
+    """List the laws that a law file and a fit may use, with their constants."""
+    from rich import box
+    from rich.table import Table
+
+    from stonepass.cli.terminal import show
+    from stonepass.materials.constants import constants_of
+    from stonepass.materials.known_laws import KNOWN_LAWS
+
+    table = Table(box=box.SIMPLE_HEAD)
+    for column in ("law", "constant", "unit", "must be", "meaning"):
+        table.add_column(column)
+    for name, law in KNOWN_LAWS.items():
+        for k, each in enumerate(constants_of(law)):
+            unit = {"1": "–", "rad": "deg or rad"}.get(each.unit, each.unit)
+            shown = each.name if each.default is None else f"{each.name} (may be left out)"
+            table.add_row("" if k else name, shown, unit, each.allowed, each.meaning)
+    show(table)
+    return 0
+
+
 @app.command("show")
 def show_material(name: Name) -> int:
     """Show a law's constants and where they come from."""
-    from dataclasses import asdict, is_dataclass
-
     from stonepass.cli.terminal import show
     from stonepass.inputs.material_file import find_material
+    from stonepass.materials.constants import constants_of, shown_constant
 
     entry = find_material(name)
     law = entry.law
-    constants: dict[str, Any] = (
-        asdict(law) if is_dataclass(law) and not isinstance(law, type) else {}
-    )
     low, high = entry.strain_range
     rows = {
         "law": type(law).__name__,
-        **{key: _constant(key, value) for key, value in constants.items() if key != "function"},
+        **{each.name: shown_constant(getattr(law, each.name), each) for each in constants_of(law)},
         "stretches": f"{low:g} to {high:g} (circumferential)",
         "source": entry.source,
         "test": entry.test,
@@ -75,12 +91,13 @@ def secant_of_material(
     """Show the secant moduli of a law, as the beam model takes them (E1 round, E2 along)."""
     from stonepass.cli.terminal import show
     from stonepass.inputs.material_file import find_material
+    from stonepass.materials.composition import fibres_of
     from stonepass.materials.secant import secant_moduli
     from stonepass.materials.stability import check
 
     entry = find_material(name)
     check(entry)
-    rows = {"whole law": entry.law, "without the ground matrix": entry.law.without_ground_matrix()}
+    rows = {"whole law": entry.law, "without the ground matrix": fibres_of(entry.law)}
     if rows["whole law"] == rows["without the ground matrix"]:
         rows.pop("without the ground matrix")
     lines = []
@@ -109,9 +126,3 @@ def check_material(name: Name) -> int:
         f"  r-z shear modulus            {state.shear / 1e6:.4g} MPa",
     )
     return 0
-
-
-def _constant(name: str, value: object) -> str:
-    if name in MODULI and isinstance(value, float):
-        return f"{value / 1e6:g} MPa"
-    return f"{value:g}" if isinstance(value, float) else str(value)

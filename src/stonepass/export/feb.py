@@ -153,7 +153,7 @@ def _mesh(root: Element, s: Seating, wall: _Wedge, strip: _Wedge) -> None:
         _rows(SubElement(mesh, "Nodes", name=f"{name}_nodes"), "node", points, wedge.first)
     first = 1
     for name, wedge in bodies.items():
-        elements = SubElement(mesh, "StateSolver", type="hex20", name=name)
+        elements = SubElement(mesh, "Elements", type="hex20", name=name)
         _rows(elements, "elem", wedge.elements(), first)
         first += len(wedge.grid.cells)
     faces = {"lumen": wall.inner(s.facing), "outside": wall.outer(), "facing": strip.outer()}

@@ -15,24 +15,16 @@ from typing import Any
 import numpy as np
 
 from stonepass.about import DISCLAIMER
-from stonepass.errors import BadInput, refuse_unknown
+from stonepass.errors import refuse_unknown
 from stonepass.export.grid import Grid
-from stonepass.export.seating import KPA, MM, Seating, bulk_modulus
-from stonepass.materials.derivatives import hoop_modulus
-from stonepass.materials.fung import Fung
-from stonepass.materials.known_laws import name_of_law
-from stonepass.materials.mooney_rivlin import MooneyRivlin
-from stonepass.materials.neo_hookean import NeoHookean
-from stonepass.materials.protocol import Law
-from stonepass.materials.yeoh import Yeoh
+from stonepass.export.inp_material import deck_line, has_overlaid_matrix, material_lines
+from stonepass.export.seating import KPA, MM, Seating
 
 __all__ = ["ELEMENTS", "FLAVOURS", "write_inp"]
 
 FLAVOURS = ("calculix", "abaqus")
 ELEMENTS = ("CAX8", "CAX8R")
 A_LINE = 12  # numbers
-# Of a ground matrix laid over a hybrid wall: its bulk modulus over G. The wall keeps the volume.
-MATRIX_BULK = 20.0
 ELASTIC_SLIP, SLIP_SHARE = 1e-3, 5e-3  # over R_a, and of the strip's travel, at most
 ONLY_LAST = 1_000_000  # output every so many increments, and at the end of a step
 
@@ -57,7 +49,7 @@ def write_inp(
         _header(seating, element, flavour),
         _mesh(seating, element, flavour),
         _sets(seating),
-        _materials(seating, flavour),
+        material_lines(seating, flavour),
         _contact(seating, flavour),
         _steps(seating, flavour, increment or seating.increment),
     )
@@ -77,11 +69,11 @@ def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
     points = np.vstack([s.wall.points, s.strip.points]) * s.inner_radius / MM
     yield "*NODE, NSET=ALL"
     for number, (r, z) in enumerate(points, start=1):
-        yield _row(number, float(r), float(z))
+        yield deck_line(number, float(r), float(z))
     yield f"*ELEMENT, TYPE={element}{hybrid}, ELSET=WALL"
     yield from _elements(s.wall, 1, 1)
     first = len(s.wall.cells) + 1
-    if isinstance(s.case.ureter.material.law, Fung):
+    if has_overlaid_matrix(s.case.ureter.material.law):
         yield "** the ground matrix: the same elements again; those of the wall keep the volume"
         yield f"*ELEMENT, TYPE={element}, ELSET=MATRIX"
         yield from _elements(s.wall, first, 1)
@@ -92,7 +84,7 @@ def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
 
 def _elements(grid: Grid, first: int, first_node: int) -> Iterator[str]:
     for number, nodes in enumerate(grid.cells + first_node, start=first):
-        yield _row(number, *nodes.tolist())
+        yield deck_line(number, *nodes.tolist())
 
 
 def _sets(s: Seating) -> Iterator[str]:
@@ -104,78 +96,34 @@ def _sets(s: Seating) -> Iterator[str]:
     yield from _set("STONE", count + np.arange(len(s.strip.points)))
     yield "*SURFACE, NAME=LUMEN, TYPE=ELEMENT"
     for column in range(s.facing.start, s.facing.stop):
-        yield _row(column + 1, "S4")
+        yield deck_line(column + 1, "S4")
     yield "*SURFACE, NAME=STONE, TYPE=ELEMENT"
-    copies = 2 if isinstance(s.case.ureter.material.law, Fung) else 1
+    copies = 2 if has_overlaid_matrix(s.case.ureter.material.law) else 1
     before = copies * len(s.wall.cells) + (s.strip.rows - 1) * s.strip.columns
     for column in range(s.strip.columns):
-        yield _row(before + column + 1, "S2")
+        yield deck_line(before + column + 1, "S2")
 
 
 def _set(name: str, nodes: Any) -> Iterator[str]:
     kept = [int(node) + 1 for node in nodes if node >= 0]
     yield f"*NSET, NSET={name}"
     for start in range(0, len(kept), A_LINE):
-        yield _row(*kept[start : start + A_LINE])
-
-
-def _materials(s: Seating, flavour: str) -> Iterator[str]:
-    law = s.case.ureter.material.law
-    D1 = 0.0 if flavour == "abaqus" else 2.0 / (bulk_modulus(law) / KPA)
-    oriented = isinstance(law, Fung)
-    if oriented:
-        yield "** directions 1, 2, 3 are r, z and around"
-        yield "*ORIENTATION, NAME=CYLINDER"
-        yield "1., 0., 0., 0., 1., 0."
-    yield "*MATERIAL, NAME=WALL"
-    yield from _law(law, D1, flavour)
-    yield "*SOLID SECTION, ELSET=WALL, MATERIAL=WALL" + ", ORIENTATION=CYLINDER" * oriented
-    if isinstance(law, Fung):
-        yield "*MATERIAL, NAME=MATRIX"
-        yield from _law(NeoHookean(law.G / 2.0), 2.0 / (MATRIX_BULK * law.G / KPA), flavour)
-        yield "*SOLID SECTION, ELSET=MATRIX, MATERIAL=MATRIX"
-    yield "** its nodes all have prescribed motions"
-    yield "*MATERIAL, NAME=STONE"
-    yield "*ELASTIC"
-    yield _row(25.0 * hoop_modulus(law) / KPA, 0.3)
-    yield "*SOLID SECTION, ELSET=STRIP, MATERIAL=STONE"
-
-
-def _law(law: Law, D1: float, flavour: str) -> Iterator[str]:
-    if isinstance(law, NeoHookean):
-        yield "*HYPERELASTIC, NEO HOOKE"
-        yield _row(law.C10 / KPA, D1)
-    elif isinstance(law, MooneyRivlin):
-        yield "*HYPERELASTIC, MOONEY-RIVLIN"
-        yield _row(law.C10 / KPA, law.C01 / KPA, D1)
-    elif isinstance(law, Yeoh):
-        yield "*HYPERELASTIC, YEOH"
-        yield _row(law.C10 / KPA, law.C20 / KPA, law.C30 / KPA, D1, 0.0, 0.0)
-    elif isinstance(law, Fung) and flavour == "abaqus":
-        # b1111, b1122, b2222, b1133, b2233, b3333, b1212, b1313; b2323, c, D.
-        yield "*ANISOTROPIC HYPERELASTIC, FUNG-ORTHOTROPIC"
-        yield _row(0.0, 0.0, law.a2222, 0.0, law.a1122, law.a1111, 0.0, 0.0)
-        yield _row(0.0, law.C / KPA, D1)
-    else:
-        named = name_of_law(law) or "a law of one's own"
-        allowed = "neo-hookean, mooney-rivlin or yeoh in a deck for CalculiX"
-        remedy = "--flavour abaqus and --format feb have fung too"
-        raise BadInput("law", named, allowed, remedy)
+        yield deck_line(*kept[start : start + A_LINE])
 
 
 def _contact(s: Seating, flavour: str) -> Iterator[str]:
     stiffness = s.penalty / KPA / (s.inner_radius / MM)
     yield "*SURFACE INTERACTION, NAME=TOUCH"
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
-    yield _row(stiffness)
+    yield deck_line(stiffness)
     friction = s.case.seating_friction
     if friction > 0.0 and flavour == "calculix":
         yield "*FRICTION"
-        yield _row(friction, stiffness)
+        yield deck_line(friction, stiffness)
     elif friction > 0.0:
         slip = min(ELASTIC_SLIP, SLIP_SHARE * s.length) * s.inner_radius / MM
         yield f"*FRICTION, ELASTIC SLIP={slip:.12g}"
-        yield _row(friction)
+        yield deck_line(friction)
     yield "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE"
     yield "LUMEN, STONE"
 
@@ -192,19 +140,19 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield "** first: ends and load, the strip still clear of the wall"
     yield step
     yield "*STATIC"
-    yield _row(*((0.1, 1.0, 1e-4, 0.2) if s.loaded else (1.0, 1.0)))
+    yield deck_line(*((0.1, 1.0, 1e-4, 0.2) if s.loaded else (1.0, 1.0)))
     if pull:
         yield "*BOUNDARY"
-        yield _row("LAST", 2, 2, pull)
+        yield deck_line("LAST", 2, 2, pull)
         if s.whole:
-            yield _row("FIRST", 2, 2, -pull)
+            yield deck_line("FIRST", 2, 2, -pull)
     yield from _motion(s, s.first_share)
     yield from _load(s)
     yield "*END STEP"
     yield "** then: the strip presses the wall open"
     yield step
     yield "*STATIC"
-    yield _row(min(way, 1.0), 1.0, 1e-6, min(way, 1.0))
+    yield deck_line(min(way, 1.0), 1.0, 1e-6, min(way, 1.0))
     yield from _motion(s, 1.0)
     yield from _output(s, flavour)
     yield "*END STEP"
@@ -218,12 +166,12 @@ def _motion(s: Seating, share: float) -> Iterator[str]:
     yield "*BOUNDARY"
     way = share * s.travel * s.inner_radius / MM
     if _radial(s):
-        yield _row("STONE", 1, 1, float(way[0, 0]))
+        yield deck_line("STONE", 1, 1, float(way[0, 0]))
         return
     first = len(s.wall.points) + 1
     for number, (r, z) in enumerate(way, start=first):
-        yield _row(number, 1, 1, float(r))
-        yield _row(number, 2, 2, float(z))
+        yield deck_line(number, 1, 1, float(r))
+        yield deck_line(number, 2, 2, float(z))
 
 
 def _load(s: Seating) -> Iterator[str]:
@@ -234,13 +182,13 @@ def _load(s: Seating) -> Iterator[str]:
         yield "*DLOAD"
         last_row = (s.wall.rows - 1) * s.wall.columns
         for column in range(s.wall.columns):
-            yield _row(last_row + column + 1, "P2", load.confining_pressure / KPA)
+            yield deck_line(last_row + column + 1, "P2", load.confining_pressure / KPA)
         return
     yield "** dead: the radial resultant is kept"
     yield "*CLOAD"
     forces = s.dead_forces() / KPA * (s.inner_radius / MM) ** 2
     for node, force in zip(s.wall.row_line(-1), forces, strict=True):
-        yield _row(int(node) + 1, 1, -float(force))
+        yield deck_line(int(node) + 1, 1, -float(force))
 
 
 def _output(s: Seating, flavour: str) -> Iterator[str]:
@@ -265,7 +213,3 @@ def _output(s: Seating, flavour: str) -> Iterator[str]:
     yield "S"
     yield f"*CONTACT FILE, FREQUENCY={ONLY_LAST}"
     yield "CDIS, CSTR"
-
-
-def _row(*values: str | int | float) -> str:
-    return ", ".join(f"{v:.12g}" if isinstance(v, float) else str(v) for v in values)

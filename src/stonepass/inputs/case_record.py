@@ -61,7 +61,7 @@ def describe(case: Problem, model: Model, numerics: Numerics) -> dict[str, Any]:
 def describe_material(material: Material) -> dict[str, Any]:
     """A material by its law and constants; a user's function by its name alone."""
     law = material.law
-    constants: dict[str, Any] = asdict(law) if is_dataclass(law) else {}  # type: ignore[call-overload]
+    constants: dict[str, Any] = asdict(law) if is_dataclass(law) else {}
     constants.pop("function", None)
     return {
         "name": material.name,

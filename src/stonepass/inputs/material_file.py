@@ -11,26 +11,27 @@ from typing import Any
 import autograd.numpy as anp
 import numpy as np
 import tomli_w
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.io.text_file import existing
 from stonepass.io.toml_file import parse_table, read_toml
 from stonepass.materials.catalogue import material as catalogued
-from stonepass.materials.known_laws import KNOWN_LAWS, name_of_law
+from stonepass.materials.constants import constants_of, format_constant, read_constant
+from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, known_law, name_of_law
 from stonepass.materials.protocol import Law, Material, names_a_file
 from stonepass.materials.user_law import UserLaw
-from stonepass.units import format_pressure, pressure
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["find_material", "load_material", "material_table", "write_law"]
 
 # Stretches (circumferential, axial) on which a user's function is tried before any solve.
 _TRIAL = tuple((t, z) for t in (0.9, 1.0, 1.1, 1.3) for z in (0.95, 1.0, 1.05))
-_CONSTANTS = tuple(dict.fromkeys(n for law in KNOWN_LAWS.values() for n in law.constants))
+_CONSTANTS = {each.name: each for law in KNOWN_LAWS.values() for each in constants_of(law)}
 
 
-class _Constants(BaseModel):
-    """The TOML file of a known law."""
+class _LawFile(BaseModel):
+    """What every law file has; `_Constants` adds the constants of all known laws."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
     law: str
@@ -38,15 +39,13 @@ class _Constants(BaseModel):
     strain_range: tuple[float, float] = Field(strict=False)
     name: str | None = None
     test: str = "not stated"
-    C10: str | None = None
-    C01: str | None = None
-    C20: str | None = None
-    C30: str | None = None
-    C: str | None = None
-    a1111: float | None = None
-    a2222: float | None = None
-    a1122: float | None = None
-    G: str | None = None
+
+
+_KEYS: dict[str, Any] = {
+    name: (float | None if each.unit == "1" else str | None, None)
+    for name, each in _CONSTANTS.items()
+}
+_Constants = create_model("_Constants", __base__=_LawFile, **_KEYS)
 
 
 def find_material(value: Any, folder: Path | None = None) -> Material:
@@ -129,7 +128,8 @@ def _try_out(law: UserLaw) -> None:
     """Evaluate the law on arrays of plausible strains and refuse what is not a finite energy."""
     t, z = (np.array(column) for column in zip(*_TRIAL, strict=True))
     with np.errstate(all="ignore"):  # what is not finite is refused below
-        value = law.energy(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t, anp)
+        C = CauchyGreen(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t)
+        value = law.energy(C, Place(1.0 + 0.0 * t, 0.0 * t), anp)
     try:
         if np.iscomplexobj(value):
             raise TypeError("complex energies")
@@ -159,7 +159,7 @@ def _from_toml(path: Path, text: str) -> Material:
         raise problem.within(path.name) from problem
 
 
-def _of_table(constants: _Constants, reference: str = "") -> Material:
+def _of_table(constants: _LawFile, reference: str = "") -> Material:
     return Material(
         name=constants.name or reference or constants.law,
         law=_known_law(constants),
@@ -171,23 +171,21 @@ def _of_table(constants: _Constants, reference: str = "") -> Material:
     )
 
 
-def _known_law(constants: _Constants) -> Law:
-    if constants.law not in KNOWN_LAWS:
-        refuse_unknown("law", constants.law, list(KNOWN_LAWS))
-    known = KNOWN_LAWS[constants.law]
+def _known_law(constants: _LawFile) -> Law:
+    law = known_law(constants.law)
+    declared = constants_by_name(constants.law)
     given = {name: getattr(constants, name) for name in _CONSTANTS}
-    values: dict[str, float] = dict(known.optional)
-    for name in known.constants:
+    values: dict[str, float] = {}
+    for name, each in declared.items():
         if given[name] is not None:
-            values[name] = float(
-                given[name] if name in known.numbers else pressure(given[name], name)
-            )
-        elif name not in values:
+            values[name] = read_constant(given[name], each)
+        elif each.default is None:
             raise BadInput(f"'{name}'", "missing", f"given for law '{constants.law}'")
     for name, value in given.items():
-        if value is not None and name not in known.constants:
+        if value is not None and name not in declared:
             raise BadInput(f"'{name}'", "given", f"absent for law '{constants.law}'")
-    return known.make(**values)
+    made: Law = law(**values)
+    return made
 
 
 def material_table(material: Material) -> dict[str, Any]:
@@ -200,15 +198,12 @@ def material_table(material: Material) -> dict[str, Any]:
     """
     name_of = name_of_law(material.law)
     if not name_of:
-        allowed = "a known one to be written"
-        raise BadInput("law", material.name, allowed, ", ".join(KNOWN_LAWS))
-    law = KNOWN_LAWS[name_of]
-    shown = {name: getattr(material.law, name) for name in law.constants}
+        raise BadInput("law", material.name, "a known one to be written", ", ".join(KNOWN_LAWS))
     return {
         "law": name_of,
         **{
-            name: value if name in law.numbers else format_pressure(value)
-            for name, value in shown.items()
+            name: format_constant(getattr(material.law, name), each)
+            for name, each in constants_by_name(name_of).items()
         },
         "name": material.name,
         "source": material.source or "not stated",

@@ -11,6 +11,7 @@ from autograd import elementwise_grad, grad, hessian
 from jaxtyping import Float
 
 from stonepass.materials.protocol import Law
+from stonepass.strain import INNER_WALL, CauchyGreen, Place
 from stonepass.units import Values
 
 __all__ = [
@@ -21,8 +22,12 @@ __all__ = [
     "rest_moduli",
 ]
 
+REST = CauchyGreen(*(np.array([each]) for each in (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)))
 
-def hoop_energy_slope(law: Law, stretch: Values, axial: float = 1.0) -> Values:
+
+def hoop_energy_slope(
+    law: Law, stretch: Values, axial: float = 1.0, place: Place = INNER_WALL
+) -> Values:
     """w′(λ) in Pa: slope of the energy of an inflated tube (model: far field).
 
     w(λ) is the energy at circumferential stretch λ and axial stretch `axial`; the radial stretch
@@ -31,7 +36,8 @@ def hoop_energy_slope(law: Law, stretch: Values, axial: float = 1.0) -> Values:
 
     def w(t: Any) -> Any:
         one = t / t
-        return law.energy(1.0 / (t * axial) ** 2, t * t, axial**2 * one, 0.0 * one, anp)
+        C = CauchyGreen(1.0 / (t * axial) ** 2, t * t, axial**2 * one, 0.0 * one)
+        return law.energy(C, place, anp)
 
     slope: Values = elementwise_grad(w)(np.asarray(stretch, dtype=float))
     return slope
@@ -42,59 +48,59 @@ def hoop_modulus(law: Law) -> float:
     return float(rest_moduli(law)[0][0, 0])
 
 
-def rest_gradient(law: Law) -> Float[np.ndarray, 4]:
-    """∂U/∂(C_rr, C_tt, C_zz, C_rz) in Pa at rest; a stress-free rest state has (a, a, a, 0)."""
+def rest_gradient(law: Law) -> Float[np.ndarray, 6]:
+    """∂U/∂(C_rr, C_tt, C_zz, C_rz, C_rt, C_tz) in Pa at rest at the inner wall.
 
-    def energy(c: Any) -> Any:
-        return law.energy(c[0:1], c[1:2], c[2:3], c[3:4], anp)
-
-    gradient: Float[np.ndarray, 4] = elementwise_grad(energy)(np.array([1.0, 1.0, 1.0, 0.0]))
-    return gradient
+    A stress-free rest state has (a, a, a, 0, 0, 0).
+    """
+    gradient, _ = energy_derivatives(law, REST, INNER_WALL)
+    return gradient[0]
 
 
 def energy_derivatives(
-    law: Law,
-    C_rr: Float[np.ndarray, " points"],
-    C_tt: Float[np.ndarray, " points"],
-    C_zz: Float[np.ndarray, " points"],
-    C_rz: Float[np.ndarray, " points"],
-) -> tuple[Float[np.ndarray, "points 4"], Float[np.ndarray, "points 4 4"]]:
-    """U,ᵢ and U,ᵢⱼ in Pa at many points, i and j over the components rr, tt, zz, rz of C.
+    law: Law, C: CauchyGreen, place: Place
+) -> tuple[Float[np.ndarray, "points 6"], Float[np.ndarray, "points 6 6"]]:
+    """U,ᵢ and U,ᵢⱼ in Pa at many points, i and j over the components rr, tt, zz, rz, rt, tz of C.
 
-    One pass gives all four slopes and one more each row of second derivatives, since the energy
-    at a point depends on that point alone.
+    Every component of C is an array (points), and so are the coordinates of the place, or they are
+    numbers that hold for all points. The energy at a point depends on that point alone, so that six
+    copies of the points give all rows of second derivatives in one pass, one row for each copy.
     """
-    C = np.stack([C_rr, C_tt, C_zz, C_rz])
+    count = len(C.rr)
+    components = np.tile(np.stack(C), 6)
+    everywhere = Place(*(np.tile(np.broadcast_to(x, count), 6) for x in place))
+    own_row = np.repeat(np.eye(6), count, axis=1)
 
     def total(c: Any) -> Any:
         # Zero times every component, so that no derivative is missing where one is not used.
-        return anp.sum(law.energy(c[0], c[1], c[2], c[3], anp) + 0.0 * anp.sum(c, axis=0))
+        energy = law.energy(CauchyGreen(*(c[i] for i in range(6))), everywhere, anp)
+        return anp.sum(energy + 0.0 * anp.sum(c, axis=0))
 
     slopes = grad(total)
 
-    def row(i: int) -> Float[np.ndarray, "4 points"]:
-        return np.asarray(grad(lambda c: anp.sum(slopes(c)[i] + 0.0 * anp.sum(c, axis=0)))(C))
+    def own_slopes(c: Any) -> Any:
+        return anp.sum(slopes(c) * own_row + 0.0 * c)
 
-    curvature = np.stack([row(i) for i in range(4)])
-    return np.asarray(slopes(C)).T, np.moveaxis(curvature, -1, 0)
+    curvature = np.asarray(grad(own_slopes)(components)).reshape(6, 6, count)
+    return np.asarray(slopes(components))[:, :count].T, np.moveaxis(curvature, -1, 0)
 
 
 @lru_cache(maxsize=64)
 def rest_moduli(law: Law) -> tuple[Float[np.ndarray, "2 2"], float]:
-    """Small-strain moduli in Pa at rest: the (hoop, axial) matrix and the r–z shear modulus.
+    """Small-strain moduli in Pa of the inner wall at rest: (hoop, axial) matrix, r–z shear modulus.
 
     The matrix is the Hessian of the energy in the logarithmic strains (e_tt, e_zz) with
     e_rr = −e_tt − e_zz; the shear modulus that of simple shear, C_rz = γ, C_zz = 1 + γ².
     """
 
     def stretched(e: Any) -> Any:
-        return law.energy(
-            anp.exp(-2.0 * (e[0] + e[1])), anp.exp(2.0 * e[0]), anp.exp(2.0 * e[1]), 0.0 * e[0], anp
-        )
+        radial = anp.exp(-2.0 * (e[0] + e[1]))
+        C = CauchyGreen(radial, anp.exp(2.0 * e[0]), anp.exp(2.0 * e[1]), 0.0 * e[0])
+        return law.energy(C, INNER_WALL, anp)
 
     def sheared(g: Any) -> Any:
         one = 1.0 + 0.0 * g[0]
-        return law.energy(one, one, 1.0 + g[0] ** 2, g[0], anp)
+        return law.energy(CauchyGreen(one, one, 1.0 + g[0] ** 2, g[0]), INNER_WALL, anp)
 
     return (
         np.asarray(hessian(stretched)(np.zeros(2))),

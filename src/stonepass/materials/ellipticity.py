@@ -5,15 +5,13 @@ determinant does not change, so for an incompressible law the pressure drops out
 strongly elliptic at F where the energy's second derivative in ε is positive for every m and n.
 With a = Fᵀn and b = Fᵀm, C(ε) = C + ε (a⊗b + b⊗a) + ε² a⊗a; hence
 
-    d²U/dε² = Σ U,ᵢⱼ ċᵢ ċⱼ + 2 Σ U,ᵢ c̈ᵢ,   ċ = (2aᵣbᵣ, 2aₜbₜ, 2a_z b_z, aᵣb_z + bᵣa_z),
-                                          c̈ = (aᵣ², aₜ², a_z², aᵣa_z),
+    d²U/dε² = Σ U,ᵢⱼ ċᵢ ċⱼ + 2 Σ U,ᵢ c̈ᵢ,
+    ċ = (2aᵣbᵣ, 2aₜbₜ, 2a_z b_z, aᵣb_z + bᵣa_z, aᵣbₜ + bᵣaₜ, aₜb_z + bₜa_z),
+    c̈ = (aᵣ², aₜ², a_z², aᵣa_z, aᵣaₜ, aₜa_z),
 
-the sums over the four components that the law is a function of. For given n this is a quadratic
-form in m, so its smallest value over m is an eigenvalue of a 2 × 2 matrix; n is scanned.
-
-A law given as a function of C_rr, C_tt, C_zz and C_rz says nothing of C_rt and C_tz, so shears out
-of the r–z plane are counted as if it did not depend on those two; that is exact for the
-neo-Hookean and the Fung law.
+the sums over the six components of C, which all change in a shear out of the r–z plane. For given n
+this is a quadratic form in m, so its smallest value over m is an eigenvalue of a 2 × 2 matrix; n is
+scanned.
 """
 
 from __future__ import annotations
@@ -25,6 +23,7 @@ from jaxtyping import Float
 
 from stonepass.materials.derivatives import energy_derivatives, rest_moduli
 from stonepass.materials.protocol import Law
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["Weakest", "shear_stiffness", "weakest"]
 
@@ -48,12 +47,13 @@ class Weakest:
     direction: tuple[float, float, float]
 
 
-def weakest(law: Law, F: Float[np.ndarray, "points 5"]) -> Weakest:
+def weakest(law: Law, F: Float[np.ndarray, "points 5"], place: Place) -> Weakest:
     """Find the weakest shear band among deformations F = (F_rr, F_rz, F_zr, F_zz, F_tt).
 
-    All directions are scanned for every deformation, and refined for the weakest of them.
+    `place` has the reference coordinates of the points, or one place for all. All directions are
+    scanned for every deformation, and refined for the weakest of them.
     """
-    angles, derivatives = _scan(), energy_derivatives(law, *_right_cauchy_green(F))
+    angles, derivatives = _scan(), energy_derivatives(law, _right_cauchy_green(F), place)
     values, _ = shear_stiffness(F, derivatives, _normals(angles)[None])
     some = np.argsort(values.min(axis=1))[:REFINED]
     F, derivatives = F[some], (derivatives[0][some], derivatives[1][some])
@@ -77,7 +77,7 @@ def weakest(law: Law, F: Float[np.ndarray, "points 5"]) -> Weakest:
 
 def shear_stiffness(
     F: Float[np.ndarray, "points 5"],
-    derivatives: tuple[Float[np.ndarray, "points 4"], Float[np.ndarray, "points 4 4"]],
+    derivatives: tuple[Float[np.ndarray, "points 6"], Float[np.ndarray, "points 6 6"]],
     normals: Float[np.ndarray, "any ways 3"],
 ) -> tuple[Float[np.ndarray, "points ways"], Float[np.ndarray, "points ways 3"]]:
     """Smallest d²U/dε² over m, in Pa, for every deformation and every n; and the m it belongs to.
@@ -90,15 +90,16 @@ def shear_stiffness(
     n_r, n_t, n_z = np.moveaxis(normals, -1, 0)
     a_r, a_t, a_z = F_rr * n_r + F_zr * n_z, F_tt * n_t, F_rz * n_r + F_zz * n_z  # Fᵀ n
 
-    def rate(m: Float[np.ndarray, "any ways 3"]) -> Float[np.ndarray, "points ways 4"]:
+    def rate(m: Float[np.ndarray, "any ways 3"]) -> Float[np.ndarray, "points ways 6"]:
         """ċ for one m."""
         m_r, m_t, m_z = np.moveaxis(m, -1, 0)
         b_r, b_t, b_z = F_rr * m_r + F_zr * m_z, F_tt * m_t, F_rz * m_r + F_zz * m_z
-        return np.stack(
-            [2.0 * a_r * b_r, 2.0 * a_t * b_t, 2.0 * a_z * b_z, a_r * b_z + b_r * a_z], axis=-1
-        )
+        direct = (2.0 * a_r * b_r, 2.0 * a_t * b_t, 2.0 * a_z * b_z)
+        mixed = (a_r * b_z + b_r * a_z, a_r * b_t + b_r * a_t, a_t * b_z + b_t * a_z)
+        return np.stack([*direct, *mixed], axis=-1)
 
-    second = np.stack([a_r * a_r, a_t * a_t, a_z * a_z, a_r * a_z], axis=-1)
+    direct = (a_r * a_r, a_t * a_t, a_z * a_z)
+    second = np.stack([*direct, a_r * a_z, a_r * a_t, a_t * a_z], axis=-1)
     constant = 2.0 * np.matmul(second, slope[:, :, None])[..., 0]
     e, f = _tangents(normals)
     along_e, along_f = rate(e), rate(f)
@@ -110,12 +111,11 @@ def shear_stiffness(
     return smallest + constant, m
 
 
-def _right_cauchy_green(
-    F: Float[np.ndarray, "points 5"],
-) -> tuple[Float[np.ndarray, " points"], ...]:
-    """(C_rr, C_tt, C_zz, C_rz) of F."""
+def _right_cauchy_green(F: Float[np.ndarray, "points 5"]) -> CauchyGreen:
     F_rr, F_rz, F_zr, F_zz, F_tt = F.T
-    return F_rr**2 + F_zr**2, F_tt**2, F_rz**2 + F_zz**2, F_rr * F_rz + F_zr * F_zz
+    zero = np.zeros_like(F_tt)
+    in_plane = F_rr * F_rz + F_zr * F_zz
+    return CauchyGreen(F_rr**2 + F_zr**2, F_tt**2, F_rz**2 + F_zz**2, in_plane, zero, zero)
 
 
 def _scan() -> Float[np.ndarray, "ways 2"]:

@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 from scipy.special import erfi
 
-from stonepass.errors import require
+from stonepass.materials.constants import check_constants, constant
 from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.strain import CauchyGreen, Place
 from stonepass.units import Values
 
 __all__ = ["Fung"]
+
+ROUNDS = 4  # of a fixed point that gains two digits with each
 
 
 @dataclass(frozen=True)
@@ -33,28 +36,58 @@ class Fung:
         Shear modulus of the ground matrix in Pa, zero or positive.
     """
 
-    C: float
-    a1111: float
-    a2222: float
-    a1122: float
-    G: float = 0.0
+    C: float = constant("C", "Pa", "stiffness of the fibres", guess=0.5)
+    a1111: float = constant("a₁₁₁₁", "1", "circumferential constant", high=1e3, guess=1.0)
+    a2222: float = constant("a₂₂₂₂", "1", "axial constant", high=1e3, guess=1.0)
+    a1122: float = constant("a₁₁₂₂", "1", "cross constant", low=-1e3, high=1e3, guess=0.2)
+    G: float = constant(
+        "G", "Pa", "shear modulus of the ground matrix", low_allowed=True, guess=0.5, default=0.0
+    )
 
     def __post_init__(self) -> None:
-        require(0.0 < self.C < np.inf, "C", self.C, "a positive modulus")
-        require(0.0 <= self.G < np.inf, "G", self.G, "a modulus, zero or positive")
-        require(0.0 < self.a1111 < 1e3, "a1111", self.a1111, "a number above 0 and below 1000")
-        require(0.0 < self.a2222 < 1e3, "a2222", self.a2222, "a number above 0 and below 1000")
-        require(abs(self.a1122) < 1e3, "a1122", self.a1122, "a number between -1000 and 1000")
+        check_constants(self)
 
-    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+    def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
         """Strain energy in J/m³."""
-        E_tt, E_zz = (C_tt - 1.0) / 2.0, (C_zz - 1.0) / 2.0
+        E_tt, E_zz = (C.tt - 1.0) / 2.0, (C.zz - 1.0) / 2.0
         Q = self.a1111 * E_tt * E_tt + self.a2222 * E_zz * E_zz + 2.0 * self.a1122 * E_tt * E_zz
-        return self.C / 2.0 * (xp.exp(Q) - 1.0) + self.G / 2.0 * (C_rr + C_tt + C_zz - 3.0)
+        return self.C / 2.0 * (xp.exp(Q) - 1.0) + self.G / 2.0 * (C.rr + C.tt + C.zz - 3.0)
 
-    def without_ground_matrix(self) -> Fung:
-        """Return the fibres alone, as the paper's Eq. 22 has them."""
+    @property
+    def fibres(self) -> Fung:
+        """The paper's law (Eqs 21 and 22), without the ground matrix."""
         return replace(self, G=0.0)
+
+    def microbuckling_threshold(self, C_tt: Any, kept: float, xp: Any) -> Any:
+        """C_zz at which ∂U/∂C_zz has fallen to `kept` × G/2 (see `materials.relaxed_energy`).
+
+        With E = (C_zz − 1)/2:  C exp(Q) (a2222 E + a1122 E_tt) + (1 − kept) G = 0.
+        """
+        E_tt = (C_tt - 1.0) / 2.0
+        pull = (1.0 - kept) * self.G / self.C
+        E = -(pull + self.a1122 * E_tt) / self.a2222
+        for _ in range(ROUNDS):
+            Q = self.a1111 * E_tt * E_tt + self.a2222 * E * E + 2.0 * self.a1122 * E_tt * E
+            E = -(pull * xp.exp(-Q) + self.a1122 * E_tt) / self.a2222
+        return 1.0 + 2.0 * E
+
+    @property
+    def defect(self) -> tuple[str, str] | None:
+        """Why these constants describe no solid, and what to do: the Fung form is indefinite."""
+        form = np.array([[self.a1111, self.a1122], [self.a1122, self.a2222]])
+        values, vectors = np.linalg.eigh(form)
+        if values[0] > 0.0:
+            return None
+        hoop, axial = vectors[:, 0] / vectors[np.argmax(np.abs(vectors[:, 0])), 0]
+        axial_modulus = self.C * (self.a2222 - self.a1122**2 / self.a1111)
+        return (
+            f"its Fung form is indefinite, a1111 a2222 = {self.a1111 * self.a2222:.4g} is below "
+            f"a1122² = {self.a1122**2:.4g}: straining the circumference by {hoop:+.2f} % and the "
+            f"axis by {axial:+.2f} % lowers the fibre energy, and the axial modulus at zero hoop "
+            f"stress is {axial_modulus / 1e6:.2f} MPa",
+            "the constants were probably published in another order: exchange a1122 and a2222 "
+            "(catalogue: 'ureter')",
+        )
 
     def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
         """Eq. 22 without P_out, corrected, in Pa; the ground matrix adds Eq. 20 with C₁₀ = G/2.

@@ -1,52 +1,52 @@
-"""The laws that a file may give constants for, by name."""
+"""The laws that a file may give constants for, by name: one line for each."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from typing import Any
 
+from stonepass.errors import refuse_unknown
+from stonepass.materials.constants import ConstantDeclaration, constants_of
+from stonepass.materials.demiray import Demiray
 from stonepass.materials.fung import Fung
+from stonepass.materials.holzapfel import HolzapfelGasserOgden
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.ogden import Ogden
 from stonepass.materials.protocol import Law
 from stonepass.materials.yeoh import Yeoh
 
-__all__ = ["KNOWN_LAWS", "KnownLaw", "name_of_law"]
+__all__ = ["KNOWN_LAWS", "constants_by_name", "known_law", "name_of_law"]
 
-
-@dataclass(frozen=True)
-class KnownLaw:
-    """A law and its constants.
-
-    Attributes
-    ----------
-    make : callable
-        Makes the law of its constants, in SI.
-    moduli, numbers : tuple of str
-        Constants in Pa, and those without unit.
-    optional : dict of str to float
-        Those that may be left out, and their value then.
-    """
-
-    make: Callable[..., Law]
-    moduli: tuple[str, ...]
-    numbers: tuple[str, ...] = ()
-    optional: tuple[tuple[str, float], ...] = ()
-
-    @property
-    def constants(self) -> tuple[str, ...]:
-        """All of them."""
-        return (*self.moduli, *self.numbers)
-
-
-KNOWN_LAWS = {
-    "neo-hookean": KnownLaw(NeoHookean, ("C10",)),
-    "mooney-rivlin": KnownLaw(MooneyRivlin, ("C10", "C01")),
-    "yeoh": KnownLaw(Yeoh, ("C10", "C20", "C30")),
-    "fung": KnownLaw(Fung, ("C", "G"), ("a1111", "a2222", "a1122"), (("G", 0.0),)),
+KNOWN_LAWS: dict[str, type[Any]] = {
+    "neo-hookean": NeoHookean,
+    "mooney-rivlin": MooneyRivlin,
+    "yeoh": Yeoh,
+    "fung": Fung,
+    "ogden": Ogden,
+    "holzapfel-gasser-ogden": HolzapfelGasserOgden,
+    "demiray": Demiray,
 }
 
 
+def known_law(name: str, argument: str = "law") -> type[Any]:
+    """Look up a law; an unknown name is refused, naming the nearest one.
+
+    Raises
+    ------
+    BadInput
+        No law has this name; `argument` is how the caller calls it.
+    """
+    if name not in KNOWN_LAWS:
+        refuse_unknown(argument, name, list(KNOWN_LAWS))
+    return KNOWN_LAWS[name]
+
+
+def constants_by_name(law: str) -> dict[str, ConstantDeclaration]:
+    """Declarations of the constants of a known law, moduli first."""
+    declared = sorted(constants_of(known_law(law)), key=lambda each: each.unit != "Pa")
+    return {each.name: each for each in declared}
+
+
 def name_of_law(law: Law) -> str:
-    """Its name here; empty for a law that is not known."""
-    return next((name for name, known in KNOWN_LAWS.items() if type(law) is known.make), "")
+    """Name of a known law; empty for any other."""
+    return next((name for name, known in KNOWN_LAWS.items() if type(law) is known), "")

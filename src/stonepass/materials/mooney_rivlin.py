@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from stonepass.errors import require
+from stonepass.materials.constants import check_constants, constant
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["MooneyRivlin"]
 
@@ -15,6 +16,8 @@ __all__ = ["MooneyRivlin"]
 @dataclass(frozen=True)
 class MooneyRivlin:
     """Isotropic rubber with a second constant: shear modulus 2 (C10 + C01).
+
+    Source: Rivlin 1948, Philosophical Transactions of the Royal Society A 241, 379–397.
 
     Attributes
     ----------
@@ -24,19 +27,13 @@ class MooneyRivlin:
         Pa, of the second invariant; its sum with C10 is positive.
     """
 
-    C10: float
-    C01: float
+    C10: float = constant("C₁₀", "Pa", "factor of I₁ − 3", guess=0.5)
+    C01: float = constant("C₀₁", "Pa", "factor of I₂ − 3, above −C10", low=-math.inf, guess=0.1)
 
     def __post_init__(self) -> None:
-        require(0.0 < self.C10 < np.inf, "C10", self.C10, "a positive modulus")
-        require(0.0 < self.C10 + self.C01 < np.inf, "C01", self.C01, "above -C10")
+        check_constants(self)
+        require(self.C10 + self.C01 > 0.0, "C01", self.C01, "above -C10")
 
-    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+    def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
         """Strain energy in J/m³; I₂ = ½ (I₁² − tr C²)."""
-        first = C_rr + C_tt + C_zz
-        squares = C_rr * C_rr + C_tt * C_tt + C_zz * C_zz + 2.0 * C_rz * C_rz
-        return self.C10 * (first - 3.0) + self.C01 * ((first * first - squares) / 2.0 - 3.0)
-
-    def without_ground_matrix(self) -> MooneyRivlin:
-        """Return itself: there is no fibre part to leave alone."""
-        return self
+        return self.C10 * (C.I1 - 3.0) + self.C01 * (C.I2 - 3.0)

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from stonepass.errors import require
+from stonepass.materials.constants import check_constants, constant
+from stonepass.strain import CauchyGreen, Place
 from stonepass.units import Values
 
 __all__ = ["NeoHookean"]
@@ -23,18 +24,14 @@ class NeoHookean:
         Pa, positive.
     """
 
-    C10: float
+    C10: float = constant("C₁₀", "Pa", "half the shear modulus", guess=0.5)
 
     def __post_init__(self) -> None:
-        require(0.0 < self.C10 < np.inf, "C10", self.C10, "a positive modulus")
+        check_constants(self)
 
-    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+    def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
         """Strain energy in J/m³; I₁ is the trace of C."""
-        return self.C10 * (C_rr + C_tt + C_zz - 3.0)
-
-    def without_ground_matrix(self) -> NeoHookean:
-        """Return itself: there is no fibre part to leave alone."""
-        return self
+        return self.C10 * (C.rr + C.tt + C.zz - 3.0)
 
     def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
         """Eq. 20 without P_out, in Pa.

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 from stonepass.errors import BadInput, require
+from stonepass.strain import CauchyGreen, Place
 from stonepass.units import Values
 
-__all__ = ["NAMESPACE", "ClosedForm", "Law", "Material", "names_a_file"]
+__all__ = ["NAMESPACE", "ClosedForm", "Law", "Material", "MayBeDefective", "names_a_file"]
 
 NAMESPACE = (
     "exp", "log", "sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "arctan",
@@ -23,25 +24,28 @@ NAMESPACE = (
 
 @runtime_checkable
 class Law(Protocol):
-    """A hyperelastic, incompressible wall, cylindrically orthotropic at most.
+    """A hyperelastic, incompressible wall.
 
     A law is a value: what follows from it alone is computed once and kept by its hash. So it must
-    hash by its constants, as a frozen dataclass does, and never change.
+    hash by its constants, as a frozen dataclass does, and never change. It declares its constants
+    with `materials.constants.constant`.
     """
 
     def __hash__(self) -> int: ...
 
-    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+    def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
         """Strain energy in J/m³ of reference volume.
 
-        C_rr, C_tt, C_zz and C_rz are components of the right Cauchy–Green tensor in the
-        cylindrical reference frame (radial, circumferential, axial); in axisymmetry without
-        torsion the other two vanish. `xp` is the array namespace to use.
+        Parameters
+        ----------
+        C : CauchyGreen
+            Components of the right Cauchy–Green tensor in the cylindrical reference frame.
+        place : Place
+            Reference coordinates in inner radii. The law has to be the same all along the tube
+            (no Z) where energy balances of the far field are used.
+        xp : namespace
+            Array namespace to use.
         """
-        ...
-
-    def without_ground_matrix(self) -> Law:
-        """Return the law the paper puts into the far field: fibres only, where it has any."""
         ...
 
 
@@ -51,6 +55,16 @@ class ClosedForm(Protocol):
 
     def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
         """Transmural pressure in Pa at r_a/R_a = `inner_ratio`, R_b/R_a = `wall_ratio`."""
+        ...
+
+
+@runtime_checkable
+class MayBeDefective(Protocol):
+    """A law that can tell from its constants alone that it describes no solid."""
+
+    @property
+    def defect(self) -> tuple[str, str] | None:
+        """Reason and remedy, or None where nothing is wrong."""
         ...
 
 

@@ -11,6 +11,7 @@ from autograd import elementwise_grad
 from stonepass.errors import require
 from stonepass.materials.derivatives import hoop_energy_slope
 from stonepass.materials.protocol import Law
+from stonepass.strain import INNER_WALL, CauchyGreen
 
 __all__ = ["secant_moduli"]
 
@@ -33,7 +34,8 @@ def secant_moduli(law: Law, stretch: float) -> tuple[float, float]:
 
     def lengthened(t: Any) -> Any:
         one = t / t
-        return law.energy(1.0 / (t * t), one, t * t, 0.0 * one, anp)
+        C = CauchyGreen(1.0 / (t * t), one, t * t, 0.0 * one)
+        return law.energy(C, INNER_WALL, anp)
 
     at = np.array([stretch])
     slopes = np.array([hoop_energy_slope(law, at), elementwise_grad(lengthened)(at)])

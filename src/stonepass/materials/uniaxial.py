@@ -7,6 +7,7 @@ from jaxtyping import Float
 
 from stonepass.errors import require
 from stonepass.materials.protocol import Law
+from stonepass.strain import INNER_WALL, CauchyGreen
 
 __all__ = ["AXES", "nominal_stress"]
 
@@ -68,4 +69,6 @@ def _slope(
     b = log_b + (1j * IMAGINARY if lateral else 0.0)
     C_aa, C_bb, C_rr = np.exp(2.0 * a), np.exp(2.0 * b), np.exp(-2.0 * (a + b))
     C_tt, C_zz = (C_aa, C_bb) if round_it else (C_bb, C_aa)
-    return np.imag(law.energy(C_rr, C_tt, C_zz, 0.0 * C_rr, np)) / IMAGINARY
+    return (
+        np.imag(law.energy(CauchyGreen(C_rr, C_tt, C_zz, 0.0 * C_rr), INNER_WALL, np)) / IMAGINARY
+    )

@@ -6,37 +6,57 @@ import sys
 from collections.abc import Callable
 from contextlib import redirect_stdout
 from dataclasses import dataclass
+from inspect import signature
 from typing import Any
 
 from stonepass.errors import BadInput
 from stonepass.materials.protocol import NAMESPACE
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["UserLaw"]
 
 
+OLD_PARAMETERS = 5
+
+
 @dataclass(frozen=True)
 class UserLaw:
-    """A strain energy written by the user: ``energy(C_rr, C_tt, C_zz, C_rz, xp)`` in J/m³."""
+    """A strain energy written by the user: ``energy(C, place, xp)`` in J/m³.
+
+    Raises
+    ------
+    BadInput
+        The function has five parameters, as in earlier versions.
+    """
 
     function: Callable[..., Any]
     label: str
 
-    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+    def __post_init__(self) -> None:
+        try:
+            count = len(signature(self.function).parameters)
+        except (TypeError, ValueError):  # a function that is not written in Python
+            return
+        if count == OLD_PARAMETERS:
+            raise BadInput(
+                f"law '{self.label}'",
+                "a function of five arguments, as in earlier versions",
+                "written energy(C, place, xp) with C.rr, C.tt, C.zz, C.rz, C.rt, C.tz and "
+                "place.R, place.Z",
+            )
+
+    def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
         """Call the user's function; whatever it raises becomes one sentence."""
         try:
             with redirect_stdout(sys.stderr):  # stdout is for answers
-                value = self.function(C_rr, C_tt, C_zz, C_rz, xp)
+                value = self.function(C, place, xp)
         except Exception as problem:
             raise BadInput(
                 f"law '{self.label}'",
                 f"raising {type(problem).__name__}: {problem}",
-                "a function energy(C_rr, C_tt, C_zz, C_rz, xp) that returns J/m³",
+                "a function energy(C, place, xp) that returns J/m³",
                 "it may use + - * / ** and xp." + ", xp.".join(NAMESPACE),
             ) from problem
         if value is None:
             raise BadInput(f"value of law '{self.label}'", "None", "an energy in J/m³")
         return value
-
-    def without_ground_matrix(self) -> UserLaw:
-        """Return itself: a user's law is one piece."""
-        return self

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from stonepass.errors import require
+from stonepass.materials.constants import check_constants, constant
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["Yeoh"]
 
@@ -15,6 +15,8 @@ __all__ = ["Yeoh"]
 @dataclass(frozen=True)
 class Yeoh:
     """Isotropic rubber that stiffens at large strain: shear modulus 2 C10 at rest.
+
+    Source: Yeoh 1993, Rubber Chemistry and Technology 66, 754–771.
 
     Attributes
     ----------
@@ -24,21 +26,14 @@ class Yeoh:
         Pa, of the second and third power.
     """
 
-    C10: float
-    C20: float
-    C30: float
+    C10: float = constant("C₁₀", "Pa", "factor of I₁ − 3", guess=0.5)
+    C20: float = constant("C₂₀", "Pa", "factor of (I₁ − 3)²", low=-math.inf, guess=0.1)
+    C30: float = constant("C₃₀", "Pa", "factor of (I₁ − 3)³", low=-math.inf, guess=0.1)
 
     def __post_init__(self) -> None:
-        require(0.0 < self.C10 < np.inf, "C10", self.C10, "a positive modulus")
-        for name in ("C20", "C30"):
-            value = getattr(self, name)
-            require(abs(value) < np.inf, name, value, "a finite modulus")
+        check_constants(self)
 
-    def energy(self, C_rr: Any, C_tt: Any, C_zz: Any, C_rz: Any, xp: Any) -> Any:
+    def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
         """Strain energy in J/m³."""
-        x = C_rr + C_tt + C_zz - 3.0
+        x = C.rr + C.tt + C.zz - 3.0
         return x * (self.C10 + x * (self.C20 + x * self.C30))
-
-    def without_ground_matrix(self) -> Yeoh:
-        """Return itself: there is no fibre part to leave alone."""
-        return self

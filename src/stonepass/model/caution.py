@@ -37,8 +37,8 @@ SENTENCES = {
     ),
     "microbuckling": (
         "the wall microbuckles at R = {R:.3g}, Z = {Z:.3g} (inner radii, downstream positive), "
-        "where its axial fibres are compressed: it is solved with the energy that it has in the limit of "
-        "fine buckles"
+        "where its axial fibres are compressed: it is solved with the energy that it has in the "
+        "limit of fine buckles"
     ),
     "seated_imbalance": (
         "the axial forces on the tube miss their balance by {imbalance:.1%} of the contact force"

@@ -13,6 +13,7 @@ from stonepass.materials.protocol import Law
 from stonepass.materials.relaxed_energy import relaxed
 from stonepass.model.far_field import lumen_ratio, urine_pressure
 from stonepass.model.problem import Problem
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["advance_force", "opened_radius", "opening_pressure", "strained_force"]
 
@@ -90,8 +91,8 @@ def _omega(case: Problem, pressure: float, axial: float) -> float:
 
     def potential(lumen: float) -> float:
         hoop = np.sqrt(lumen**2 + (R**2 - 1.0) / axial) / R
-        C = 1.0 / (hoop * axial) ** 2, hoop**2, axial**2 * one, 0.0 * one
-        stored = 2.0 * float((weights * R * law.energy(*C, np)).sum())
+        C = CauchyGreen(1.0 / (hoop * axial) ** 2, hoop**2, axial**2 * one, 0.0 * one)
+        stored = 2.0 * float((weights * R * law.energy(C, Place(R), np)).sum())
         outer = float(np.sqrt(lumen**2 + (case.wall_ratio**2 - 1.0) / axial))
         outside = axial * outer**2 if load.hydrostatic else 2.0 * case.wall_ratio * outer
         return stored - pressure * axial * lumen**2 + load.confining_pressure * outside

@@ -9,10 +9,12 @@ from jaxtyping import Float
 from scipy.optimize import brentq
 
 from stonepass.errors import BadInput
+from stonepass.materials.composition import fibres_of
 from stonepass.materials.derivatives import hoop_energy_slope
 from stonepass.materials.protocol import ClosedForm, Law
 from stonepass.model.load import Load
 from stonepass.model.problem import Problem
+from stonepass.strain import Place
 from stonepass.units import Values
 
 __all__ = [
@@ -67,7 +69,7 @@ def inflation_by_quadrature(
     points, weights = _gauss()
     R = np.exp(points * thickness[..., None])
     stretch = np.sqrt(ratio[..., None] ** 2 + (R**2 - 1.0) / axial) / R
-    slope = hoop_energy_slope(law, stretch, axial)
+    slope = hoop_energy_slope(law, stretch, axial, Place(R))
     integral: Values = (slope / (axial * stretch)) @ weights * thickness
     return integral
 
@@ -107,7 +109,7 @@ def stuck_lumen(case: Problem) -> float:
 def far_field_law(case: Problem, *, ground: bool) -> Law:
     """The law of the far field: the paper's leaves the ground matrix out unless `ground` is set."""
     law = case.ureter.material.law
-    return law if ground else law.without_ground_matrix()
+    return law if ground else fibres_of(law)
 
 
 @lru_cache(maxsize=1)

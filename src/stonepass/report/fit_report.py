@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from rich import box
@@ -10,6 +11,7 @@ from rich.text import Text
 
 from stonepass.about import DISCLAIMER, VERSION
 from stonepass.bench.law_fit import Constant, FittedLaw
+from stonepass.materials.constants import Unit
 from stonepass.materials.known_laws import name_of_law
 
 __all__ = ["fit_record", "fit_table"]
@@ -26,7 +28,7 @@ def fit_record(found: FittedLaw, inputs: dict[str, Any]) -> dict[str, Any]:
             {
                 "name": each.name,
                 "value": each.value,
-                "unit": "Pa" if each.modulus else "",
+                "unit": "" if each.unit == "1" else each.unit,
                 "low": each.low,
                 "high": each.high,
                 "given": each.given,
@@ -70,7 +72,7 @@ def fit_table(found: FittedLaw) -> Table:
         table.add_column(name)
     for each in found.constants:
         interval = "given" if each.given else _interval(each)
-        table.add_row(each.name, _shown(each.value, each.modulus), interval)
+        table.add_row(each.name, _shown(each.value, each.unit), interval)
     table.add_row("RMSE", f"{found.rmse / 1e3:.3g} kPa", "")
     table.add_row("R²", f"{found.r_squared:.4f}", "")
     for (one, other), value in found.correlations.items():
@@ -84,13 +86,15 @@ def fit_table(found: FittedLaw) -> Table:
 
 def _interval(constant: Constant) -> str:
     ends = [
-        "open" if end is None else _shown(end, constant.modulus)
+        "open" if end is None else _shown(end, constant.unit)
         for end in (constant.low, constant.high)
     ]
     return " to ".join(ends)
 
 
-def _shown(value: float, modulus: bool) -> str:
-    if not modulus:
+def _shown(value: float, unit: Unit) -> str:
+    if unit == "1":
         return f"{value:.4g}"
+    if unit == "rad":
+        return f"{math.degrees(value):.4g}°"
     return f"{value / 1e6:.4g} MPa" if abs(value) >= 1e5 else f"{value / 1e3:.4g} kPa"

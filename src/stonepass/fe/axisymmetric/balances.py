@@ -8,7 +8,7 @@ import numpy as np
 from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
 from stonepass.fe.axisymmetric.inner_wall import inner_wall
 from stonepass.fe.axisymmetric.postprocessing import SolvedWall
-from stonepass.fe.axisymmetric.wall import SYMBOLS, cauchy_stress, strain
+from stonepass.fe.axisymmetric.wall import PLACE, SYMBOLS, cauchy_stress, strain
 
 __all__ = ["axial_balance", "cone_excess", "loaded_balance", "stored_energy"]
 
@@ -95,7 +95,7 @@ def stored_energy(solved: EquilibriumState) -> float:
     growing the sphere by dR does the work ∫ σ dA dR.
     """
     u, w, *_ = solved.discretisation.fields
-    density = ng.CF(solved.discretisation.tube.energy(*strain(u, w).C, SYMBOLS))
+    density = ng.CF(solved.discretisation.tube.energy(strain(u, w).C, PLACE, SYMBOLS))
     return float(
         2.0
         * np.pi

@@ -22,9 +22,10 @@ from stonepass.fe.axisymmetric.mesh import INNER
 from stonepass.fe.axisymmetric.problem import Failure, Tube, Wrap
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.fe.axisymmetric.start import Start
-from stonepass.fe.axisymmetric.wall import SYMBOLS
+from stonepass.fe.axisymmetric.wall import PLACE, SYMBOLS
 from stonepass.fe.core.newton import newton_or_homotopy
 from stonepass.fe.core.systems import FormSystem
+from stonepass.strain import CauchyGreen
 
 __all__ = ["PREDICTOR_ORDER", "predict_contact", "wrap_round"]
 
@@ -99,7 +100,7 @@ def wrap_round(d: Discretisation, wrap: Wrap) -> None:
     hoop = r / ng.x
     c_rr = (1.0 / (hoop * hoop * stretch**2)).MakeVariable()
     zero, axial = ng.CF(0.0), ng.CF(stretch**2)
-    U = ng.CF(tube.energy(c_rr, hoop * hoop, axial, zero, SYMBOLS))
+    U = ng.CF(tube.energy(CauchyGreen(c_rr, hoop * hoop, axial, zero), PLACE, SYMBOLS))
     pressure = along(wrap.pressure)
     depth = (ng.x - 1.0) / (tube.wall_ratio - 1.0)
     p.Set(2.0 * c_rr * U.Diff(c_rr) + pressure * (1.0 - depth) + tube.outside_pressure * depth)

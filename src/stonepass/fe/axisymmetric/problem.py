@@ -10,11 +10,12 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.fe.axisymmetric.profile import Profile
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["Energy", "Failure", "LoadingPath", "Resolution", "Tube", "Wrap"]
 
-# energy(C_rr, C_tt, C_zz, C_rz, xp): any hyperelastic law, dimensionless.
-Energy = Callable[[Any, Any, Any, Any, Any], Any]
+# energy(C, place, xp): any hyperelastic law, dimensionless.
+Energy = Callable[[CauchyGreen, Place, Any], Any]
 
 
 @dataclass(frozen=True)

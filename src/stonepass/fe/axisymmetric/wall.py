@@ -9,8 +9,9 @@ from typing import Any
 import ngsolve as ng
 
 from stonepass.fe.axisymmetric.problem import Energy
+from stonepass.strain import CauchyGreen, Place
 
-__all__ = ["SYMBOLS", "Strain", "cauchy_stress", "outside_work", "strain", "wall_energy"]
+__all__ = ["PLACE", "SYMBOLS", "Strain", "cauchy_stress", "outside_work", "strain", "wall_energy"]
 
 # The array namespace of a material law over the engine's symbols.
 SYMBOLS = SimpleNamespace(
@@ -29,6 +30,9 @@ SYMBOLS = SimpleNamespace(
     abs=lambda a: ng.IfPos(a, a, -1.0 * a),
 )
 
+# Reference coordinates as symbols: those of the mesh are x = R and y = Z.
+PLACE = Place(ng.x, ng.y)
+
 
 @dataclass(frozen=True)
 class Strain:
@@ -41,9 +45,9 @@ class Strain:
     F_tt: Any
 
     @property
-    def C(self) -> tuple[Any, Any, Any, Any]:
-        """(C_rr, C_tt, C_zz, C_rz)."""
-        return (
+    def C(self) -> CauchyGreen:
+        """Right Cauchy–Green components; those out of the r–z plane are zero."""
+        return CauchyGreen(
             self.F_rr * self.F_rr + self.F_zr * self.F_zr,
             self.F_tt * self.F_tt,
             self.F_rz * self.F_rz + self.F_zz * self.F_zz,
@@ -68,9 +72,9 @@ def wall_energy(energy: Energy, u: Any, w: Any, p: Any, stiffening: Any = 0.0) -
     `stiffening` is the shear modulus of a matrix added for a homotopy, 0 for the wall itself.
     """
     s = strain(u, w)
-    C_rr, C_tt, C_zz, _ = s.C
-    matrix = 0.5 * stiffening * (C_rr + C_tt + C_zz - 3.0)
-    return (energy(*s.C, SYMBOLS) + matrix - p * (s.J - 1.0)) * ng.x
+    C = s.C
+    matrix = 0.5 * stiffening * (C.rr + C.tt + C.zz - 3.0)
+    return (energy(C, PLACE, SYMBOLS) + matrix - p * (s.J - 1.0)) * ng.x
 
 
 def outside_work(u: Any, w: Any, pressure: Any, *, hydrostatic: bool) -> Any:
@@ -88,10 +92,10 @@ def outside_work(u: Any, w: Any, pressure: Any, *, hydrostatic: bool) -> Any:
 def cauchy_stress(energy: Energy, u: Any, w: Any, p: Any) -> tuple[Any, Any, Any, Any]:
     """Cauchy stress (σ_rr, σ_tt, σ_zz, σ_rz) as symbols: F S Fᵀ − p with S = 2 ∂U/∂C."""
     s = strain(u, w)
-    c_rr, c_tt, c_zz, c_rz = (ng.CF(c).MakeVariable() for c in s.C)
-    U = ng.CF(energy(c_rr, c_tt, c_zz, c_rz, SYMBOLS))
-    S_rr, S_tt, S_zz = 2.0 * U.Diff(c_rr), 2.0 * U.Diff(c_tt), 2.0 * U.Diff(c_zz)
-    S_rz = U.Diff(c_rz)  # C_rz stands for both off-diagonal components
+    C = CauchyGreen(*(ng.CF(c).MakeVariable() for c in s.C[:4]))
+    U = ng.CF(energy(C, PLACE, SYMBOLS))
+    S_rr, S_tt, S_zz = 2.0 * U.Diff(C.rr), 2.0 * U.Diff(C.tt), 2.0 * U.Diff(C.zz)
+    S_rz = U.Diff(C.rz)  # C_rz stands for both off-diagonal components
     T_rr = S_rr * s.F_rr + S_rz * s.F_rz
     T_rz = S_rz * s.F_rr + S_zz * s.F_rz
     T_zr = S_rr * s.F_zr + S_rz * s.F_zz

@@ -36,7 +36,7 @@ from stonepass.fe.axisymmetric.sliding_workspace import (
 from stonepass.fe.core.lobatto import joined, resampling
 from stonepass.fe.core.threads import one_thread
 from stonepass.materials.derivatives import hoop_modulus
-from stonepass.materials.relaxed_energy import Relaxed, relaxed
+from stonepass.materials.relaxed_energy import RelaxedEnergy, relaxed
 from stonepass.materials.stability import check
 from stonepass.model.energy_balance import opening_pressure
 from stonepass.model.far_field import stuck_lumen
@@ -325,6 +325,6 @@ def _state(case: Problem, setup: _Setup, found: SlidingState, started: float) ->
 def _microbuckled(case: Problem, F: Deformation) -> bool:
     """Whether C_zz is anywhere below the value at which the law is relaxed."""
     law = relaxed(case.ureter.material.law)
-    if not isinstance(law, Relaxed):
+    if not isinstance(law, RelaxedEnergy):
         return False
-    return bool((F.F_rz**2 + F.F_zz**2 < law.kink(F.F_tt**2, np)).any())
+    return bool((F.F_rz**2 + F.F_zz**2 < law.threshold(F.F_tt**2, np)).any())

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from stonepass.fe.axisymmetric.problem import Tube
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.materials.derivatives import hoop_modulus, rest_gradient
 from stonepass.materials.protocol import Law
 from stonepass.model.load import Load
 from stonepass.model.problem import Problem
+from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["profile_of", "tube_of"]
 
@@ -29,9 +32,9 @@ def tube_of(law: Law, wall_ratio: float, load: Load, half_length: float) -> Tube
     rest_pressure = 2.0 * float(rest_gradient(law)[0]) / modulus
     weight = VOLUME_WEIGHT * max(rest_pressure, RUBBER)
 
-    def energy(C_rr, C_tt, C_zz, C_rz, xp):  # type: ignore[no-untyped-def]
-        change = C_tt * (C_rr * C_zz - C_rz * C_rz) - 1.0
-        return law.energy(C_rr, C_tt, C_zz, C_rz, xp) / modulus + weight / 8.0 * change * change
+    def energy(C: CauchyGreen, place: Place, xp: Any) -> Any:
+        change = C.tt * (C.rr * C.zz - C.rz * C.rz) - 1.0
+        return law.energy(C, place, xp) / modulus + weight / 8.0 * change * change
 
     return Tube(
         energy=energy,

@@ -17,6 +17,7 @@ from stonepass.model.load import Load
 from stonepass.model.problem import Problem
 from stonepass.model.states.nondimensional import tube_of
 from stonepass.model.states.stability_report import StabilityReport
+from stonepass.strain import Place
 
 __all__ = [
     "axisymmetric_buckling",
@@ -39,7 +40,8 @@ def stability_of(case: Problem, F: Deformation, wall: Field) -> StabilityReport:
     """
     law, some = case.ureter.material.law, _some_points(wall)
     columns = [getattr(F, name)[:, some].ravel() for name in ("F_rr", "F_rz", "F_zr", "F_zz")]
-    worst = weakest(law, np.column_stack([*columns, F.F_tt[:, some].ravel()]))
+    place = Place(wall.R[:, some].ravel(), wall.Z[:, some].ravel())
+    worst = weakest(law, np.column_stack([*columns, F.F_tt[:, some].ravel()]), place)
     compression = wall.stress_rr - wall.stress_tt
     most = int(np.argmax(compression))
     return StabilityReport(
@@ -79,7 +81,8 @@ def far_field_hint(case: Problem) -> str:
     R = np.linspace(1.0, eta, 9)
     hoop = np.sqrt(lumen**2 + (R**2 - 1.0) / stretch) / R
     zero, axial = np.zeros_like(R), np.full_like(R, stretch)
-    margin = weakest(law, np.column_stack([1 / (hoop * axial), zero, zero, axial, hoop])).stiffness
+    F = np.column_stack([1 / (hoop * axial), zero, zero, axial, hoop])
+    margin = weakest(law, F, Place(R)).stiffness
     if margin > 0.0:
         return ""
     return (

@@ -17,7 +17,7 @@ from stonepass.export.results import read_contact
 from stonepass.export.seating import seating
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.models.seated_balance import balance_pressure
-from stonepass.model.states.seated import Contact
+from stonepass.model.states.seated_state import Contact
 
 FINE = 0.025
 OURS = ("fast", "standard")

@@ -14,11 +14,14 @@ from measure import Row, cpu_seconds, memory, stonepass
 
 import stonepass as sp
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.states.seated import NoSeat, seat
+from stonepass.model.states.seated_state import NoSeat
+from stonepass.model.case_states import seat
 from stonepass.paper.fig8 import SIZES, WALLS
 from stonepass.paper.inputs import ureter_case
-from stonepass.studies.curve import curve
-from stonepass.studies.jobs import PooledSolver
+from stonepass.studies.case_solver import JobSolver
+from stonepass.studies.curve import Curve
+from stonepass.studies.executor import process_pool
+from stonepass.studies.study import run_study
 
 REFINEMENTS = (0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)
 LARGEST_EXPONENT = 1.3
@@ -80,11 +83,12 @@ def many(workers: int) -> Iterator[Row]:
     ):
         case = tube(kind, material, eta, top)
         sizes = np.linspace(1.0, top, 31).tolist()
-        seconds = _clock(lambda case=case, sizes=sizes: curve(case, sizes))
+        seconds = _clock(lambda case=case, sizes=sizes: run_study(Curve(case, sizes)))
         yield Row("many", f"P_ucr of 31 sizes, {kind} {material}, η {eta}", seconds, "s", target)
     cases = [ureter_case(eta, xi) for eta in WALLS for xi in SIZES]
-    solver = PooledSolver(workers=workers)
-    seconds = _clock(lambda: solver.answers(cases, error=False))
+    with process_pool(workers) as pool:
+        solver = JobSolver(pool)
+        seconds = _clock(lambda: solver.answers(cases, error=False))
     what = f"surface of Fig. 8b, {len(WALLS)} × {len(SIZES)} with friction, {workers} processes"
     yield Row("many", what, seconds, "s", 120.0)
 

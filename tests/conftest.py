@@ -25,13 +25,21 @@ CHECKED = [
 hook = install_import_hook(CHECKED, "beartype.beartype")
 
 
+@pytest.fixture(scope="session", autouse=True)
+def cache_of_the_tests(tmp_path_factory):
+    """Commands remember results for this run of the tests only, not among the user's own."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("STONEPASS_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
 @pytest.fixture
 def solved(monkeypatch):
     """Names of what was solved afresh."""
     from stonepass.model.states.uncached import UNCACHED
 
     found = []
-    for name in ("seat", "push", "pairs"):
+    for name in ("seat", "push", "hold", "opening_curve"):
         original = getattr(UNCACHED, name)
 
         def called(*arguments, _name=name, _original=original, **keywords):
@@ -56,7 +64,7 @@ def undocumented():
             for key, value in record.items():
                 found += [] if f"`{key}`" in text else [key]
                 # Their keys are names of inputs, constants, outcomes.
-                if key not in ("drivers", "without_answer", "law_constants", "correlations"):
+                if key not in ("sensitivity", "without_answer", "law_constants", "correlations"):
                     found += missing(
                         list(value.values())
                         if key == "measured" and isinstance(value, dict)

@@ -26,7 +26,7 @@ from stonepass.inputs.material_file import load_material
 from stonepass.inputs.measured_pressures import read_points
 from stonepass.inputs.opening_curve_file import read_opening_curve
 from stonepass.inputs.shape_file import read_shape
-from stonepass.model.case import Ureter
+from stonepass.model.ureter import Ureter
 from stonepass.units import length
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

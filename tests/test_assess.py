@@ -1,4 +1,4 @@
-"""A person's assessment: sampling, the response surface, shares, and what is said beside them."""
+"""A patient's assessment: sampling, the response surface, fractions, and what is said beside them."""
 
 import json
 import re
@@ -8,25 +8,30 @@ import numpy as np
 import pytest
 
 from stonepass.cli import run
-from stonepass.clinic.assessment import FEWER, MORE, Share, assess, contradiction
+from stonepass.clinic.assess import assess
 from stonepass.clinic.cohorts import COHORTS, rows_for
+from stonepass.clinic.fractions import FEWER, MORE, Fraction, contradiction
 from stonepass.clinic.patient import read_patient
-from stonepass.clinic.pressure_limits import LIMITS, limit_told
+from stonepass.clinic.pressure_limits import LIMITS, describe_limit
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
-from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.case import Case, Method
+from stonepass.model.load import Load
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 from stonepass.model.critical import solve
 from stonepass.model.far_field import inflation, lumen_ratio
-from stonepass.report.assess_figure import cohorts_figure, drivers_figure, pressures_figure
+from stonepass.report.assess_figure import cohorts_figure, pressures_figure, sensitivity_figure
 from stonepass.report.assess_page import write_assessment
-from stonepass.report.assess_report import assess_record, range_told
-from stonepass.studies.jobs import PooledSolver
-from stonepass.studies.response import Conditions, lumen_ratios, response_surface
+from stonepass.report.assess_report import assess_record, describe_range
+from stonepass.studies.case_solver import JobSolver
+from stonepass.studies.conditions import Conditions, lumen_ratios
+from stonepass.studies.response import response_surface
 from stonepass.studies.uncertain_quantity import measured_length, measured_number
 from stonepass.units import Pressure
 
-PERSON = """
+PATIENT = """
 [stone]
 diameter = "{stone}"
 friction = "{friction}"
@@ -46,9 +51,9 @@ EXACT = {"stone": "4.2 mm ± 0 mm", "friction": "0.3 ± 0", "inner": "3.5 mm ± 
          "wall": "0.7 mm ± 0 mm", "stiffness": "1 ± 0", "dilated": "", "confining": "0 kPa"}  # fmt: skip
 
 
-def person(tmp_path, **given):
+def patient(tmp_path, **given):
     path = tmp_path / "someone.toml"
-    path.write_text(PERSON.format(**EXACT | given), encoding="utf-8")
+    path.write_text(PATIENT.format(**EXACT | given), encoding="utf-8")
     return read_patient(path)
 
 
@@ -82,10 +87,10 @@ def test_a_number_with_its_uncertainty():
     span = measured_length("3 to 4 mm", "stone", bounds)
     assert (span.low, span.high, span.sd) == (3e-3, 4e-3, None)
     shares = np.array([0.0228, 0.5, 0.9772])
-    np.testing.assert_allclose(found.drawn(shares), [3e-3, 5e-3, 7e-3], rtol=1e-3)
-    np.testing.assert_allclose(span.drawn(shares), 3e-3 + 1e-3 * shares)
+    np.testing.assert_allclose(found.quantiles(shares), [3e-3, 5e-3, 7e-3], rtol=1e-3)
+    np.testing.assert_allclose(span.quantiles(shares), 3e-3 + 1e-3 * shares)
     factor = measured_number("1 ± 0.3", "stiffness", (0.05, 20.0), factor=True)
-    low, middle, high = factor.drawn(shares)  # lognormal: the same factor up and down
+    low, middle, high = factor.quantiles(shares)  # lognormal: the same factor up and down
     assert middle == pytest.approx(1.0)
     assert low * high == pytest.approx(1.0)
     for text in (
@@ -106,18 +111,18 @@ def test_a_number_with_its_uncertainty():
 
 
 def test_exact_inputs_give_one_number(tmp_path):
-    found = assess(person(tmp_path), MadeUp())
+    found = assess(patient(tmp_path), MadeUp())
     exact = 1e5 * 0.2 * 1.4 * 0.3 / 0.8
     assert found.central == pytest.approx(exact)
     low, median, high = found.critical.low, found.critical.median, found.critical.high
     assert low == median == high == pytest.approx(exact, rel=0.02)
-    assert found.drivers == ()
-    assert found.below_limit == Share(0.0, 0.0)
+    assert found.sensitivity == ()
+    assert found.below_limit == Fraction(0.0, 0.0)
 
 
 def test_shares_are_those_of_a_plain_simulation(tmp_path):
     """A million draws of the formula itself, without a surface."""
-    someone = person(tmp_path, stone="4.2 mm ± 0.5 mm", friction="0.1 to 0.5",
+    someone = patient(tmp_path, stone="4.2 mm ± 0.5 mm", friction="0.1 to 0.5",
                      inner="3.5 mm ± 0.3 mm", wall="0.7 mm ± 0.1 mm", stiffness="1 ± 0.3")  # fmt: skip
     found = assess(someone, MadeUp(4e4))
     generator = np.random.default_rng(3)
@@ -133,8 +138,8 @@ def test_shares_are_those_of_a_plain_simulation(tmp_path):
     assert found.loose == pytest.approx(np.mean(over <= 0.0), abs=0.015)
     for ours, share in ((found.critical.median, 0.5), (found.critical.high, 0.95)):
         assert ours == pytest.approx(np.quantile(exact, share), rel=0.06)
-    assert found.drivers[0].name == "stone diameter"
-    assert sum(driver.share for driver in found.drivers) > 0.9
+    assert found.sensitivity[0].name == "stone diameter"
+    assert sum(each.total for each in found.sensitivity) > 0.9
     again, other = (assess(replace(someone, seed=k), MadeUp(4e4)) for k in (1, 2))
     assert again.critical == found.critical
     assert other.critical != found.critical
@@ -143,8 +148,8 @@ def test_shares_are_those_of_a_plain_simulation(tmp_path):
 
 def test_twice_as_stiff_needs_twice_the_pressure(tmp_path):
     """Also under a load, by P_ucr(s w, P_out) = s P_ucr(w, P_out/s)."""
-    single = assess(person(tmp_path, confining="1 kPa"), MadeUp())
-    double = assess(person(tmp_path, stiffness="2 ± 0", confining="2 kPa"), MadeUp())
+    single = assess(patient(tmp_path, confining="1 kPa"), MadeUp())
+    double = assess(patient(tmp_path, stiffness="2 ± 0", confining="2 kPa"), MadeUp())
     assert double.central == pytest.approx(2.0 * single.central)
     assert double.critical.median == pytest.approx(2.0 * single.critical.median)
 
@@ -152,48 +157,48 @@ def test_twice_as_stiff_needs_twice_the_pressure(tmp_path):
 def test_present_pressure_is_the_far_field(tmp_path):
     """13.207 kPa at η 1.3 and r_a/R_a 1.2 (Eq. 22, evaluated independently)."""
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0 mm"'
-    found = assess(person(tmp_path, wall="0.525 mm ± 0 mm", dilated=dilated), MadeUp())
+    found = assess(patient(tmp_path, wall="0.525 mm ± 0 mm", dilated=dilated), MadeUp())
     assert found.present.median == pytest.approx(13.207e3, rel=1e-4)
-    assert found.below_present == Share(1.0, 1.0)
+    assert found.below_present == Fraction(1.0, 1.0)
     narrow = '[dilated]\ninner_diameter = "3 mm ± 0 mm"'
-    found = assess(person(tmp_path, dilated=narrow), MadeUp())
+    found = assess(patient(tmp_path, dilated=narrow), MadeUp())
     assert found.present.high == 0.0
     assert any("no wider than the ureter" in sentence for sentence in found.warnings)
     wide = '[dilated]\ninner_diameter = "9 mm ± 0 mm"'
-    found = assess(person(tmp_path, dilated=wide), MadeUp())
+    found = assess(patient(tmp_path, dilated=wide), MadeUp())
     assert found.present.median is None
-    law = found.person.material.law.fibres
+    law = found.patient.material.law.without_ground_matrix()
     assert found.present.at_least == pytest.approx(float(inflation(1.8, 1.4, law)))
-    assert found.below_present == Share(1.0, 1.0)
+    assert found.below_present == Fraction(1.0, 1.0)
 
 
 def test_both_dilated_diameters_are_weighed_by_the_walls_volume(tmp_path):
     """A sharp outer diameter of the dilated segment pins the inner one: r_b² − r_a² stays."""
     dilated = '[dilated]\ninner_diameter = "4.5 mm ± 1 mm"\nouter_diameter = "5.8 mm ± 0.05 mm"'
-    found = assess(person(tmp_path, dilated=dilated), MadeUp())
+    found = assess(patient(tmp_path, dilated=dilated), MadeUp())
     expected = np.sqrt(5.8**2 - (4.9**2 - 3.5**2)) / 3.5
     assert np.mean(found.at_present.opening) == pytest.approx(expected, rel=0.01)
     assert np.std(found.at_present.opening) < 0.03
     assert found.possible == 1.0
     impossible = dilated.replace("5.8", "20")
     with pytest.raises(BadInput, match="constant volume"):
-        assess(person(tmp_path, dilated=impossible), MadeUp())
+        assess(patient(tmp_path, dilated=impossible), MadeUp())
 
 
 def test_what_is_not_known_is_a_bound(tmp_path):
-    someone = person(tmp_path, stone="8 mm ± 2 mm", inner="3 mm ± 0.2 mm")
+    someone = patient(tmp_path, stone="8 mm ± 2 mm", inner="3 mm ± 0.2 mm")
     found = assess(someone, MadeUp(1e4))
     assert found.critical.high is None
     assert found.critical.at_least > 0.0
     assert found.below_limit.high > found.below_limit.low + 0.1
-    assert "above" in range_told(found.critical)[1]
+    assert "above" in describe_range(found.critical)[1]
     assert any("only a lower bound" in sentence for sentence in found.warnings)
 
 
 def test_thin_walls_without_an_answer_are_not_decided(tmp_path):
-    someone = person(tmp_path, wall="0.7 mm ± 0.2 mm", stone="4.2 mm ± 0.3 mm")
+    someone = patient(tmp_path, wall="0.7 mm ± 0.2 mm", stone="4.2 mm ± 0.3 mm")
     found = assess(someone, MadeUp(thinnest=1.12))
-    assert 0.001 < np.mean(found.samples.bound) < 0.2
+    assert 0.001 < np.mean(found.samples.censored) < 0.2
     lost = assess(someone, MadeUp(thinnest=9.0))
     assert lost.outcome is Outcome.NO_SOLUTION
     assert "The wall buckles." in lost.message
@@ -204,7 +209,7 @@ def test_thin_walls_without_an_answer_are_not_decided(tmp_path):
 
 def test_without_a_surface_what_needs_none_is_told(tmp_path):
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0 mm"'
-    someone = person(tmp_path, wall="0.525 mm ± 0.01 mm", dilated=dilated)
+    someone = patient(tmp_path, wall="0.525 mm ± 0.01 mm", dilated=dilated)
     lost = assess(someone, MadeUp(thinnest=9.0))
     assert lost.outcome is Outcome.NO_SOLUTION
     assert lost.present.median == pytest.approx(13.2e3, rel=0.01)
@@ -215,17 +220,17 @@ def test_without_a_surface_what_needs_none_is_told(tmp_path):
 def test_the_beam_is_refused(tmp_path):
     beam = '[method]\nmodel = "beam"\nsecant_stretch = 1.2'
     with pytest.raises(BadInput, match="model is beam, but must be paper or direct"):
-        assess(person(tmp_path, dilated=beam), MadeUp())
+        assess(patient(tmp_path, dilated=beam), MadeUp())
 
 
 def test_shares_are_no_verdicts():
-    told = [Share(*ends).told() for ends in ((0.0, 0.0), (1.0, 1.0), (0.4, 0.4), (0.1, 0.3))]
+    told = [Fraction(*ends).describe() for ends in ((0.0, 0.0), (1.0, 1.0), (0.4, 0.4), (0.1, 0.3))]
     assert told == ["fewer than 1 %", "more than 99 %", "40 %", "10 to 30 %"]
 
 
 def test_a_class_is_compared_with_its_own_samples(tmp_path):
     """A stone of exactly 4.2 mm is of the class 4 mm: the share beside it is that of page one."""
-    found = assess(person(tmp_path, friction="0.05 to 0.5"), MadeUp())
+    found = assess(patient(tmp_path, friction="0.05 to 0.5"), MadeUp())
     rows = [row for row in found.cohorts if row.group == "4 mm"]
     assert len(rows) == 1
     assert found.beside(rows[0]) == found.below_limit
@@ -243,7 +248,7 @@ def test_surface_meets_whole_solves(tmp_path):
         generator.uniform(0.05, 0.5, 400),
         np.ones(400),
     )
-    surface = response_surface(case, over, PooledSolver(tmp_path))
+    surface = response_surface(case, over, JobSolver(cache_folder=tmp_path))
     assert surface.usable
     some = over.where(np.arange(400) < 8)
     found, bound = surface(some)
@@ -286,16 +291,16 @@ def test_cohorts_count_right():
     assert ("Hübner 1993", "< 4 mm") not in found
     assert all(cohort.source and cohort.read in ("itself", "quoted") for cohort in COHORTS)
     assert [limit.pressure for limit in LIMITS] == [2e3, 4e3, 6e3, 8e3, 12e3]
-    assert "61 cmH₂O" in limit_told(6e3)
-    assert limit_told(7e3) == "a value of your own"
+    assert "61 cmH₂O" in describe_limit(6e3)
+    assert describe_limit(7e3) == "a value of your own"
 
 
 def test_contradictions_are_told(tmp_path):
-    assert contradiction(0.65, Share(0.1, 0.2)) == MORE
-    assert contradiction(0.1, Share(0.5, 0.6)) == FEWER
-    assert contradiction(0.1, Share(0.5, 0.9)) == "the model does not decide"
-    assert contradiction(0.65, Share(0.6, 0.7)) == "near the model"
-    found = assess(person(tmp_path, stone="4.2 mm ± 0.3 mm"), MadeUp(1e6))
+    assert contradiction(0.65, Fraction(0.1, 0.2)) == MORE
+    assert contradiction(0.1, Fraction(0.5, 0.6)) == FEWER
+    assert contradiction(0.1, Fraction(0.5, 0.9)) == "the model does not decide"
+    assert contradiction(0.65, Fraction(0.6, 0.7)) == "near the model"
+    found = assess(patient(tmp_path, stone="4.2 mm ± 0.3 mm"), MadeUp(1e6))
     comparisons = {row["comparison"] for row in assess_record(found, "a.toml")["cohorts"]}
     assert MORE in comparisons
 
@@ -314,12 +319,12 @@ def test_contradictions_are_told(tmp_path):
 )  # fmt: skip
 def test_a_bad_file_is_refused_in_a_sentence(tmp_path, given, message):
     with pytest.raises(BadInput, match=message) as refused:
-        person(tmp_path, **given)
+        patient(tmp_path, **given)
     assert "someone.toml" in str(refused.value)
 
 
 def test_the_wall_is_given_once(tmp_path):
-    text = PERSON.format(**EXACT)
+    text = PATIENT.format(**EXACT)
     path = tmp_path / "someone.toml"
     for line in ("", 'wall_thickness = "0.7 mm ± 0 mm"\nouter_diameter = "5 mm ± 0 mm"'):
         path.write_text(re.sub("wall_thickness.*", line, text), encoding="utf-8")
@@ -331,7 +336,7 @@ def test_the_wall_is_given_once(tmp_path):
 
 
 def test_what_the_file_leaves_open_is_assumed_aloud(tmp_path):
-    text = re.sub("(friction|stiffness).*\n", "", PERSON.format(**EXACT))
+    text = re.sub("(friction|stiffness).*\n", "", PATIENT.format(**EXACT))
     path = tmp_path / "someone.toml"
     path.write_text(text, encoding="utf-8")
     someone = read_patient(path)
@@ -342,7 +347,7 @@ def test_what_the_file_leaves_open_is_assumed_aloud(tmp_path):
 
 def test_page_needs_nothing_beside_it_and_gives_no_verdict(tmp_path):
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0.5 mm"'
-    someone = person(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5", dilated=dilated)
+    someone = patient(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5", dilated=dilated)
     found = assess(someone, MadeUp())
     write_assessment(found, tmp_path / "page.html")
     text = (tmp_path / "page.html").read_text(encoding="utf-8")
@@ -362,20 +367,20 @@ def test_page_needs_nothing_beside_it_and_gives_no_verdict(tmp_path):
 
 
 def test_figures_show_what_was_found(tmp_path):
-    someone = person(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5")
+    someone = patient(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5")
     found = assess(someone, MadeUp())
     curve = pressures_figure(found).axes[0].lines[0]
     at_limit = np.interp(6.0, curve.get_xdata(), curve.get_ydata())
     assert at_limit == pytest.approx(100.0 * found.below_limit.low, abs=1.0)
-    names = [text.get_text() for text in drivers_figure(found).axes[0].get_yticklabels()]
-    assert names == [driver.name for driver in found.drivers][::-1]
+    names = [text.get_text() for text in sensitivity_figure(found).axes[0].get_yticklabels()]
+    assert names == [each.name for each in found.sensitivity][::-1]
     labels = {text.get_text() for text in cohorts_figure(found).legends[0].get_texts()}
     assert {"this stone", "model: moves below the limit", "passed: Coll 2002"} <= labels
 
 
 def test_json_keys_are_in_the_glossary(tmp_path, undocumented):
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0.5 mm"'
-    record = assess_record(assess(person(tmp_path, dilated=dilated), MadeUp()), "a.toml")
+    record = assess_record(assess(patient(tmp_path, dilated=dilated), MadeUp()), "a.toml")
     assert len(record) > 15
     assert undocumented({"no_such_key": [{"nor_this": 1}]}) == ["no_such_key", "nor_this"]
     assert undocumented(record) == []
@@ -385,7 +390,7 @@ def test_command(tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("STONEPASS_CACHE", str(tmp_path))
     path = tmp_path / "someone.toml"
     given = {"stone": "4.2 mm ± 0.5 mm", "confining": "0 kPa"}
-    text = PERSON.format(**EXACT | given) + '[method]\nseating = "frictionless"\n'
+    text = PATIENT.format(**EXACT | given) + '[method]\nseating = "frictionless"\n'
     path.write_text(text, encoding="utf-8")
     page = tmp_path / "report.html"
     arguments = ["assess", str(path), "--workers", "1"]

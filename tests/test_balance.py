@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
-from stonepass.model.case import Case, Method, Stone, Ureter
+from stonepass.model.case import Case, Method
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.shape import Shape
-from stonepass.model.states.seated import Contact
+from stonepass.model.states.seated_state import Contact
 
 EDGE = np.pi / 3
 

@@ -3,8 +3,9 @@
 import pytest
 
 import stonepass as sp
-from stonepass.studies.curve import curve
-from stonepass.studies.executor import executor
+from stonepass.studies.curve import Curve
+from stonepass.studies.executor import InProcessExecutor, process_pool
+from stonepass.studies.study import run_study
 
 CASE = sp.Case(
     sp.Stone(size_ratio=1.2),
@@ -16,8 +17,11 @@ CASE = sp.Case(
 def test_processes_give_the_same_answers_in_the_same_order():
     sizes = [1.2, 1.0, 1.1]
     told = []
-    here = curve(CASE, sizes)
-    there = curve(CASE, sizes, lambda done, total: told.append((done, total)), workers=2)
+    here = run_study(Curve(CASE, sizes))
+    with process_pool(2) as pool:
+        there = run_study(
+            Curve(CASE, sizes), pool, progress=lambda done, total: told.append((done, total))
+        )
     assert [a.case.size_ratio for a in there] == sizes
     assert [a.pressure for a in there] == [a.pressure for a in here]
     assert told == [(1, 3), (2, 3), (3, 3)]
@@ -30,12 +34,12 @@ def test_a_law_that_cannot_travel_is_solved_here(tmp_path):
     )
     wall = sp.Ureter(wall_ratio=1.5, material=sp.load_material(f"{tmp_path / 'law.py'}:energy"))
     case = sp.Case(CASE.stone, wall, method=CASE.method)
-    answers = curve(case, [1.1, 1.2], workers=2)
+    with process_pool(2) as pool:
+        answers = run_study(Curve(case, [1.1, 1.2]), pool)
     assert answers[1].pressure == pytest.approx(sp.solve(CASE).pressure, rel=1e-9)
 
 
 def test_an_error_in_a_case_is_raised_to_the_caller():
-    with executor(1) as pool:
-        future = pool.submit(sp.Stone, size_ratio=40.0)
+    future = InProcessExecutor().submit(sp.Stone, size_ratio=40.0)
     with pytest.raises(sp.BadInput, match=r"0\.1 to 3"):
         future.result()

@@ -12,7 +12,8 @@ from stonepass.materials.fung import Fung
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.states.nondimensional import tube_of
-from stonepass.model.states.stability_report import axisymmetric_buckling, folding_warning
+from stonepass.model.states.stability_report import axisymmetric_buckling
+from stonepass.model.validity import folding_warning
 from stonepass.strain import INNER_WALL, CauchyGreen
 
 REST = np.array([[1.0, 0.0, 0.0, 1.0, 1.0]])

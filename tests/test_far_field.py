@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.materials.neo_hookean import NeoHookean
-from stonepass.model.case import Load
+from stonepass.model.load import Load
 from stonepass.model.far_field import (
     confining_traction,
     inflation,

@@ -23,7 +23,7 @@ from stonepass.fe.core.systems import FormSystem
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.protocol import NAMESPACE
-from stonepass.model.case import Load
+from stonepass.model.load import Load
 from stonepass.model.states.nondimensional import tube_of
 from stonepass.strain import INNER_WALL, CauchyGreen
 
@@ -252,7 +252,7 @@ def test_values_set_at_nodes_are_read_there():
 def test_a_free_tube_under_load_is_the_far_field():
     """No contact: a finite-element tube under P_out and axial stretch is exactly uniform."""
     from stonepass.materials.neo_hookean import NeoHookean
-    from stonepass.model.case import Load
+    from stonepass.model.load import Load
     from stonepass.model.far_field import lumen_ratio
 
     law = NeoHookean(1.0 / 8.0)  # hoop modulus 1 Pa: units and SI coincide

@@ -20,7 +20,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Method
 from stonepass.report.invitro_figure import invitro_figure
 from stonepass.report.invitro_report import invitro_record
-from stonepass.studies.jobs import PooledSolver
+from stonepass.studies.case_solver import JobSolver
 from stonepass.units import Pressure
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -85,7 +85,7 @@ def test_a_point_without_an_answer_is_counted_not_averaged():
 def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
     """A wall of 1.3 times the modulus, dry and under water, against the material's own stiffness."""
     stiff = Material("stiff", NeoHookean(1.3 * 0.1465e6), "", "", "", (1.0, 1.5))
-    tubes, solver = [*DRY, WET[0]], PooledSolver(tmp_path)
+    tubes, solver = [*DRY, WET[0]], JobSolver(cache_folder=tmp_path)
     blank = series([1.0] * len(tubes), tubes)
     measured = compare(blank, 0.35, replace(QUICK, material=stiff), solver).predicted
     found = fit_friction(series(measured, tubes), QUICK, solver=solver)

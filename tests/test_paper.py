@@ -20,6 +20,7 @@ from stonepass.paper import fig6, fig8, fig9, inputs, seated_figures
 from stonepass.paper.run import PARTS, WITH_CLAIMS, chosen, reproduce
 from stonepass.paper.section import Asked, Claim
 from stonepass.paper.sensitivity import Sensitivity, choices
+from stonepass.studies.executor import process_pool
 from stonepass.studies.jobs import PressureJob, Results, SizeJob, run_jobs
 from stonepass.units import Pressure
 
@@ -64,18 +65,18 @@ def test_an_answer_that_says_more_serves_for_one_that_says_less():
     case = inputs.latex_case(1.5, 1.2)
     quick = replace(case, method=Method(accuracy="fast"))
     jobs = [PressureJob(quick, error=False), PressureJob(quick), PressureJob(quick, wall=True)]
-    found = run_jobs(jobs, None)
+    found = run_jobs(jobs)
     assert list(found.pressures) == jobs[2:]
     assert found.answer(quick) is found.answer(quick, wall=True)
     assert found.answer(quick, error=False) is found.answer(quick)
     assert found.of(jobs[:1]).pressures == found.pressures
-    assert list(run_jobs(jobs[:2], None).pressures) == jobs[1:2]
+    assert list(run_jobs(jobs[:2]).pressures) == jobs[1:2]
 
 
 def test_each_job_is_run_once_and_told_of():
     case = inputs.latex_case(1.5, 0.9)
     told = []
-    found = run_jobs([PressureJob(case), PressureJob(case)], None, 1, lambda *n: told.append(n))
+    found = run_jobs([PressureJob(case)] * 2, progress=lambda *n: told.append(n))
     assert told == [(1, 1)]
     assert found.answer(case).outcome is sp.Outcome.LOOSE
     assert found.of([]).pressures == {}
@@ -87,10 +88,10 @@ def written(tmp_path_factory):
     root = tmp_path_factory.mktemp("paper")
     store = root / "store"
     folders = [root / name for name in ("one", "two", "again")]
-    sections = [
-        reproduce(["fig4", "friction"], folder, ASKED, keep, workers)
-        for folder, keep, workers in zip(folders, (None, store, store), (1, 2, 1), strict=True)
-    ]
+    sections = []
+    for folder, keep, workers in zip(folders, (None, store, store), (1, 2, 1), strict=True):
+        with process_pool(workers) as pool:
+            sections.append(reproduce(["fig4", "friction"], folder, ASKED, pool, keep))
     return folders, sections
 
 
@@ -200,7 +201,7 @@ def test_measured_points_are_drawn_and_compared(tmp_path):
             answers[job] = sp.Answer(
                 job.case, sp.Outcome.MOVES, "", pressure=4e4 * job.case.size_ratio
             )
-    found = Results(answers, {})
+    found = Results(answers)
     for factor, holds in ((1.0, True), (2.0, False)):
         points = (Point(1.2, 1.5, Pressure(0.0), Pressure(factor * pressure), Pressure(1e3)),)
         section = fig6.Fig6().write(found, Asked(inputs.LIMIT, points), tmp_path)
@@ -233,10 +234,7 @@ def made_up(job, steep=60e3):
 
 def made_up_results(part, asked):
     jobs = part.jobs(asked)
-    return Results(
-        {job: made_up(job) for job in jobs if isinstance(job, PressureJob)},
-        {job: made_up(job) for job in jobs if isinstance(job, SizeJob)},
-    )
+    return Results({job: made_up(job) for job in jobs})
 
 
 def test_what_is_in_fig_8(drawn, tmp_path):
@@ -347,7 +345,7 @@ def test_folders_that_cannot_be_written_are_refused_before_anything_is_solved(tm
         (tmp_path / "out", file, "cache folder"),
     ):
         with pytest.raises(BadInput, match=f"{what} is .*must be writable"):
-            reproduce(["fig5"], out, ASKED, cache)
+            reproduce(["fig5"], out, ASKED, cache_folder=cache)
     assert solved == []
 
 
@@ -380,7 +378,7 @@ def test_the_command(tmp_path, capsys):
     shown = capsys.readouterr().out
     assert "0.5239" in shown
     assert "index.html" in shown
-    remembered = [path for path in cache.rglob("*") if path.is_file()]
+    remembered = [path for path in cache.glob("[0-9a-f][0-9a-f]/*") if path.is_file()]
     assert len(remembered) == 2
     raw = bytearray(remembered[0].read_bytes())
     raw[100] ^= 1

@@ -10,7 +10,8 @@ from stonepass.inputs.case_file import read_case, write_case
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.energy_balance import advance_force, strained_force
 from stonepass.model.shape import Shape
-from stonepass.model.states.loaded import PushedState, push_through
+from stonepass.model.states.loaded_state import PushedState
+from stonepass.model.case_states import push_through
 
 FAST = LEVELS["fast"].resolution
 TAU = np.linspace(0.0, np.pi, 41)

@@ -19,7 +19,7 @@ from stonepass.bench.comparison import Setting, compare
 from stonepass.bench.invitro import fit_friction
 from stonepass.bench.law_fit import fit_law
 from stonepass.bench.test_data import Tension
-from stonepass.clinic.assessment import assess
+from stonepass.clinic.assess import assess
 from stonepass.clinic.patient import read_patient
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.catalogue import material
@@ -28,10 +28,15 @@ from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Material
 from stonepass.materials.yeoh import Yeoh
-from stonepass.model.case import Case, Load, Method, Stone, Ureter
+from stonepass.model.case import Case, Method
+from stonepass.model.load import Load
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 from stonepass.report.assess_page import write_assessment
-from stonepass.studies.jobs import PooledSolver
-from stonepass.studies.response import Conditions, response_surface
+from stonepass.studies.case_solver import CaseSolver, JobSolver
+from stonepass.studies.conditions import Conditions
+from stonepass.studies.executor import process_pool
+from stonepass.studies.response import response_surface
 from stonepass.units import Pressure
 
 ROOT = Path(__file__).parents[1]
@@ -118,8 +123,8 @@ def _coverage(name: str, relative: bool) -> dict[str, float]:
 
 
 def _series():
-    with TemporaryDirectory() as folder:
-        solver = PooledSolver(Path(folder), CORES)
+    with TemporaryDirectory() as folder, process_pool(CORES) as pool:
+        solver = JobSolver(pool, Path(folder))
         setting = Setting(material("latex"))
         stiff = Material("stiffer", NeoHookean(STIFFER * 0.1465e6), "", "", "", (1.0, 1.5))
         own = fit_friction(_made(setting, solver), setting, solver=solver)
@@ -142,7 +147,7 @@ def _series():
     return checks, (caption, ("fitted", "friction", "stiffness"), rows)
 
 
-def _made(setting: Setting, solver: PooledSolver) -> list[Point]:
+def _made(setting: Setting, solver: CaseSolver) -> list[Point]:
     blank = [Point(xi, eta, Pressure(1e3 * out), Pressure(1.0)) for eta, xi, out in TUBES]
     found = compare(blank, FRICTION, setting, solver)
     return [
@@ -189,20 +194,21 @@ def _errors(name: str, load: Load, walls: tuple[float, float]) -> _Errors:
         generator.uniform(0.05, 0.5, 2000),
         generator.uniform(0.6, 1.6, 2000) if loaded else np.ones(2000),
     )
-    solver = PooledSolver(None, CORES)
-    surface = response_surface(case, many, solver)
-    some = many.where(np.arange(2000) < CONDITIONS)
-    pressure, bound = surface(some)
-    outside = load.confining_pressure * some.load_factor
-    cases = [
-        Case(
-            Stone(size_ratio=float(some.size_ratio[k]), friction=float(some.friction[k])),
-            Ureter(wall_ratio=float(some.wall_ratio[k]), material=name),
-            replace(load, confining_pressure=Pressure(outside[k])),
-        )
-        for k in range(CONDITIONS)
-    ]
-    answers = solver.answers(cases, error=False)
+    with process_pool(CORES) as pool:
+        solver = JobSolver(pool)
+        surface = response_surface(case, many, solver)
+        some = many.where(np.arange(2000) < CONDITIONS)
+        pressure, bound = surface(some)
+        outside = load.confining_pressure * some.load_factor
+        cases = [
+            Case(
+                Stone(size_ratio=float(some.size_ratio[k]), friction=float(some.friction[k])),
+                Ureter(wall_ratio=float(some.wall_ratio[k]), material=name),
+                replace(load, confining_pressure=Pressure(outside[k])),
+            )
+            for k in range(CONDITIONS)
+        ]
+        answers = solver.answers(cases, error=False)
     known = [k for k, a in enumerate(answers) if a.pressure is not None and not bound[k]]
     true = np.array([abs(pressure[k] / answers[k].pressure - 1.0) for k in known])
     claimed = float(np.quantile(surface.errors, 0.95))
@@ -216,11 +222,12 @@ def _page():
     if browser is None:
         return [], ("No browser was at hand to print the report.", header, [])
     rows, pages = [], []
-    for name, path in (("example", ROOT / "examples" / "person.toml"), ("widest", None)):
+    for name, path in (("example", ROOT / "examples" / "patient.toml"), ("widest", None)):
         with TemporaryDirectory() as folder:
-            given = Path(folder) / "person.toml"
+            given = Path(folder) / "patient.toml"
             given.write_text(WIDEST if path is None else path.read_text(encoding="utf-8"))
-            found = assess(read_patient(given), PooledSolver(None, CORES))
+            with process_pool(CORES) as pool:
+                found = assess(read_patient(given), JobSolver(pool))
             count = _printed(browser, found, Path(folder))
         pages.append(count)
         rows.append((name, str(count)))

@@ -9,7 +9,7 @@ from page import Check, Section
 
 import stonepass as sp
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.states.seated import SeatedState
+from stonepass.model.states.seated_state import SeatedState
 
 LIMIT = Resolution(order=6, closed=16, edge=0.002, growth=1.4)
 LADDER = (

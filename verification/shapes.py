@@ -14,7 +14,7 @@ from stonepass.errors import BadInput
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.energy_balance import advance_force, opening_pressure
-from stonepass.model.states.loaded import PushedState
+from stonepass.model.states.loaded_state import PushedState
 from stonepass.units import Pressure
 
 SEED, GRID = 20249, 60

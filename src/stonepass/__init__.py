@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from stonepass.bench.invitro import fit_friction
     from stonepass.bench.law_fit import fit_law
     from stonepass.bench.test_data import read_inflation, read_tension
-    from stonepass.clinic.assessment import Assessment, assess
+    from stonepass.clinic.assess import assess
+    from stonepass.clinic.assessment import Assessment
     from stonepass.clinic.patient import read_patient
     from stonepass.errors import BadInput, Outcome, StonepassError
     from stonepass.inputs.case_file import read_case, write_case

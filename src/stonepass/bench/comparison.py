@@ -11,9 +11,14 @@ from jaxtyping import Float
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.protocol import Material
-from stonepass.model.answer import Answer
-from stonepass.model.case import Case, Load, Method, Stone, Ureter
-from stonepass.studies.jobs import Solver
+from stonepass.model.answer import Answer, Model
+from stonepass.model.case import Case
+from stonepass.model.load import Load
+from stonepass.model.models.seated_balance import SeatedBalance
+from stonepass.model.numerics import Numerics
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
+from stonepass.studies.case_solver import CaseSolver
 
 __all__ = ["Comparison", "Setting", "SizeCurve", "compare", "size_curves"]
 
@@ -29,19 +34,22 @@ class Setting:
     material : Material
     confinement : {"hydrostatic", "dead"}
         Of the confining pressures (`model.case.Load`); a water bath is hydrostatic.
-    method : Method
+    model : Model
+    numerics : Numerics
     """
 
     material: Material
     confinement: str = "hydrostatic"
-    method: Method = field(default_factory=Method)
+    model: Model = field(default_factory=SeatedBalance)
+    numerics: Numerics = field(default_factory=Numerics)
 
     def case(self, point: Point, friction: float, load_factor: float = 1.0) -> Case:
         """The case of a point; its confining pressure times `load_factor`."""
         pressure = type(point.confining_pressure)(load_factor * point.confining_pressure)
         load = Load(pressure, self.confinement if pressure > 0.0 else "dead")
         ureter = Ureter(wall_ratio=point.wall_ratio, material=self.material)
-        return Case(Stone(None, friction, point.size_ratio), ureter, load, self.method)
+        stone = Stone(None, friction, point.size_ratio)
+        return Case(stone, ureter, load, self.model, self.numerics)
 
 
 @dataclass(frozen=True)
@@ -107,7 +115,7 @@ def _moves(answer: Answer) -> bool:
 
 
 def compare(
-    points: Sequence[Point], friction: float, setting: Setting, solver: Solver
+    points: Sequence[Point], friction: float, setting: Setting, solver: CaseSolver
 ) -> Comparison:
     """Answer every point of a series at one friction coefficient."""
     cases = [setting.case(point, friction) for point in points]
@@ -124,7 +132,7 @@ class SizeCurve:
     pressure: Float[np.ndarray, " n"]
 
 
-def size_curves(comparison: Comparison, setting: Setting, solver: Solver) -> list[SizeCurve]:
+def size_curves(comparison: Comparison, setting: Setting, solver: CaseSolver) -> list[SizeCurve]:
     """Curves of the model through each tube and load of a series that has several sizes."""
     tubes: dict[tuple[float, float], list[Point]] = {}
     for point in comparison.points:

@@ -31,8 +31,10 @@ from stonepass.bench.least_squares import (
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
-from stonepass.model.case import CONFINING, FRICTION, Case
-from stonepass.studies.jobs import PooledSolver, Solver
+from stonepass.model.case import Case
+from stonepass.model.load import CONFINING
+from stonepass.model.stone import FRICTION
+from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.units import Values
 
 __all__ = ["LARGEST", "SMALLEST", "STIFFNESS", "Estimate", "InVitro", "JointFit", "fit_friction"]
@@ -119,7 +121,7 @@ def fit_friction(
     points: Sequence[Point],
     setting: Setting,
     friction: float | None = None,
-    solver: Solver | None = None,
+    solver: CaseSolver | None = None,
 ) -> InVitro:
     """Find the friction coefficient that fits a series, with its interval.
 
@@ -133,15 +135,16 @@ def fit_friction(
     setting : Setting
     friction : float, optional
         To compare with; by default the fitted one.
-    solver : Solver, optional
+    solver : CaseSolver, optional
+        By default the work runs in this process, without a cache.
 
     Raises
     ------
     BadInput
         Fewer than two points that the model answers, or standard deviations of 0.
     """
-    library, solver = lmfit(), solver or PooledSolver()
-    if setting.method.model == "beam":
+    library, solver = lmfit(), solver or JobSolver()
+    if not setting.model.NEEDS_ELEMENTS:
         raise BadInput("model", "beam", "paper or direct", "the beam holds for thin walls only")
     weights, weighted = _weights(points)
     curves, told = _curves(points, setting, solver)
@@ -306,7 +309,7 @@ class _Model:
         pairs = zip(self.curves, answers, strict=True)
         return replace(self, curves=tuple(curve.through(mu, found) for curve, found in pairs))
 
-    def solved_at(self, mu: float, solver: Solver) -> _Model:
+    def solved_at(self, mu: float, solver: CaseSolver) -> _Model:
         """The same, solved at one more friction for every load factor."""
         asked = [
             {factor: self.setting.case(point, mu, factor) for factor in curve.factors}
@@ -323,7 +326,7 @@ class _Model:
 
 
 def _curves(
-    points: Sequence[Point], setting: Setting, solver: Solver
+    points: Sequence[Point], setting: Setting, solver: CaseSolver
 ) -> tuple[list[_Curve | None], list[str]]:
     """Every point over friction, and over its load where it has one; None without two answers."""
     asked = [_asked(point, setting) for point in points]
@@ -365,7 +368,7 @@ def _curve(answers: dict[tuple[float, float], Answer]) -> _Curve | None:
 
 
 def _joint(
-    library: Any, series: _Model, parameters: Any, solver: Solver
+    library: Any, series: _Model, parameters: Any, solver: CaseSolver
 ) -> tuple[JointFit | None, list[str]]:
     """Fit friction and stiffness together, and map the misfit around."""
     count = len(series.curves)

@@ -12,8 +12,8 @@ from stonepass.errors import BadInput
 from stonepass.io.csv_file import read_columns
 from stonepass.materials.protocol import Law
 from stonepass.materials.uniaxial import AXES, nominal_stress
-from stonepass.model.case import Ureter
 from stonepass.model.far_field import inflation
+from stonepass.model.ureter import Ureter
 from stonepass.units import Length
 
 __all__ = ["Inflation", "Tension", "read_inflation", "read_tension"]

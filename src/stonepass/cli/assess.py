@@ -1,8 +1,7 @@
-"""``stonepass assess``: one person's stone and ureter, with how well they are known."""
+"""``stonepass assess``: the stone and ureter of one patient, with how well they are known."""
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -15,10 +14,11 @@ __all__ = ["command"]
 
 
 def command(
-    case_file: Annotated[
+    patient_file: Annotated[
         Path,
         typer.Argument(
-            metavar="CASE.toml", help="Sizes as value ± uncertainty; see examples/person.toml."
+            metavar="PATIENT.toml",
+            help="Sizes as value ± uncertainty; see examples/patient.toml.",
         ),
     ],
     limit: Annotated[
@@ -34,32 +34,33 @@ def command(
     no_cache: NoCache = False,
     workers: Workers = None,
 ) -> int:
-    """Assess one person: critical and present pressure as intervals, beside what cohorts saw.
+    """Assess one patient: critical and present pressure as intervals, beside what cohorts saw.
 
     Limits with a source are 2, 4, 6, 8 and 12 kPa; the answer names it.
     """
     from stonepass.cli.terminal import counting, print_json, show, warn, writable
 
     writable(html, (".html", ".htm"))
-    from stonepass.clinic.assessment import assess
+    from stonepass.clinic.assess import assess
     from stonepass.clinic.patient import read_patient
     from stonepass.report.assess_report import CAUTION, assess_record, assess_tables
-    from stonepass.studies.jobs import PooledSolver
+    from stonepass.studies.case_solver import JobSolver
+    from stonepass.studies.executor import CORES, process_pool
 
-    person = read_patient(case_file)
+    patient = read_patient(patient_file)
     if limit is not None:
-        person = person.with_limit(limit)
-    with counting("solving") as progress:
-        count = workers or os.cpu_count() or 1
-        found = assess(person, PooledSolver(cache_folder(cache, no_cache), count, progress))
+        patient = patient.with_limit(limit)
+    folder = cache_folder(cache, no_cache)
+    with process_pool(workers or CORES) as pool, counting("solving") as progress:
+        found = assess(patient, JobSolver(pool, folder, progress))
     if html is not None:
         from stonepass.report.assess_page import write_assessment
 
         write_assessment(found, html)
     if json:
-        print_json(assess_record(found, case_file.name))
+        print_json(assess_record(found, patient_file.name))
     else:
         show(*assess_tables(found), f"{found.message} {CAUTION}", DISCLAIMER)
         warn(found.warnings)
-        warn([f"at the measured values {told}" for told in found.at_values.warnings])
+        warn([f"at the measured values {each}" for each in found.at_values.warnings])
     return 0 if found.outcome.answered else 1

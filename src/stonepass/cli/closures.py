@@ -2,26 +2,56 @@
 
 from __future__ import annotations
 
-import os
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stonepass.cli.curve import size_range
-from stonepass.cli.options import BEAM_OPTIONS, CLOSURE_OPTIONS, Json, Settings, takes_settings
-from stonepass.errors import BadInput
+from stonepass.cli.options import (
+    Cache,
+    Json,
+    NoCache,
+    Settings,
+    Workers,
+    cache_folder,
+    takes_settings,
+)
+from stonepass.errors import BadInput, Misplaced
+from stonepass.inputs.catalogue import option_of
+
+if TYPE_CHECKING:
+    from stonepass.model.case import Case
+    from stonepass.studies.closures import ClosureComparison, ClosureMap
 
 __all__ = ["command"]
 
 MOST_CASES = 2_000
+# Options of the paper's model that the comparison itself sets.
+CLOSURE_CHOICES = (
+    "method.as_printed",
+    "method.closure_start",
+    "method.closure",
+    "method.series_order",
+    "method.opening_curve",
+)
+# What a map varies, or has as ratios only.
+VARIED = (
+    "stone.diameter",
+    "ureter.inner_diameter",
+    "ureter.outer_diameter",
+    "stone.size_ratio",
+    "ureter.wall_ratio",
+    "stone.friction",
+)
 
 
-@takes_settings("model", *CLOSURE_OPTIONS, *BEAM_OPTIONS)
+@takes_settings(*CLOSURE_CHOICES, models=("paper", "direct"))
 def command(
     settings: Settings,
     json: Json = False,
-    order: Annotated[int, typer.Option("--order", help="Of the fitted series, 1 to 8.")] = 3,
+    order: Annotated[int, typer.Option("--order", help="Order of the fitted series, 1 to 8.")] = 3,
     sizes: Annotated[
         str | None,
         typer.Option(
@@ -41,6 +71,9 @@ def command(
         Path | None,
         typer.Option("--figure", metavar="C.svg", help="Draw closure or map (svg, png or pdf)."),
     ] = None,
+    cache: Cache = None,
+    no_cache: NoCache = False,
+    workers: Workers = None,
 ) -> int:
     """Compare critical pressures by every closure with the direct push-through.
 
@@ -51,28 +84,31 @@ def command(
     writable(out, (".csv",))
     writable(figure, FIGURES)
     from stonepass.report.style import save
+    from stonepass.studies.closures import ClosureMap
 
     if sizes is not None:
-        for name in ("stone", "inner", "outer", "xi", "eta", "friction"):
-            if getattr(settings, name) is not None:
-                raise BadInput(f"--{name}", "given", "left out beside --map", "use --map-…")
+        for key in VARIED:
+            if key in settings.given:
+                raise Misplaced(option_of(key), "--map", "", "use the options --map-…")
         grid = (
             size_range(sizes),
             _numbers(walls, "--map-eta"),
             _numbers(frictions, "--map-friction"),
         )
-        return _map(settings, grid, order, out, figure, json)
+        study = ClosureMap(_cases(settings, *grid), order, settings.wetted)
+        compared = _compared(study, cache_folder(cache, no_cache), workers)
+        return _show_map(compared, out, figure, json)
     from stonepass.report.closures_report import (
         closures_figure,
         closures_record,
         closures_table,
         write_map,
     )
-    from stonepass.studies.closures import compare_closures
+    from stonepass.studies.study import run_study
 
-    case = settings.case()
+    one = ClosureMap([settings.case(method__model="paper")], order, settings.wetted)
     with working("comparing closures"):
-        found = compare_closures(case, order)
+        (found,) = run_study(one, cache_folder=cache_folder(cache, no_cache))
     if out is not None:
         write_map([found], out)
     if figure is not None:
@@ -85,39 +121,50 @@ def command(
     return 0 if found.outcome.answered else 1
 
 
-def _map(
-    settings: Settings,
-    grid: tuple[list[float], list[float], list[float]],
-    order: int,
-    out: Path | None,
-    figure: Path | None,
-    json: bool,
-) -> int:
-    sizes, walls, frictions = grid
-    from stonepass.cli.terminal import counting, print_json, show
-    from stonepass.model.case import Case, Stone, Ureter
-    from stonepass.report.closures_report import closures_record, map_figure, write_map
-    from stonepass.report.style import save
-    from stonepass.studies.closures import CLOSURES, closure_map
+def _cases(
+    settings: Settings, sizes: list[float], walls: list[float], frictions: list[float]
+) -> list[Case]:
+    from stonepass.model.stone import Stone
+    from stonepass.model.ureter import Ureter
 
     count = len(sizes) * len(walls) * len(frictions)
     if count > MOST_CASES:
         raise BadInput("map", f"{count} cases", f"at most {MOST_CASES}", "use fewer values")
-    material = settings.material_value()
-    cases = [
-        Case(
-            Stone(size_ratio=xi, friction=mu, shape=settings.shape_value()),
-            Ureter(wall_ratio=eta, material=material),
-            settings.load(),
-            settings.method(),
+    base = settings.case(
+        method__model="paper", stone__size_ratio=sizes[0], ureter__wall_ratio=walls[0]
+    )
+    return [
+        replace(
+            base,
+            stone=Stone(size_ratio=xi, friction=mu, shape=base.stone.shape),
+            ureter=Ureter(wall_ratio=eta, material=base.ureter.material),
         )
         for eta in walls
         for mu in frictions
         for xi in sizes
     ]
-    with counting("cases") as progress:
-        workers = min(os.cpu_count() or 1, max(1, count // 4))
-        found = closure_map(cases, progress, workers, order)
+
+
+def _compared(
+    study: ClosureMap, folder: Path | None, workers: int | None
+) -> list[ClosureComparison]:
+    from stonepass.cli.terminal import counting
+    from stonepass.studies.executor import CORES, process_pool
+    from stonepass.studies.study import run_study
+
+    count = workers or min(CORES, max(1, len(study.cases) // 4))  # a process takes seconds to start
+    with process_pool(count) as pool, counting("cases") as progress:
+        return run_study(study, pool, folder, progress)
+
+
+def _show_map(
+    found: list[ClosureComparison], out: Path | None, figure: Path | None, json: bool
+) -> int:
+    from stonepass.cli.terminal import print_json, show
+    from stonepass.report.closures_report import closures_record, map_figure, write_map
+    from stonepass.report.style import save
+    from stonepass.studies.closures import CLOSURES
+
     if out is not None:
         write_map(found, out)
     if figure is not None:

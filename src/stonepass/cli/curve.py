@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from stonepass.cli.options import Json, Settings, takes_settings
+from stonepass.cli.options import (
+    STONE_SIZE,
+    Cache,
+    Json,
+    NoCache,
+    Settings,
+    Workers,
+    cache_folder,
+    takes_settings,
+)
 from stonepass.errors import BadInput
 
 __all__ = ["command", "size_range"]
@@ -16,7 +24,7 @@ __all__ = ["command", "size_range"]
 MOST_POINTS = 10_000
 
 
-@takes_settings("stone", "xi")
+@takes_settings(*STONE_SIZE)
 def command(
     settings: Settings,
     xi: Annotated[
@@ -31,6 +39,9 @@ def command(
         Path | None,
         typer.Option("--figure", metavar="C.svg", help="Draw the curve (svg, png or pdf)."),
     ] = None,
+    cache: Cache = None,
+    no_cache: NoCache = False,
+    workers: Workers = None,
 ) -> int:
     """Compute critical pressure over size ratio.
 
@@ -42,18 +53,17 @@ def command(
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
-    from stonepass.model.case import Case, Stone
-    from stonepass.records.answer import curve_rows, write_curve
-    from stonepass.studies.curve import curve
+    from stonepass.records.curve import curve_rows, write_curve
+    from stonepass.studies.curve import Curve
+    from stonepass.studies.executor import CORES, process_pool
+    from stonepass.studies.study import run_study
 
-    stone = Stone(
-        size_ratio=sizes[-1], friction=settings.friction_value(), shape=settings.shape_value()
-    )
-    case = Case(stone, settings.ureter(), settings.load(), settings.method())
+    case = settings.sizeless_case(sizes[-1])
     case.with_size_ratio(sizes[0])  # both ends are checked before the first solve
-    with counting("size ratios") as progress:
-        workers = min(os.cpu_count() or 1, max(1, len(sizes) // 6))
-        answers = curve(case, sizes, progress, workers)
+    folder = cache_folder(cache, no_cache)
+    count = workers or min(CORES, max(1, len(sizes) // 6))  # a process takes seconds to start
+    with process_pool(count) as pool, counting("size ratios") as progress:
+        answers = run_study(Curve(case, sizes), pool, folder, progress)
     if out is not None:
         write_curve(answers, out)
     if figure is not None:

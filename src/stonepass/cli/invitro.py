@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -31,8 +30,13 @@ def command(
     ] = "hydrostatic",
     model: Annotated[str, typer.Option("--model", help="paper or direct.")] = "paper",
     seating: Annotated[
-        str, typer.Option("--seating", help="pressed, frictionless or growing.")
-    ] = "pressed",
+        str | None,
+        typer.Option(
+            "--seating",
+            metavar="pressed|frictionless|growing",
+            help="How the stones came to their place. Model 'paper' only.  [default: pressed]",
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="OUT.csv", help="Write points and answers as CSV."),
@@ -56,25 +60,30 @@ def command(
     writable(figure, FIGURES)
     from stonepass.bench.comparison import Setting, size_curves
     from stonepass.bench.invitro import fit_friction
+    from stonepass.inputs.build import build_method
     from stonepass.inputs.material_file import find_material
     from stonepass.inputs.measured_pressures import read_points
-    from stonepass.model.case import Load, Method, Stone
+    from stonepass.model.load import Load
+    from stonepass.model.stone import Stone
     from stonepass.report.invitro_report import (
         answers_warnings,
         invitro_record,
         invitro_table,
         write_invitro,
     )
-    from stonepass.studies.jobs import PooledSolver
+    from stonepass.studies.case_solver import JobSolver
+    from stonepass.studies.executor import CORES, process_pool
 
     if friction is not None:
         Stone(size_ratio=1.0, friction=friction)  # refused before the work where it is none
     Load(confinement=confinement)
-    setting = Setting(find_material(material), confinement, Method(model=model, seating=seating))
+    values = {"method.model": model, "method.seating": seating}
+    chosen, numerics = build_method({key: v for key, v in values.items() if v is not None})
+    setting = Setting(find_material(material), confinement, chosen, numerics)
     points = read_points(data)
-    with counting("solving") as progress:
-        count = workers or os.cpu_count() or 1
-        solver = PooledSolver(cache_folder(cache, no_cache), count, progress)
+    folder = cache_folder(cache, no_cache)
+    with process_pool(workers or CORES) as pool, counting("solving") as progress:
+        solver = JobSolver(pool, folder, progress)
         found = fit_friction(points, setting, friction, solver)
         curves = [] if figure is None else size_curves(found.comparison, setting, solver)
     if out is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
@@ -15,7 +15,6 @@ from stonepass.errors import BadInput, Misplaced
 from stonepass.inputs.catalogue import MODEL, all_inputs, models_with, option_of
 
 if TYPE_CHECKING:
-    from stonepass.model.answer import Model
     from stonepass.model.case import Case
 
 __all__ = [
@@ -104,6 +103,11 @@ class Settings:
         from stonepass.inputs.build import build_case
 
         values = self._values() | {key.replace("__", "."): value for key, value in fixed.items()}
+        if "method__model" in fixed:  # a comparison of several models has options of all of them
+            from stonepass.inputs.overlay import of_other_models
+
+            other = of_other_models(fixed["method__model"])
+            values = {key: value for key, value in values.items() if key not in other}
         try:
             return build_case(values)
         except BadInput as problem:
@@ -119,18 +123,10 @@ class Settings:
         except BadInput as problem:
             raise _in_options(problem) from problem
 
-    def model(self, name: str) -> Model:
-        """Make another model of the options that are its own, e.g. to compare two."""
-        from stonepass.inputs.build import build_model
-
-        try:
-            return build_model(name, self._values())
-        except BadInput as problem:
-            raise _in_options(problem) from problem
-
-    def without(self, *keys: str) -> Settings:
-        """Return the same settings without what was given for some inputs."""
-        return replace(self, given={k: v for k, v in self.given.items() if k not in keys})
+    @property
+    def wetted(self) -> bool:
+        """Whether the direct model is wetted, for commands that compare it with another."""
+        return bool(self._values().get("method.wetted", False))
 
     def _values(self) -> dict[str, Any]:
         from stonepass.inputs.overlay import overlay, refuse_pairs

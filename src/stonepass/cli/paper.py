@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Annotated
 
@@ -50,6 +49,7 @@ def command(
     from stonepass.paper.claims_table import claims_table
     from stonepass.paper.run import chosen, reproduce
     from stonepass.paper.section import Asked
+    from stonepass.studies.executor import CORES, process_pool
     from stonepass.studies.solution_cache import SolutionCache
     from stonepass.units import pressure
 
@@ -57,9 +57,8 @@ def command(
     asked = Asked(pressure(limit, "--limit"), () if points is None else read_points(points))
     folder = cache_folder(cache, no_cache)
     before = 0 if folder is None else SolutionCache(folder).set_aside()
-    count = workers or os.cpu_count() or 1
-    with counting("solving") as progress:
-        sections = reproduce(names, out, asked, folder, count, progress)
+    with process_pool(workers or CORES) as pool, counting("solving") as progress:
+        sections = reproduce(names, out, asked, pool, folder, progress)
     claims = [claim for section in sections for claim in section.claims]
     if claims:
         show(claims_table(claims))

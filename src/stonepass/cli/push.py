@@ -7,12 +7,20 @@ from typing import Annotated
 
 import typer
 
-from stonepass.cli.options import BEAM_OPTIONS, CLOSURE_OPTIONS, Json, Settings, takes_settings
+from stonepass.cli.closures import CLOSURE_CHOICES
+from stonepass.cli.options import (
+    Cache,
+    Json,
+    NoCache,
+    Settings,
+    cache_folder,
+    takes_settings,
+)
 
 __all__ = ["command"]
 
 
-@takes_settings("model", *CLOSURE_OPTIONS, *BEAM_OPTIONS)
+@takes_settings(*CLOSURE_CHOICES, models=("paper", "direct"))
 def command(
     settings: Settings,
     json: Json = False,
@@ -20,7 +28,7 @@ def command(
         str | None,
         typer.Option("--to", metavar="PRESSURE", help="Highest pressure.  [default: the critical]"),
     ] = None,
-    steps: Annotated[int, typer.Option("--steps", help="Pressures, 0 included.")] = 13,
+    steps: Annotated[int, typer.Option("--steps", help="Number of pressures, 0 included.")] = 13,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="P.csv", help="Write the states as CSV.")
     ] = None,
@@ -31,6 +39,8 @@ def command(
     animation: Annotated[
         Path | None, typer.Option("--animation", metavar="P.gif", help="Show the pressure rising.")
     ] = None,
+    cache: Cache = None,
+    no_cache: NoCache = False,
 ) -> int:
     """Raise the urine pressure on a held stone, up to where it would move.
 
@@ -50,13 +60,15 @@ def command(
         write_rising,
     )
     from stonepass.report.style import save
-    from stonepass.studies.rising import raise_pressure
+    from stonepass.studies.rising import RisingPressure
+    from stonepass.studies.study import run_study
     from stonepass.units import pressure
 
     top = None if to is None else pressure(to, "--to")
-    case = settings.case()
+    study = RisingPressure(settings.case(method__model="paper"), top, steps, settings.wetted)
+    folder = cache_folder(cache, no_cache)
     with working("raising the pressure"):
-        rising = raise_pressure(case, top, steps)
+        rising = run_study(study, cache_folder=folder)
         if rising.states:
             if out is not None:
                 write_rising(rising, out)

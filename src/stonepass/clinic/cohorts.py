@@ -18,7 +18,7 @@ ITSELF, QUOTED = "itself", "quoted"
 
 @dataclass(frozen=True)
 class Rate:
-    """The share of stones of a size that passed.
+    """The fraction of stones of a size that passed.
 
     `label` is the size class as printed; `low` ≤ size < `high`, in mm, is how it is looked up.
     `days` is the mean time to pass where the source has it; `passed` is None where it has that
@@ -35,7 +35,7 @@ class Rate:
 
 @dataclass(frozen=True)
 class Cohort:
-    """A published cohort: shares by size, and by place."""
+    """A published cohort: fractions that passed by size, and by place."""
 
     name: str
     source: str

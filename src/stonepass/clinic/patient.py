@@ -1,20 +1,31 @@
-"""One person: what imaging says of stone and ureter, each number with its uncertainty."""
+"""One patient: what imaging says of stone and ureter, each number with its uncertainty."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
+
+from pydantic import Field, create_model
 
 from stonepass.clinic.cohorts import PLACES
 from stonepass.errors import BadInput, refuse_unknown, require
-from stonepass.inputs.case_file import FileSection, LoadSection, MethodSection
+from stonepass.inputs.build import build_load, build_method, in_words
+from stonepass.inputs.catalogue import all_inputs
 from stonepass.inputs.material_file import find_material
+from stonepass.inputs.sections import FileSection, section_model, section_values
 from stonepass.inputs.shape_file import read_shape
 from stonepass.io.toml_file import read_toml
 from stonepass.materials.protocol import Material
-from stonepass.model.case import DIAMETER, FRICTION, SIZE_RATIO, Case, Load, Method, Stone, Ureter
+from stonepass.model.answer import Model
+from stonepass.model.case import Case
+from stonepass.model.load import Load
+from stonepass.model.models.seated_balance import SeatedBalance
+from stonepass.model.numerics import Numerics
 from stonepass.model.shape import ASPECT, Shape
+from stonepass.model.stone import DIAMETER, FRICTION, SIZE_RATIO, Stone
+from stonepass.model.ureter import Ureter
 from stonepass.studies.uncertain_quantity import UncertainQuantity, measured_length, measured_number
 from stonepass.units import Length, Pressure, pressure
 
@@ -24,7 +35,7 @@ STIFFNESS = (0.05, 20.0)
 LIMIT = (100.0, 1e5)  # Pa
 SAMPLES = (256, 65_536)
 LARGEST_SEED = 2**32
-# What nobody measures in a person, and what stands in where the file is silent.
+# What nobody measures in a patient, and what stands in where the file is silent.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
 WHY_FRICTION = (
     "friction is taken from 0.05 to 0.5: nobody has measured it between a stone and a ureter; "
@@ -34,6 +45,12 @@ WHY_STIFFNESS = (
     "the wall's stiffness is taken to be 1 ± 0.3 times the material's: how much people differ "
     "is not published"
 )
+# Inputs of the sections that are those of a case file, as the file names them.
+SHARED_WORDS = {
+    each.title: f"'{key}'"
+    for key, each in all_inputs().items()
+    if each.section in ("load", "method")
+}
 # Every number that may be uncertain, by its name in the file.
 INPUTS = {
     "stone_diameter": "stone diameter",
@@ -49,7 +66,7 @@ INPUTS = {
 
 @dataclass(frozen=True)
 class Patient:
-    """What is known of one person.
+    """What is known of one patient.
 
     Attributes
     ----------
@@ -65,7 +82,8 @@ class Patient:
         In `cohorts.PLACES`.
     shape : Shape
     load : Load
-    method : Method
+    model : Model
+    numerics : Numerics
     samples, seed : int
     assumed : tuple of str
         What the file leaves to us, in sentences.
@@ -77,7 +95,8 @@ class Patient:
     place: str | None = None
     shape: Shape = field(default_factory=Shape)
     load: Load = field(default_factory=Load)
-    method: Method = field(default_factory=Method)
+    model: Model = field(default_factory=SeatedBalance)
+    numerics: Numerics = field(default_factory=Numerics)
     samples: int = 4096
     seed: int = 1
     assumed: tuple[str, ...] = ()
@@ -88,7 +107,7 @@ class Patient:
         return "dilated_inner_diameter" in self.measured
 
     def with_limit(self, limit: str | Pressure) -> Patient:
-        """Return the same person with another pressure limit."""
+        """Return the same patient with another pressure limit."""
         return replace(self, limit=_limit(limit))
 
     def case(self) -> Case:
@@ -99,7 +118,8 @@ class Patient:
         ureter = Ureter(Length(inner), Length(outer), self.material)
         stone = Stone(Length(value["stone_diameter"]), value["friction"], shape=self.shape)
         outside = Pressure(self.load.confining_pressure / value["stiffness"])
-        return Case(stone, ureter, replace(self.load, confining_pressure=outside), self.method)
+        return Case(stone, ureter, replace(self.load, confining_pressure=outside),
+                    self.model, self.numerics)  # fmt: skip
 
 
 class _Stone(FileSection):
@@ -129,17 +149,23 @@ class _Assessment(FileSection):
     seed: int = 1
 
 
-class _PatientFile(FileSection):
+class _OwnSections(FileSection):
     stone: _Stone
     ureter: _Ureter
     assessment: _Assessment
     dilated: _Dilated | None = None
-    load: LoadSection = LoadSection()
-    method: MethodSection = MethodSection()
+
+
+# The sections that a patient's file shares with a case file follow from the declared inputs.
+_SHARED: dict[str, Any] = {
+    name: (section_model(name), Field(default_factory=section_model(name)))
+    for name in ("load", "method")
+}
+_PatientFile = create_model("_PatientFile", __base__=_OwnSections, **_SHARED)
 
 
 def read_patient(path: str | Path) -> Patient:
-    """Read a person's file; files of materials and shapes are looked for beside it.
+    """Read a patient's file; files of materials and shapes are looked for beside it.
 
     Raises
     ------
@@ -150,12 +176,12 @@ def read_patient(path: str | Path) -> Patient:
     path = Path(path)
     parsed = read_toml(path, _PatientFile)
     try:
-        return _person(parsed, path.parent)
+        return _patient(parsed, path.parent)
     except BadInput as problem:
-        raise problem.within(path.name) from problem
+        raise in_words(problem, SHARED_WORDS).within(path.name) from problem
 
 
-def _person(parsed: _PatientFile, folder: Path) -> Patient:
+def _patient(parsed: Any, folder: Path) -> Patient:
     stone, ureter, dilated = parsed.stone, parsed.ureter, parsed.dilated
     walls = [ureter.outer_diameter, ureter.wall_thickness]
     if sum(wall is not None for wall in walls) != 1:
@@ -194,20 +220,23 @@ def _person(parsed: _PatientFile, folder: Path) -> Patient:
         )
         if given == default  # written out or not, nobody measured it
     ]
-    person = Patient(
+    values = section_values(parsed.method, "method")
+    model, numerics = build_method(values, folder)
+    patient = Patient(
         measured=measured,
         material=find_material(ureter.material, folder),
         limit=_limit(parsed.assessment.limit),
         place=stone.place,
         shape=_shape(stone, folder),
-        load=Load(**parsed.load.model_dump()),
-        method=parsed.method.method(folder),
+        load=build_load(section_values(parsed.load, "load")),
+        model=model,
+        numerics=numerics,
         samples=count,
         seed=seed,
         assumed=tuple(assumed),
     )
-    person.case()  # refuses what the measured values themselves cannot be
-    return person
+    patient.case()  # refuses what the measured values themselves cannot be
+    return patient
 
 
 def _limit(value: str | Pressure) -> Pressure:

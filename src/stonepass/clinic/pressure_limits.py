@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from stonepass.units import Pressure
 
-__all__ = ["LIMITS", "PressureLimit", "limit_told"]
+__all__ = ["LIMITS", "PressureLimit", "describe_limit"]
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,8 @@ LIMITS = (
 )
 
 
-def limit_told(limit: float) -> str:
-    """What a limit in Pa is: that of the list, or the user's own."""
+def describe_limit(limit: float) -> str:
+    """Return what a limit in Pa stands for: that of the list, or the user's own."""
     for known in LIMITS:
         if abs(limit - known.pressure) < 1e-6 * known.pressure:
             return f"{known.what} ({known.source})"

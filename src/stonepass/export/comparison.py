@@ -9,7 +9,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
 from stonepass.model.models.seated_balance import balance_pressure
-from stonepass.model.states.seated import Contact, SeatedState
+from stonepass.model.states.seated_state import Contact, SeatedState
 
 __all__ = ["Comparison", "compare"]
 

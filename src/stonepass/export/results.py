@@ -14,7 +14,7 @@ from stonepass.errors import require
 from stonepass.export.seating import KPA, MM, Seating
 from stonepass.io.text_file import read_text
 from stonepass.model.states.nondimensional import profile_of
-from stonepass.model.states.seated import Contact
+from stonepass.model.states.seated_state import Contact
 
 __all__ = ["read_contact"]
 

@@ -10,7 +10,7 @@ from stonepass.errors import Misplaced
 from stonepass.inputs.catalogue import MODEL, all_inputs, models_with
 from stonepass.model.models.registry import MODELS
 
-__all__ = ["EXCLUSIVE", "overlay", "refuse_pairs"]
+__all__ = ["EXCLUSIVE", "of_other_models", "overlay", "refuse_pairs"]
 
 # Inputs that say the same thing in two ways: the one given displaces the others.
 EXCLUSIVE = (
@@ -32,13 +32,18 @@ def overlay(base: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]
     displaced = {there for pair in EXCLUSIVE for here, there in (pair, pair[::-1]) if here in given}
     displaced |= {there for (key, value), there in DISPLACING.items() if given.get(key) == value}
     if MODEL in given and given[MODEL] in MODELS:
-        kept = inputs_of(MODELS[given[MODEL]])
-        displaced |= {
-            key
-            for key, each in all_inputs().items()
-            if each.section == "method" and models_with(each.name) and each.name not in kept
-        }
+        displaced |= of_other_models(given[MODEL])
     return {key: value for key, value in base.items() if key not in displaced} | dict(given)
+
+
+def of_other_models(name: str) -> set[str]:
+    """Keys of the options that a model does not have, but another one has."""
+    kept = inputs_of(MODELS[name])
+    return {
+        key
+        for key, each in all_inputs().items()
+        if each.section == "method" and models_with(each.name) and each.name not in kept
+    }
 
 
 def refuse_pairs(given: Mapping[str, Any], words: Mapping[str, str]) -> None:

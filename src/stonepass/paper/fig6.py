@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -29,7 +30,7 @@ LINES = ("-", "-", "--")
 class Fig6:
     """Three tubes, in air and under 540 mm of water, with measured points where they are given."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """Curves, and the cases of the points."""
         curves = [
             PressureJob(latex_case(eta, xi, load))

@@ -40,7 +40,7 @@ Line = dict[float, tuple[Outcome, float | None]]  # η: ξ_cr at the limit
 class Fig8:
     """P_ucr(ξ) of both walls, its surface over η, and what confining pressure does."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """Curves with and without confining pressure, the surface, critical sizes."""
         loads = (Load(), *(Load(p) for p in CONFINING))
         curves = [ureter_case(e, x, load) for e in PUBLISHED for load in loads for x in SIZES]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -33,7 +34,7 @@ FRICTIONS = tuple(float(x) for x in np.round(np.linspace(0.1, 1.5, 15), 10))
 class Fig9:
     """P_ucr by beam and by finite elements; ξ_cr by the beam over its inputs."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """The finite-element curve; the beam costs nothing."""
         return [PressureJob(ureter_case(WALL, xi)) for xi in SIZES]
 

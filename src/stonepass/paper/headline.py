@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from stonepass.model.answer import Answer
-from stonepass.model.case import Load
+from stonepass.model.case import Case
+from stonepass.model.load import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, LIMIT, PUBLISHED, ureter_case
-from stonepass.studies.jobs import Job, PressureJob, SizeJob, run_jobs
+from stonepass.studies.jobs import PressureJob, Results, SizeJob
 
-__all__ = ["Wall", "headline"]
+__all__ = ["Headline", "Wall"]
 
 SIZE_RATIOS = tuple(float(x) for x in np.round(np.linspace(1.0, 1.3, 11), 10))
 
@@ -46,26 +46,35 @@ class Wall:
         return None if self.size.size_ratio is None else self.size.size_ratio - self.published
 
 
-def headline(progress: Callable[[int, int], None] | None = None, workers: int = 1) -> list[Wall]:
-    """Compute P_ucr(ξ), ξ_cr at 12 kPa, and what confining pressure adds, for both walls.
+@dataclass(frozen=True)
+class Headline:
+    """The study of both walls: P_ucr(ξ), ξ_cr at 12 kPa, and what confining pressure adds."""
 
-    `progress` is told (done, all) after every case and every critical size.
-    """
-    loads = [Load(), *(Load(p) for p in CONFINING)]
-    curves = {eta: [ureter_case(eta, xi) for xi in SIZE_RATIOS] for eta in PUBLISHED}
-    confined = {eta: [ureter_case(eta, xi, p) for p in loads] for eta, xi in PUBLISHED.items()}
-    jobs: list[Job] = [SizeJob(stones[-1], LIMIT) for stones in curves.values()]
-    jobs += [
-        PressureJob(case) for each in (curves, confined) for row in each.values() for case in row
-    ]
-    found = run_jobs(jobs, None, workers, progress)
-    return [
-        Wall(
-            eta,
-            published,
-            found.size(curves[eta][-1], LIMIT),
-            [found.answer(case) for case in curves[eta]],
-            [found.answer(case) for case in confined[eta]],
-        )
-        for eta, published in PUBLISHED.items()
-    ]
+    def jobs(self) -> list[PressureJob | SizeJob]:
+        """Return the two critical sizes and every case of the curves."""
+        cases = [case for eta in PUBLISHED for case in (*_curve(eta), *_confined(eta))]
+        sizes = [SizeJob(_curve(eta)[-1], LIMIT) for eta in PUBLISHED]
+        return [*sizes, *map(PressureJob, cases)]
+
+    def reduce(self, results: Results) -> list[Wall]:
+        """Return the thin wall and the thick one."""
+        return [
+            Wall(
+                eta,
+                published,
+                results.size(_curve(eta)[-1], LIMIT),
+                [results.answer(case) for case in _curve(eta)],
+                [results.answer(case) for case in _confined(eta)],
+            )
+            for eta, published in PUBLISHED.items()
+        ]
+
+
+def _curve(wall_ratio: float) -> list[Case]:
+    return [ureter_case(wall_ratio, xi) for xi in SIZE_RATIOS]
+
+
+def _confined(wall_ratio: float) -> list[Case]:
+    """The published critical size without and with each confining pressure."""
+    loads = [Load(), *(Load(pressure) for pressure in CONFINING)]
+    return [ureter_case(wall_ratio, PUBLISHED[wall_ratio], load) for load in loads]

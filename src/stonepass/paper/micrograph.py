@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from stonepass.paper.inputs import SLOPES
 from stonepass.paper.section import Asked, Claim, Section
@@ -15,7 +16,7 @@ __all__ = ["Eq18"]
 class Eq18:
     """The published slopes by Eq. 18."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """Nothing to solve."""
         return []
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from stonepass.errors import refuse_unknown
 from stonepass.io.folder import require_writable
@@ -18,20 +19,38 @@ from stonepass.paper.seated_figures import Fig4, Fig5, Fig7
 from stonepass.paper.section import Asked, Section
 from stonepass.paper.sensitivity import Sensitivity
 from stonepass.report.table import grouped_warnings
-from stonepass.studies.executor import executor
-from stonepass.studies.jobs import Job, Results, run_jobs
+from stonepass.studies.jobs import Job, Progress, Results
+from stonepass.studies.study import run_studies
 
-__all__ = ["PARTS", "Part", "chosen", "reproduce"]
+__all__ = ["PARTS", "Part", "PartStudy", "chosen", "reproduce"]
 
 
 class Part(Protocol):
-    """A part of the paper."""
+    """A part of the paper; see `PartStudy`, which makes a study of it."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
-        """What must be solved for it."""
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
+        """Return what must be solved for it."""
 
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Write pictures and data into a folder."""
+        """Write pictures and data into a folder and return what the page says of them."""
+
+
+@dataclass(frozen=True)
+class PartStudy:
+    """A part of the paper as a study whose outcome is its section, written into `folder`."""
+
+    part: Part
+    asked: Asked
+    folder: Path
+
+    def jobs(self) -> list[Job[Any]]:
+        """Return the jobs of the part."""
+        return self.part.jobs(self.asked)
+
+    def reduce(self, results: Results) -> Section:
+        """Write the part and return its section, with the warnings behind its answers."""
+        section = self.part.write(results, self.asked, self.folder)
+        return replace(section, warnings=_warnings(results))
 
 
 PARTS: dict[str, Part] = {
@@ -63,9 +82,9 @@ def reproduce(
     names: Sequence[str],
     folder: Path,
     asked: Asked,
-    store: Path | None = None,
-    workers: int = 1,
-    progress: Callable[[int, int], None] | None = None,
+    executor: Executor | None = None,
+    cache_folder: Path | None = None,
+    progress: Progress | None = None,
 ) -> list[Section]:
     """Solve what the parts need, write them into `folder`, and ``index.html`` over them.
 
@@ -73,25 +92,26 @@ def reproduce(
     ----------
     names : sequence of str
         Parts (see `chosen`).
+    folder : Path
+        Made on demand.
     asked : Asked
         Limit and measured points.
-    store : Path, optional
-        Folder of remembered finite-element results; without one everything is solved.
-    progress : callable
-        Told (done, all) of the jobs.
+    executor : concurrent.futures.Executor, optional
+        By default the work runs in this process.
+    cache_folder : Path, optional
+        Folder of the solution cache; without one everything is solved.
+    progress : callable, optional
+        Is called with (done, all) after each job.
+
+    Raises
+    ------
+    BadInput
+        For an unknown part, or a folder that cannot be written.
     """
     wanted = chosen(names)
     require_writable(folder, "output folder")
-    jobs = {name: PARTS[name].jobs(asked) for name in wanted}
-    found = run_jobs([job for each in jobs.values() for job in each], store, workers, progress)
-    with executor(workers) as pool:
-        parts = [
-            pool.submit(PARTS[name].write, found.of(jobs[name]), asked, folder) for name in wanted
-        ]
-        sections = [
-            replace(part.result(), warnings=_warnings(found.of(jobs[name])))
-            for name, part in zip(wanted, parts, strict=True)
-        ]
+    studies = [PartStudy(PARTS[name], asked, folder) for name in wanted]
+    sections = run_studies(studies, executor, cache_folder, progress)
     write_page(sections, asked, folder / "index.html")
     return sections
 
@@ -99,5 +119,5 @@ def reproduce(
 def _warnings(found: Results) -> tuple[str, ...]:
     """What the answers behind a part warn of, each kind once; errors are left out on purpose."""
     sizes = [size.at_size for size in found.sizes.values() if size.at_size is not None]
-    told = grouped_warnings([*found.pressures.values(), *sizes])
-    return tuple(each for each in told if "the error is not estimated" not in each)
+    answers = [*found.pressures.values(), *sizes]
+    return tuple(grouped_warnings(answers, left_out=("error_not_estimated",)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,7 +35,7 @@ SHADES = ("blue", "orange", "green", "pink", "grey")
 class Fig4:
     """Latex tubes: section and contact pressure of three walls."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """One state with its wall for each tube."""
         return [PressureJob(case, wall=True) for case in _latex()]
 
@@ -54,7 +55,7 @@ class Fig4:
 class Fig5:
     """The two ureters before and after the stone is in its place."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """One state with its wall for each."""
         return [PressureJob(case, wall=True) for case in _ureters()]
 
@@ -93,7 +94,7 @@ class Fig5:
 class Fig7:
     """The two ureters: section and contact pressure, and its profile over the size of the stone."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """Two states with their walls, and profiles of other sizes."""
         return [
             *(PressureJob(case, wall=True) for case in _ureters()),

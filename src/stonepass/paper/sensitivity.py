@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from stonepass.errors import UnstableLaw
 from stonepass.materials.catalogue import material
@@ -53,7 +54,7 @@ class Choice:
 class Sensitivity:
     """ξ_cr of both walls under each choice."""
 
-    def jobs(self, asked: Asked) -> list[Job]:
+    def jobs(self, asked: Asked) -> list[Job[Any]]:
         """A critical size for each choice whose law is one of a solid."""
         return [
             SizeJob(choice.case(eta), asked.limit)

@@ -7,11 +7,12 @@ from html import escape
 from pathlib import Path
 
 from stonepass.about import DISCLAIMER, VERSION
-from stonepass.clinic.assessment import FEWER, MORE, Assessment, contradiction
+from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import Cohort, Row
-from stonepass.clinic.pressure_limits import LIMITS, limit_told
-from stonepass.report.assess_figure import cohorts_figure, drivers_figure, pressures_figure
-from stonepass.report.assess_report import CAUTION, measured_told, range_told
+from stonepass.clinic.fractions import FEWER, MORE, contradiction
+from stonepass.clinic.pressure_limits import LIMITS, describe_limit
+from stonepass.report.assess_figure import cohorts_figure, pressures_figure, sensitivity_figure
+from stonepass.report.assess_report import CAUTION, describe_inputs, describe_range
 from stonepass.report.html import inline_svg, write_html
 
 __all__ = ["write_assessment"]
@@ -74,16 +75,16 @@ def _cards(found: Assessment) -> list[str]:
         ("present urine pressure", found.present),
     ):
         if values is not None:
-            median, interval = range_told(values)
+            median, interval = describe_range(values)
             beside = "; measured above stones: 1.9 to 6 kPa" if values is found.present else ""
             cards.append((median, f"{name}, median; 90 %: {interval}{beside}"))
-    limit = f"{found.person.limit / 1e3:.4g} kPa"
-    for name, share in (
+    limit = f"{found.patient.limit / 1e3:.4g} kPa"
+    for name, fraction in (
         (f"of samples: critical pressure below the limit, {limit}", found.below_limit),
         ("of samples: critical pressure below the present one", found.below_present),
     ):
-        if share is not None:
-            cards.append((share.told(), name))
+        if fraction is not None:
+            cards.append((fraction.describe(), name))
     if found.critical is not None:
         loose = f"{round(100 * found.loose)} %"
         cards.append((loose, "of samples: stone no larger than the lumen (critical pressure 0)"))
@@ -99,27 +100,27 @@ def _pressures(found: Assessment) -> list[str]:
         return []
     parts = [
         "<h2>Over every pressure</h2>",
-        inline_svg(pressures_figure(found), "Share of samples over urine pressure"),
+        inline_svg(pressures_figure(found), "Fraction of samples over urine pressure"),
     ]
-    if found.drivers:
+    if found.sensitivity:
         parts += [
             "<h2>What the spread of the critical pressure comes from (with interactions)</h2>",
-            inline_svg(drivers_figure(found), "Share of the spread by input"),
+            inline_svg(sensitivity_figure(found), "Sensitivity index by input"),
         ]
     return parts
 
 
 def _inputs(found: Assessment) -> list[str]:
-    person = found.person
-    limit = f"{person.limit / 1e3:.4g} kPa: {limit_told(person.limit)}"
-    rows = [*measured_told(found).items()]
-    if person.place is not None:
-        rows.append(("place", person.place))
+    patient = found.patient
+    limit = f"{patient.limit / 1e3:.4g} kPa: {describe_limit(patient.limit)}"
+    rows = [*describe_inputs(found).items()]
+    if patient.place is not None:
+        rows.append(("place", patient.place))
     rows.append(("pressure limit", limit))
-    told = "".join(f"<li><b>{escape(name)}:</b> {escape(text)}</li>" for name, text in rows)
+    items = "".join(f"<li><b>{escape(name)}:</b> {escape(text)}</li>" for name, text in rows)
     return [
         "<h2>What it was computed from (±: one standard deviation)</h2>",
-        f'<ul class="inputs">{told}</ul>',
+        f'<ul class="inputs">{items}</ul>',
     ]
 
 
@@ -133,17 +134,18 @@ def _cohorts(found: Assessment) -> list[str]:
         for cohort, rows in by_cohort.items()
     )
     head = (
-        '<tr><th class="who">cohort</th><th>passed (the model\'s share below the limit); '
+        '<tr><th class="who">cohort</th><th>passed (the model\'s fraction below the limit); '
         "↑ more, ↓ fewer than the model expects</th></tr>"
     )
     return [
         "<h2>What cohorts saw in such stones</h2>",
-        "<p>The share that passed, and the share of samples that move below the limit, are two "
-        "different things; where they lie more than 20 points apart it is said. Of a size class "
-        "the model's share is that of the samples whose stone belongs to it. What counts as the "
+        "<p>The fraction that passed, and the fraction of samples that move below the limit, are "
+        "two different things; an arrow marks where they lie more than 20 points apart. For a "
+        "size class the model's fraction is that of the samples whose stone belongs to it. What "
+        "counts as the "
         "lumen moves the model more than any other input: excised and empty ureters are far "
         "narrower than those in contrast CT.</p>",
-        inline_svg(cohorts_figure(found), "Shares that passed by size, and the model's"),
+        inline_svg(cohorts_figure(found), "Fractions that passed by size, and the model's"),
         f'<div class="scroll"><table><thead>{head}</thead><tbody>{body}</tbody></table></div>',
     ]
 
@@ -152,11 +154,11 @@ def _passed(found: Assessment, row: Row) -> str:
     days = "" if row.days is None else f"{row.days:g} days"
     if row.passed is None:
         return escape(f"{row.group}: {days}")
-    share = found.beside(row)
-    word = contradiction(row.passed, share)
-    model = "" if share is None else f" ({share.told()})"
-    told = escape(f"{row.group}: {round(100 * row.passed)} %{', ' + days if days else ''}{model}")
-    return f'<span class="off">{told} {FAR[word]}</span>' if word in FAR else told
+    fraction = found.beside(row)
+    word = contradiction(row.passed, fraction)
+    model = "" if fraction is None else f" ({fraction.describe()})"
+    text = escape(f"{row.group}: {round(100 * row.passed)} %{', ' + days if days else ''}{model}")
+    return f'<span class="off">{text} {FAR[word]}</span>' if word in FAR else text
 
 
 def _warnings(found: Assessment) -> list[str]:
@@ -181,14 +183,14 @@ def _sources(found: Assessment) -> list[str]:
 
 
 def _how(found: Assessment) -> str:
-    person = found.person
+    patient = found.patient
     if found.samples is None:
         return f"{found.solves} solves."
     return (
-        f"{len(found.samples.critical)} samples, seed {person.seed}, of a response surface through "
-        f"{found.solves} solves, off by up to {found.surface_error:.1%} in 95 of 100 places "
-        f"(one solve left out at a time); {found.possible:.0%} of the draws describe a possible "
-        "wall."
+        f"{len(found.samples.critical)} samples, seed {patient.seed}, of a response surface "
+        f"through {found.solves} solves, off by up to {found.surface_error:.1%} in 95 of 100 "
+        f"places (one solve left out at a time); {found.possible:.0%} of the draws describe a "
+        "possible wall."
     )
 
 

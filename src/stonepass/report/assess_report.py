@@ -9,37 +9,38 @@ from rich import box
 from rich.table import Table
 
 from stonepass.about import DISCLAIMER, VERSION
-from stonepass.clinic.assessment import Assessment, Range, Share, contradiction
+from stonepass.clinic.assessment import Assessment
+from stonepass.clinic.fractions import Fraction, Range, contradiction
 from stonepass.clinic.patient import INPUTS
-from stonepass.clinic.pressure_limits import limit_told
-from stonepass.records.answer import record
+from stonepass.clinic.pressure_limits import describe_limit
+from stonepass.records.answer import answer_record
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
-__all__ = ["CAUTION", "assess_record", "assess_tables", "measured_told", "range_told"]
+__all__ = ["CAUTION", "assess_record", "assess_tables", "describe_inputs", "describe_range"]
 
 CAUTION = (
-    "The shares speak of the inputs' uncertainty in a model of a passive tube. They are no chance "
-    "of passing: peristalsis, muscle tone, time and swelling are not in it."
+    "The fractions speak of the inputs' uncertainty in a model of a passive tube. They are no "
+    "chance of passing: peristalsis, muscle tone, time and swelling are not in it."
 )
 LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
 
 
 def assess_record(found: Assessment, file: str) -> dict[str, Any]:
-    """All of it as a JSON-ready record; `file` is where the person stands."""
-    person = found.person
+    """Return the assessment as a JSON-ready record; `file` names the patient's file."""
+    patient = found.patient
     return {
         "outcome": found.outcome.name,
         "message": found.message,
         "critical_pressure_kPa": _range(found.critical),
         "critical_pressure_at_values_kPa": None if found.central is None else found.central / 1e3,
-        "at_values": record(found.at_values),
+        "at_values": answer_record(found.at_values).to_dict(),
         "present_pressure_kPa": _range(found.present),
-        "critical_below_limit": _share(found.below_limit),
-        "critical_below_present": _share(found.below_present),
+        "critical_below_limit": _fraction(found.below_limit),
+        "critical_below_present": _fraction(found.below_present),
         "no_larger_than_lumen": found.loose,
-        "drivers": {driver.name: driver.share for driver in found.drivers},
+        "sensitivity": {each.name: each.total for each in found.sensitivity},
         "by_size": [
-            {"diameter_mm": size, **(_share(share) or {})} for size, share in found.by_size
+            {"diameter_mm": size, **(_fraction(each) or {})} for size, each in found.by_size
         ],
         "cohorts": [
             {
@@ -50,7 +51,7 @@ def assess_record(found: Assessment, file: str) -> dict[str, Any]:
                 "group": row.group,
                 "passed": row.passed,
                 "days": row.days,
-                "model": _share(found.beside(row)),
+                "model": _fraction(found.beside(row)),
                 "comparison": ""
                 if row.passed is None
                 else contradiction(row.passed, found.beside(row)),
@@ -67,14 +68,14 @@ def assess_record(found: Assessment, file: str) -> dict[str, Any]:
                     "high": None if each.sd is not None else each.high,
                     "unit": "m" if name in LENGTHS else "",
                 }
-                for name, each in person.measured.items()
+                for name, each in patient.measured.items()
             },
-            "material": person.material.name,
-            "place": person.place,
-            "limit_kPa": person.limit / 1e3,
-            "limit_source": limit_told(person.limit),
-            "samples": person.samples,
-            "seed": person.seed,
+            "material": patient.material.name,
+            "place": patient.place,
+            "limit_kPa": patient.limit / 1e3,
+            "limit_source": describe_limit(patient.limit),
+            "samples": patient.samples,
+            "seed": patient.seed,
         },
         "accuracy": {
             "possible": found.possible,
@@ -90,51 +91,55 @@ def assess_record(found: Assessment, file: str) -> dict[str, Any]:
 
 
 def assess_tables(found: Assessment) -> list[Table]:
-    """Pressures and shares, what drives them, cohorts."""
+    """Return tables of pressures and fractions, of the sensitivity, and of cohorts."""
     tables = [_pressures(found)]
-    if found.drivers:
-        tables.append(_drivers(found))
+    if found.sensitivity:
+        tables.append(_sensitivity(found))
     return [*tables, _cohorts(found)]
 
 
-def measured_told(found: Assessment) -> dict[str, str]:
-    """Every input in words, by what it is called."""
-    person = found.person
-    told = {
-        INPUTS[name]: each.told(METRE_PER_MM, "mm") if name in LENGTHS else each.told()
-        for name, each in person.measured.items()
-    } | {"wall": person.material.name}
-    load, method, shape = person.load, person.method, person.shape
+def describe_inputs(found: Assessment) -> dict[str, str]:
+    """Return every input in words, by its name for a reader."""
+    patient = found.patient
+    inputs = {
+        INPUTS[name]: each.describe(METRE_PER_MM, "mm") if name in LENGTHS else each.describe()
+        for name, each in patient.measured.items()
+    } | {"wall": patient.material.name}
+    load, model, shape = patient.load, patient.model, patient.shape
     if load.confining_pressure > 0.0:
         outside = f"{load.confining_pressure / 1e3:g} kPa, {load.confinement}"
-        told["confining pressure"] = outside
+        inputs["confining pressure"] = outside
     if load.prestretch != 1.0:
-        told["pre-stretch"] = f"{load.prestretch:g}"
+        inputs["pre-stretch"] = f"{load.prestretch:g}"
     if not shape.spheroidal:
-        told["shape"] = Path(shape.reference).name or "of its own"
+        inputs["shape"] = Path(shape.reference).name or "of its own"
     elif shape.aspect != 1.0:
-        told["aspect"] = f"{shape.aspect:g}"
-    told["model"] = method.model if method.model == "direct" else f"paper, {method.seating}"
-    return told
+        inputs["aspect"] = f"{shape.aspect:g}"
+    seating = getattr(model, "seating", None)
+    inputs["model"] = model.NAME if seating is None else f"{model.NAME}, {seating}"
+    return inputs
 
 
-def range_told(found: Range | None, unit: str = "kPa") -> tuple[str, str]:
-    """Median and interval in words, in kPa or mmHg."""
+def describe_range(found: Range | None, unit: str = "kPa") -> tuple[str, str]:
+    """Return median and interval in words, in kPa or mmHg; empty without a range."""
     if found is None:
         return "", ""
     scale = PASCAL_PER[unit]
 
-    def told(value: float | None) -> str:
+    def in_words(value: float | None) -> str:
         if value is not None:
             return f"{float(f'{value / scale:.3g}'):g}"
         assert found.at_least is not None
         return f"above {float(f'{found.at_least / scale:.3g}'):g}"
 
-    return f"{told(found.median)} {unit}", f"{told(found.low)} to {told(found.high)} {unit}"
+    return (
+        f"{in_words(found.median)} {unit}",
+        f"{in_words(found.low)} to {in_words(found.high)} {unit}",
+    )
 
 
 def _pressures(found: Assessment) -> Table:
-    title = " · ".join(f"{name} {told}" for name, told in measured_told(found).items())
+    title = " · ".join(f"{name} {text}" for name, text in describe_inputs(found).items())
     table = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left")
     for name in ("", "median", "90 % interval", "mmHg"):
         table.add_column(name)
@@ -142,33 +147,34 @@ def _pressures(found: Assessment) -> Table:
     for name, values in rows:
         if values is not None:
             table.add_row(
-                f"[bold]{name}[/bold]", *range_told(values), range_told(values, "mmHg")[1]
+                f"[bold]{name}[/bold]", *describe_range(values), describe_range(values, "mmHg")[1]
             )
     if found.central is not None:
         table.add_row("critical, at the measured values", f"{found.central / 1e3:.3g} kPa", "", "")
     table.add_section()
-    limit = f"{found.person.limit / 1e3:.4g} kPa"
-    shares = (
+    limit = f"{found.patient.limit / 1e3:.4g} kPa"
+    fractions = (
         (f"critical below the limit, {limit}", found.below_limit),
         ("critical below the present pressure", found.below_present),
     )
-    for name, share in shares:
-        if share is not None:
-            table.add_row(f"[bold]{name}[/bold]", f"[bold]{_told(share)}[/bold]", "of samples")
+    for name, fraction in fractions:
+        if fraction is not None:
+            words = f"[bold]{_words(fraction)}[/bold]"
+            table.add_row(f"[bold]{name}[/bold]", words, "of samples")
     if found.critical is not None:
         table.add_row("of these: no larger than the lumen", f"{round(100 * found.loose)} %",
                       "of samples")  # fmt: skip
     return table
 
 
-def _drivers(found: Assessment) -> Table:
+def _sensitivity(found: Assessment) -> Table:
     table = Table(box=box.SIMPLE_HEAD)
     table.add_column("what the spread comes from (with interactions)")
     table.add_column("", justify="right")
     table.add_column("")
-    for driver in found.drivers:
-        bar = "█" * max(1, round(30 * driver.share))
-        table.add_row(driver.name, f"{round(100 * driver.share)} %", bar)
+    for each in found.sensitivity:
+        bar = "█" * max(1, round(30 * each.total))
+        table.add_row(each.name, f"{round(100 * each.total)} %", bar)
     return table
 
 
@@ -180,18 +186,18 @@ def _cohorts(found: Assessment) -> Table:
         passed = "" if row.passed is None else f"{round(100 * row.passed)} %"
         if row.days is not None:
             passed += f"{', ' if passed else ''}{row.days:g} days"
-        share = found.beside(row)
-        told = _told(share)
+        fraction = found.beside(row)
+        model = _words(fraction)
         if row.passed is not None:
-            told += f", {contradiction(row.passed, share)}" if told else ""
+            model += f", {contradiction(row.passed, fraction)}" if model else ""
         else:
-            told = ""
-        table.add_row(row.group, passed, row.cohort.name, told)
+            model = ""
+        table.add_row(row.group, passed, row.cohort.name, model)
     return table
 
 
-def _told(share: Share | None) -> str:
-    return "" if share is None else share.told()
+def _words(fraction: Fraction | None) -> str:
+    return "" if fraction is None else fraction.describe()
 
 
 def _range(found: Range | None) -> dict[str, float | None] | None:
@@ -208,5 +214,5 @@ def _range(found: Range | None) -> dict[str, float | None] | None:
     }
 
 
-def _share(share: Share | None) -> dict[str, float] | None:
-    return None if share is None else {"low": share.low, "high": share.high}
+def _fraction(fraction: Fraction | None) -> dict[str, float] | None:
+    return None if fraction is None else {"low": fraction.low, "high": fraction.high}

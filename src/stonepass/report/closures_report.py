@@ -12,7 +12,7 @@ from rich import box
 from rich.table import Table
 
 from stonepass.about import DISCLAIMER, VERSION
-from stonepass.records.answer import write_csv
+from stonepass.io.csv_file import write_csv
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 
@@ -49,7 +49,7 @@ def closures_record(found: ClosureComparison) -> dict[str, Any]:
     return {
         **_row(found),
         "message": found.message,
-        "warnings": list(found.warnings),
+        "warnings": [str(each) for each in found.warnings],
         "series_coefficients": None if series is None else list(series.coefficients),
         "version": VERSION,
         "disclaimer": DISCLAIMER,
@@ -68,8 +68,8 @@ def closures_figure(found: ClosureComparison) -> Figure:
 
     figure = new_figure(6.0, 4.2)
     axes = figure.add_subplot()
-    if found.pairs is not None and found.series is not None:
-        alpha, radius = found.pairs.arrays
+    if found.opening_curve is not None and found.series is not None:
+        alpha, radius = found.opening_curve.arrays
         xi, first = found.case.size_ratio, float(alpha[0])
         fine = np.linspace(first, np.pi / 2, 200)
         width = found.case.stone.shape.width(fine)

@@ -10,7 +10,7 @@ from rich import box
 from rich.table import Table
 
 from stonepass.export.comparison import Comparison
-from stonepass.records.answer import record
+from stonepass.records.answer import answer_record
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.report.table import case_title, significant
 
@@ -65,7 +65,7 @@ def compare_record(found: Comparison) -> dict[str, Any]:
     """Our record, and what CalculiX has for the same."""
     theirs = found.contact
     return {
-        **record(found.answer),
+        **answer_record(found.answer).to_dict(),
         "calculix": {
             "contact_angle_deg": float(np.degrees(theirs.contact_angle)),
             "equator_contact_pressure_kPa": theirs.equator_contact_pressure / KPA,

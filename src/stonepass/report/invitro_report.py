@@ -13,7 +13,7 @@ from stonepass.about import DISCLAIMER, VERSION
 from stonepass.bench.comparison import Comparison
 from stonepass.bench.invitro import Estimate, InVitro
 from stonepass.bench.least_squares import LEVEL
-from stonepass.records.answer import write_csv
+from stonepass.io.csv_file import write_csv
 from stonepass.report.table import significant
 
 __all__ = ["invitro_record", "invitro_table", "write_invitro"]
@@ -46,9 +46,9 @@ def invitro_record(found: InVitro, file: str) -> dict[str, Any]:
             "file": file,
             "material": found.setting.material.name,
             "confinement": found.setting.confinement,
-            "model": found.setting.method.model,
-            "seating": found.setting.method.seating,
-            "accuracy": found.setting.method.accuracy,
+            "model": found.setting.model.NAME,
+            "seating": getattr(found.setting.model, "seating", None),
+            "accuracy": found.setting.numerics.accuracy,
         },
         "warnings": [*found.warnings, *answers_warnings(found.comparison)],
         "version": VERSION,
@@ -68,7 +68,7 @@ def invitro_table(found: InVitro) -> list[Table]:
 
 def answers_warnings(comparison: Comparison) -> list[str]:
     """What the answers warn of, each sentence once."""
-    return list(dict.fromkeys(w for answer in comparison.answers for w in answer.warnings))
+    return list(dict.fromkeys(str(w) for answer in comparison.answers for w in answer.warnings))
 
 
 def _points(found: InVitro) -> Table:

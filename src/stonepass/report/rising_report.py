@@ -17,8 +17,8 @@ from rich.table import Table
 from stonepass.about import DISCLAIMER, VERSION
 from stonepass.errors import BadInput
 from stonepass.model.energy_balance import advance_force
-from stonepass.model.states.loaded import PushedState
-from stonepass.records.answer import write_csv
+from stonepass.model.states.loaded_state import PushedState
+from stonepass.io.csv_file import write_csv
 from stonepass.report.push_figure import draw_pressure, draw_wall
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.report.table import case_title, significant
@@ -86,16 +86,15 @@ def rising_rows(rising: Rising) -> list[dict[str, Any]]:
 def rising_record(rising: Rising) -> dict[str, Any]:
     """The states as a JSON-ready record."""
     critical = rising.critical
+    leak = getattr(critical.detail, "leak_pressure", None)
     return {
         "outcome": critical.outcome.name,
         "message": critical.message,
         "critical_pressure_kPa": None if critical.pressure is None else critical.pressure / 1e3,
-        "leak_pressure_kPa": (
-            None if critical.leak_pressure is None else critical.leak_pressure / 1e3
-        ),
+        "leak_pressure_kPa": None if leak is None else leak / 1e3,
         "states": rising_rows(rising),
         "reason": rising.reason,
-        "warnings": list(critical.warnings),
+        "warnings": [str(each) for each in critical.warnings],
         "version": VERSION,
         "disclaimer": DISCLAIMER,
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from rich import box
@@ -77,11 +77,16 @@ def curve_table(answers: Sequence[Answer]) -> Table:
     return table
 
 
-def grouped_warnings(answers: Sequence[Answer]) -> list[str]:
-    """One sentence for each kind of warning: in how many cases, and that of the last one."""
+def grouped_warnings(answers: Sequence[Answer], left_out: Collection[str] = ()) -> list[str]:
+    """One sentence for each kind of warning: in how many cases, and that of the last one.
+
+    `left_out` has codes of cautions that are not listed.
+    """
     kinds: dict[str, list[tuple[float, str]]] = {}
     for answer in answers:
         for warning in answer.warnings:
+            if warning.code in left_out:
+                continue
             kinds.setdefault(warning.code, []).append((answer.case.size_ratio, str(warning)))
     return [
         f"in {len(found)} of {len(answers)} cases, the last one ξ = {found[-1][0]:.4g}: "

@@ -2,26 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import as_completed
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from pathlib import Path
 
-from stonepass.errors import Outcome, require
+from stonepass.errors import BadInput, Outcome, require
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.closure import ORDER, Series
+from stonepass.model.caution import Caution, caution
+from stonepass.model.closure import ORDER, Series, series_through
 from stonepass.model.critical import solve
 from stonepass.model.energy_balance import advance_force
-from stonepass.model.models.seated_balance import balance_pressure, with_whole_law
+from stonepass.model.far_field import far_field_law
+from stonepass.model.models.push_through import PushThrough
+from stonepass.model.models.seated_balance import Closure, SeatedBalance, balance_pressure
 from stonepass.model.opening_curve import OpeningCurve
-from stonepass.model.states.loaded import PushedState, push_along
-from stonepass.model.states.opening import series_through, solve_opening_curve
-from stonepass.studies.executor import can_travel, executor
+from stonepass.model.states.loaded_state import PushedState
+from stonepass.model.states.seated_state import SeatedState
+from stonepass.model.states.state_solver import StateSolver
+from stonepass.model.states.uncached import UNCACHED
+from stonepass.studies.jobs import Results, state_solver
 from stonepass.units import Pressure
 
-__all__ = ["CLOSURES", "ClosureComparison", "closure_map", "compare_closures"]
+__all__ = [
+    "CLOSURES",
+    "ClosureComparison",
+    "ClosureJob",
+    "ClosureMap",
+    "compare_closures",
+    "seated_model",
+]
 
 # Names at the door, and what they say.
 CLOSURES = {
@@ -48,11 +59,11 @@ class ClosureComparison:
     outcome : Outcome
         Of the direct model.
     message : str
-    warnings : tuple of str
-        Of the paper's model and of the direct one, and why a closure has no pressure.
+    warnings : tuple of Caution
+        Those of the paper's model and of the direct one, and why a closure has no pressure.
     series : Series or None
         The fitted one.
-    pairs : OpeningCurve or None
+    opening_curve : OpeningCurve or None
         α and r_a/R_a of the direct states it was fitted to.
     """
 
@@ -60,9 +71,9 @@ class ClosureComparison:
     pressures: dict[str, float | None]
     outcome: Outcome
     message: str
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Caution, ...] = ()
     series: Series | None = None
-    pairs: OpeningCurve | None = None
+    opening_curve: OpeningCurve | None = None
 
     def error(self, name: str) -> float | None:
         """P_ucr by the closure `name` over that of the direct model, less 1; None without one."""
@@ -70,75 +81,125 @@ class ClosureComparison:
         return None if found is None or not direct else found / direct - 1.0
 
 
-def compare_closures(case: Case, order: int = SERIES_ORDER) -> ClosureComparison:
+def compare_closures(
+    case: Case,
+    order: int = SERIES_ORDER,
+    states: StateSolver = UNCACHED,
+    *,
+    wetted: bool = False,
+) -> ClosureComparison:
     """Answer one case by every closure.
 
     The seated contact pressure is that of the case's seating for the paper's closures and the
     series; the loaded one for energy and direct.
+
+    Parameters
+    ----------
+    case : Case
+        Its model is the paper's, of which the seating and the far field are taken.
+    order : int
+        Order of the fitted series, within `model.closure.ORDER`.
+    states : StateSolver
+        Where finite-element states come from.
+    wetted : bool
+        Whether the direct model is wetted (see `PushThrough`).
+
+    Raises
+    ------
+    BadInput
+        For an order out of bounds, or a case of another model.
     """
     require(ORDER[0] <= order <= ORDER[1], "order", order, f"{ORDER[0]} to {ORDER[1]}")
     # No errors are estimated: closures differ by more.
-    resolution = LEVELS[case.method.accuracy].resolution
-    chosen = {
-        "as_printed": False,
-        "closure_start": "inner-radius",
-        "closure": "linear",
-        "pairs": None,
-    }
-    paper = solve(_by(case, model="paper", **chosen), resolution)
-    direct = solve(_by(case, model="direct"), resolution)
+    resolution = case.numerics.resolution
+    seated = seated_model(case)
+    paper = solve(replace(case, model=seated), resolution, states)
+    direct = solve(replace(case, model=PushThrough(wetted)), resolution, states)
     pressures: dict[str, float | None] = dict.fromkeys(CLOSURES)
     pressures |= {"derived": paper.pressure, "direct": direct.pressure}
-    pressures["energy"] = _by_energy(direct)
-    lost = () if paper.outcome.answered else (f"{paper.outcome.name} by Eq. 15: {paper.message}",)
-    warnings = _said_once([*paper.warnings, *direct.warnings, *lost])
-    found = ClosureComparison(paper.case, pressures, direct.outcome, direct.message, warnings)
-    if paper.seated is None:
+    pressures["energy"] = _by_energy(direct, states, wetted=wetted)
+    lost = caution("no_closed_answer", outcome=paper.outcome.name, message=paper.message)
+    warnings = _once(
+        [*paper.warnings, *direct.warnings, *([] if paper.outcome.answered else [lost])]
+    )
+    found = ClosureComparison(
+        replace(case, model=seated), pressures, direct.outcome, direct.message, warnings
+    )
+    contact = paper.contact
+    if not isinstance(contact, SeatedState):
         return found
-    printed = replace(paper.seated, case=_by(paper.case, as_printed=True))
-    pressures["printed"] = balance_pressure(printed)
-    pairs = solve_opening_curve(case)
-    series = None if pairs is None else series_through(case, pairs, order)
-    if pairs is None or series is None:
+    eq15 = Closure(far_field_law(case, ground=seated.far_field_ground))
+    pressures["printed"] = balance_pressure(contact, eq15, as_printed=True)
+    curve = states.opening_curve(case, case.numerics)
+    series = None if curve is None else series_through(case, curve, order)
+    if curve is None or series is None:
         return found
-    pressures["series"] = balance_pressure(with_whole_law(paper.seated), series)
-    return replace(found, series=series, pairs=pairs)
+    # The loaded states are of the whole law, so the series is turned back by the whole law.
+    fitted = Closure(far_field_law(case, ground=True), 1.0, series)
+    pressures["series"] = balance_pressure(contact, fitted)
+    return replace(found, series=series, opening_curve=curve)
 
 
-def closure_map(
-    cases: Sequence[Case],
-    progress: Callable[[int, int], None] | None = None,
-    workers: int = 1,
-    order: int = SERIES_ORDER,
-) -> list[ClosureComparison]:
-    """Compare the closures for many cases; `progress` is told (done, all) after each."""
-    with executor(workers if can_travel(list(cases)) else 1) as pool:
-        futures = [pool.submit(compare_closures, case, order) for case in cases]
-        for done, _ in enumerate(as_completed(futures), start=1):
-            if progress is not None:
-                progress(done, len(cases))
-        return [future.result() for future in futures]
+def seated_model(case: Case) -> SeatedBalance:
+    """The paper's model with the seating and the far field of a case, and the closure of Eq. 15.
+
+    Raises
+    ------
+    BadInput
+        The case has another model.
+    """
+    model = case.model
+    if not isinstance(model, SeatedBalance):
+        raise BadInput("model", model.NAME, "'paper' where its seated state is compared")
+    return SeatedBalance(
+        model.seating, model.seating_friction, far_field_ground=model.far_field_ground
+    )
 
 
-def _said_once(sentences: Sequence[str]) -> tuple[str, ...]:
-    """Each sentence once; that no error is estimated is our own choice here."""
-    return tuple(dict.fromkeys(s for s in sentences if not s.startswith("the error is not")))
+@dataclass(frozen=True)
+class ClosureJob:
+    """The comparison of the closures for one case."""
+
+    case: Case
+    order: int = SERIES_ORDER
+    wetted: bool = False
+
+    def run(self, cache_folder: Path | None) -> ClosureComparison:
+        """Return the outcome of `compare_closures`."""
+        states = state_solver(cache_folder)
+        return compare_closures(self.case, self.order, states, wetted=self.wetted)
 
 
-def _by(case: Case, **changed: Any) -> Case:
-    """The case by another method."""
-    method = case.method.by(changed.pop("model", case.method.model))
-    return replace(case, method=replace(method, **changed))
+@dataclass(frozen=True)
+class ClosureMap:
+    """The comparison of the closures for many cases; the outcome is a list in their order."""
+
+    cases: Sequence[Case]
+    order: int = SERIES_ORDER
+    wetted: bool = False
+
+    def jobs(self) -> list[ClosureJob]:
+        """Return one job for each case."""
+        return [ClosureJob(case, self.order, self.wetted) for case in self.cases]
+
+    def reduce(self, results: Results) -> list[ClosureComparison]:
+        """Return the comparisons in the order of the cases."""
+        return [results[job] for job in self.jobs()]
 
 
-def _by_energy(direct: Answer) -> float | None:
+def _once(cautions: Sequence[Caution]) -> tuple[Caution, ...]:
+    """Each caution once; that no error is estimated is a choice of this comparison."""
+    return tuple(dict.fromkeys(c for c in cautions if c.code != "error_not_estimated"))
+
+
+def _by_energy(direct: Answer, states: StateSolver, *, wetted: bool) -> float | None:
     """The root of I(P) = D(P), D of two loaded states around the direct answer."""
     if direct.pressure is None or direct.pressure == 0.0:
         return direct.pressure
     near = [Pressure(direct.pressure * (1.0 + s * NEAR)) for s in (-1.0, 1.0)]
-    states = push_along(direct.case, near, LEVELS["fast"].resolution)
     excess = []
-    for state in states:
+    coarse = LEVELS["fast"].resolution
+    for state in states.hold(direct.case, direct.numerics, near, coarse, wetted=wetted):
         if not isinstance(state, PushedState):
             return None
         gained = advance_force(direct.case, state.urine_pressure)

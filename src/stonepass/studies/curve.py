@@ -2,37 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import as_completed
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.critical import solve
-from stonepass.studies.executor import can_travel, executor
+from stonepass.studies.jobs import PressureJob, Results
 
-__all__ = ["curve", "solve_slim"]
+__all__ = ["Curve"]
 
 
-def curve(
-    case: Case,
-    size_ratios: Sequence[float],
-    progress: Callable[[int, int], None] | None = None,
-    workers: int = 1,
-) -> list[Answer]:
-    """Answer `case` for every size ratio ξ; `progress` is told (done, all) after each.
+@dataclass(frozen=True)
+class Curve:
+    """The critical pressure of a case at every size ratio.
 
-    The answers keep their seated states without the stress field, which a curve does not need.
-    A case that cannot be sent to another process (a user's own function) is solved in this one.
+    The outcome is a list of answers in the order of the size ratios. They keep their states
+    without the stress field, which a curve does not need.
+
+    Attributes
+    ----------
+    case : Case
+        Its own size is ignored.
+    size_ratios : sequence of float
+        ξ, each within the bounds of `model.case.Stone`.
     """
-    cases = [case.with_size_ratio(float(size_ratio)) for size_ratio in size_ratios]
-    with executor(workers if can_travel(case) else 1) as pool:
-        futures = [pool.submit(solve_slim, each) for each in cases]
-        for done, _ in enumerate(as_completed(futures), start=1):
-            if progress is not None:
-                progress(done, len(cases))
-        return [future.result() for future in futures]
 
+    case: Case
+    size_ratios: Sequence[float]
 
-def solve_slim(case: Case) -> Answer:
-    """Solve, and leave the stress field behind."""
-    return solve(case).without_wall()
+    def jobs(self) -> list[PressureJob]:
+        """Return one job for each size ratio."""
+        return [PressureJob(self.case.with_size_ratio(float(each))) for each in self.size_ratios]
+
+    def reduce(self, results: Results) -> list[Answer]:
+        """Return the answers in the order of the size ratios."""
+        return [results[job] for job in self.jobs()]

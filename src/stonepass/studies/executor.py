@@ -1,22 +1,36 @@
-"""Where many cases run: in this process, or in a pool of others."""
+"""Where the work of a study runs: any `concurrent.futures.Executor`, and how work is sent to it.
+
+A command makes one executor (`process_pool`) and passes it to every study it runs.
+"""
 
 from __future__ import annotations
 
+import os
 import pickle
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from multiprocessing import get_context
-from typing import Any
+from typing import Any, TypeVar
 
-__all__ = ["can_travel", "executor"]
+__all__ = ["CORES", "InProcessExecutor", "can_travel", "process_pool", "stream"]
+
+CORES = os.cpu_count() or 1
+BLOCK_SECONDS = 1.0  # a block of items stops after the item that ends beyond this time
+LARGEST_BLOCK = 256  # items
+IN_FLIGHT = 64  # blocks that were sent and have not returned
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 
-class _Here(Executor):
-    """Runs every call at once, in this process."""
+class InProcessExecutor(Executor):
+    """Runs each call in this process, at the time it is submitted."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Call and return a future that is done."""
+        """Call `fn` and return a future that is done."""
         future: Future[Any] = Future()
         try:
             future.set_result(fn(*args, **kwargs))
@@ -26,22 +40,91 @@ class _Here(Executor):
 
 
 @contextmanager
-def executor(workers: int) -> Iterator[Executor]:
-    """Yield an executor of `workers` processes; 1 is this process.
+def process_pool(workers: int) -> Iterator[Executor]:
+    """Yield an executor that lives as long as the context.
 
-    New processes start clean (spawn), so a script that asks for them must guard its entry point.
+    Parameters
+    ----------
+    workers : int
+        Number of processes, at least 1; with 1 the work runs in this process. New processes are
+        started with the method "spawn", so that a script that asks for them must guard its entry
+        point with ``if __name__ == "__main__"``.
     """
     if workers == 1:
-        yield _Here()
+        yield InProcessExecutor()
         return
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
         yield pool
 
 
 def can_travel(work: Any) -> bool:
-    """Whether something can be sent to another process; a user's own function cannot."""
+    """Return whether an object can be sent to another process; a user's own function cannot."""
     try:
         pickle.dumps(work)
-    except Exception:  # whatever a user's law holds
+    except Exception:  # a user's law may hold anything, and pickle raises many kinds
         return False
     return True
+
+
+def stream(
+    executor: Executor, work: Callable[[Item], Result], items: Sequence[Item]
+) -> Iterator[tuple[int, Result]]:
+    """Apply `work` to every item and yield (index, result) in the order in which results arrive.
+
+    Items are sent in blocks that take about `BLOCK_SECONDS`, so that short items do not pay for
+    the transport one by one. A block that takes longer returns early, and its remaining items are
+    sent again. At most `IN_FLIGHT` blocks are under way at a time, so that neither their futures
+    nor their results pile up.
+
+    Parameters
+    ----------
+    executor : concurrent.futures.Executor
+    work : callable
+        Takes one item. Results must not depend on which items share a block.
+    items : sequence
+
+    Raises
+    ------
+    Exception
+        What `work` raises; blocks that have not begun are then cancelled.
+    """
+    waiting = deque(enumerate(items))
+    pending: dict[Future[tuple[list[Result], float]], list[tuple[int, Item]]] = {}
+    size = 1
+    try:
+        while waiting or pending:
+            while waiting and len(pending) < IN_FLIGHT:
+                block = [waiting.popleft() for _ in range(min(size, len(waiting)))]
+                future = executor.submit(_run_block, work, [item for _, item in block])
+                pending[future] = block
+                if future.done():  # it ran in this process; its results are passed on first
+                    break
+            done, _ = wait(pending, return_when=FIRST_COMPLETED)
+            for future in done:
+                block = pending.pop(future)
+                results, seconds = future.result()
+                waiting.extendleft(reversed(block[len(results) :]))
+                size = _block_size(len(results), seconds)
+                for (index, _), result in zip(block, results, strict=False):
+                    yield index, result
+    finally:
+        for future in pending:
+            future.cancel()
+
+
+def _block_size(count: int, seconds: float) -> int:
+    """Return how many items take `BLOCK_SECONDS` where `count` items took `seconds`."""
+    if seconds * LARGEST_BLOCK <= BLOCK_SECONDS * count:
+        return LARGEST_BLOCK
+    return max(1, int(BLOCK_SECONDS * count / seconds))
+
+
+def _run_block(work: Callable[[Item], Result], items: Sequence[Item]) -> tuple[list[Result], float]:
+    """Return the results of the first items, as many as the time allows, and the time."""
+    started = time.perf_counter()
+    results = []
+    for item in items:
+        results.append(work(item))
+        if time.perf_counter() - started >= BLOCK_SECONDS:
+            break
+    return results, time.perf_counter() - started

@@ -1,31 +1,67 @@
-"""What figures and series need solved: each job once, in a pool, with a store behind it."""
+"""Jobs: the units of work of a study, each solved once, in any executor, with or without a cache.
+
+This module loads no finite elements: a scheduler may import it, make jobs and send them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import as_completed
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from stonepass.io.folder import require_writable
-from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
 from stonepass.model.size import SizeAnswer, critical_size
-from stonepass.studies.executor import can_travel, executor
+from stonepass.model.states.state_solver import StateSolver
+from stonepass.model.states.uncached import UNCACHED
+from stonepass.studies.executor import InProcessExecutor, can_travel, stream
 from stonepass.studies.solution_cache import SolutionCache
 from stonepass.units import Pressure
 
-__all__ = ["Job", "PooledSolver", "PressureJob", "Results", "SizeJob", "Solver", "run_jobs"]
+__all__ = [
+    "Job",
+    "PressureJob",
+    "Progress",
+    "Results",
+    "SizeJob",
+    "iterate_jobs",
+    "run_jobs",
+    "state_solver",
+]
+
+Progress = Callable[[int, int], None]
+Found = TypeVar("Found")
+Found_co = TypeVar("Found_co", covariant=True)
+
+
+@runtime_checkable
+class Job(Protocol[Found_co]):
+    """A question that is answered in one piece.
+
+    A job is a value: it is hashable, equal jobs have the same result, and it can be pickled unless
+    it holds a user's own function. Its result can be pickled as well.
+    """
+
+    def run(self, cache_folder: Path | None) -> Found_co:
+        """Return the result, with finite-element states remembered in a folder if there is one."""
 
 
 @dataclass(frozen=True)
 class PressureJob:
-    """The critical pressure of a case, with its stress field where `wall` says so.
+    """The critical pressure of a case.
 
-    Without `error` the coarser companion is left out, and with it the estimate of the error.
+    Attributes
+    ----------
+    case : Case
+    wall : bool
+        Whether the answer keeps the stress field of its state.
+    error : bool
+        Whether the error is estimated, which takes a second, coarser solve.
     """
 
     case: Case
@@ -33,137 +69,149 @@ class PressureJob:
     error: bool = True
 
     def fuller(self) -> list[PressureJob]:
-        """Jobs whose answer says all that this one's does, and more; the least first."""
+        """Return the other jobs whose answer says all that this job's does; the least first."""
         others = (PressureJob(self.case, *more) for more in ((False, True), (True, True)))
         return [job for job in others if job.wall >= self.wall and job.error >= self.error
                 and job != self]  # fmt: skip
 
-    def run(self, folder: Path | None) -> Answer:
-        """Solve it, or remember it from a folder."""
-        states = None if folder is None else SolutionCache(folder, walls=self.wall)
-        alone = None if self.error else LEVELS[self.case.method.accuracy].resolution
-        answer = solve(self.case, alone, states)
+    def run(self, cache_folder: Path | None) -> Answer:
+        """Return the answer of `model.critical.solve`."""
+        alone = None if self.error else self.case.numerics.resolution
+        answer = solve(self.case, alone, state_solver(cache_folder, walls=self.wall))
         return answer if self.wall else answer.without_wall()
 
 
 @dataclass(frozen=True)
 class SizeJob:
-    """The critical size of a case, whatever its own size, at a limit."""
+    """The critical size at the pressure `limit`; the size of the case's own stone is ignored."""
 
     case: Case
     limit: Pressure
 
-    def run(self, folder: Path | None) -> SizeAnswer:
-        """Solve it, or remember it from a folder."""
+    def run(self, cache_folder: Path | None) -> SizeAnswer:
+        """Return the answer of `model.size.critical_size`, without its stress field."""
         case = self.case
         found = critical_size(
             case.ureter,
             self.limit,
             case.stone.friction,
             case.load,
-            case.method,
+            case.model,
+            case.numerics,
             shape=case.stone.shape,
-            states=None if folder is None else SolutionCache(folder),
+            states=state_solver(cache_folder),
         )
         return replace(
             found, at_size=None if found.at_size is None else found.at_size.without_wall()
         )
 
 
-Job = PressureJob | SizeJob
-
-
 @dataclass(frozen=True)
 class Results:
-    """What the jobs came to."""
+    """Results by their jobs."""
 
-    pressures: dict[PressureJob, Answer]
-    sizes: dict[SizeJob, SizeAnswer]
+    found: Mapping[Job[Any], Any]
+
+    def __getitem__(self, job: Job[Found]) -> Found:
+        """Return the result of a job, or of one whose result says more."""
+        return self.found[self._serving(job)]
+
+    @property
+    def pressures(self) -> dict[PressureJob, Answer]:
+        """The answers of all pressure jobs."""
+        return {job: each for job, each in self.found.items() if isinstance(job, PressureJob)}
+
+    @property
+    def sizes(self) -> dict[SizeJob, SizeAnswer]:
+        """The answers of all size jobs."""
+        return {job: each for job, each in self.found.items() if isinstance(job, SizeJob)}
 
     def answer(self, case: Case, *, wall: bool = False, error: bool = True) -> Answer:
-        """The answer of a case; one that says more serves for it."""
-        return self.pressures[self._serving(PressureJob(case, wall, error))]
+        """Return the critical pressure of a case; see `PressureJob`."""
+        return self[PressureJob(case, wall, error)]
 
     def size(self, case: Case, limit: Pressure) -> SizeAnswer:
-        """The critical size of a case."""
-        return self.sizes[SizeJob(case, limit)]
+        """Return the critical size of a case; see `SizeJob`."""
+        return self[SizeJob(case, limit)]
 
-    def of(self, jobs: Iterable[Job]) -> Results:
-        """Those of some jobs only."""
-        pressures, sizes = {}, {}
-        for job in jobs:
-            if isinstance(job, SizeJob):
-                sizes[job] = self.sizes[job]
-            else:
-                serving = self._serving(job)
-                pressures[serving] = self.pressures[serving]
-        return Results(pressures, sizes)
+    def of(self, jobs: Iterable[Job[Any]]) -> Results:
+        """Return the results of some jobs only."""
+        serving = dict.fromkeys(map(self._serving, jobs))
+        return Results({job: self.found[job] for job in serving})
 
-    def _serving(self, job: PressureJob) -> PressureJob:
-        return next(each for each in (job, *job.fuller()) if each in self.pressures)
+    def _serving(self, job: Job[Any]) -> Job[Any]:
+        return next(each for each in (job, *_fuller(job)) if each in self.found)
+
+
+def iterate_jobs(
+    jobs: Iterable[Job[Found]],
+    executor: Executor | None = None,
+    cache_folder: Path | None = None,
+    progress: Progress | None = None,
+) -> Iterator[tuple[Job[Found], Found]]:
+    """Run every job once and yield (job, result) as the results arrive.
+
+    Parameters
+    ----------
+    jobs : iterable of Job
+        Equal jobs are run once, and a job is not run where another one's result says more.
+    executor : concurrent.futures.Executor, optional
+        By default, and for jobs that cannot be sent to another process (a user's own function),
+        the work runs in this process.
+    cache_folder : Path, optional
+        Folder of the solution cache; by default every state is solved.
+    progress : callable, optional
+        Is called with (done, all) after each job.
+
+    Raises
+    ------
+    BadInput
+        If the cache folder cannot be written, or from a job.
+    """
+    if cache_folder is not None:
+        require_writable(cache_folder, "cache folder", "name another one, or none")
+    # Other jobs take several solves each: they are started before the single ones.
+    queue = sorted(_once(jobs), key=lambda job: isinstance(job, PressureJob))
+    if executor is None or not can_travel(queue):
+        executor = InProcessExecutor()
+    results = stream(executor, partial(_run, cache_folder=cache_folder), queue)
+    for done, (index, found) in enumerate(results, start=1):
+        if progress is not None:
+            progress(done, len(queue))
+        yield queue[index], found
 
 
 def run_jobs(
-    jobs: Iterable[Job],
-    folder: Path | None,
-    workers: int = 1,
-    progress: Callable[[int, int], None] | None = None,
+    jobs: Iterable[Job[Any]],
+    executor: Executor | None = None,
+    cache_folder: Path | None = None,
+    progress: Progress | None = None,
 ) -> Results:
-    """Run every job once; `progress` is told (done, all) after each.
+    """Run every job once and return all results; for the parameters see `iterate_jobs`."""
+    listed = list(jobs)
+    found = dict(iterate_jobs(listed, executor, cache_folder, progress))
+    return Results({job: found[job] for job in _once(listed)})
 
-    Jobs that cannot be sent to another process (a user's own function) run in this one.
+
+def state_solver(cache_folder: Path | None, *, walls: bool = False) -> StateSolver:
+    """Return the solution cache in a folder; without a folder whoever solves each time.
+
+    With `walls` the states keep their stress fields.
     """
-    if folder is not None:
-        require_writable(folder, "cache folder", "name another one, or none")
-    once = _once(jobs)
-    # Long ones first: sizes take several solves.
-    queue = sorted(once, key=lambda job: isinstance(job, PressureJob))
-    with executor(workers if can_travel(queue) else 1) as pool:
-        futures = {job: pool.submit(job.run, folder) for job in queue}
-        for done, _ in enumerate(as_completed(futures.values()), start=1):
-            if progress is not None:
-                progress(done, len(queue))
-        found = {job: future.result() for job, future in futures.items()}
-    pressures, sizes = {}, {}
-    for job in once:
-        answer = found[job]
-        if isinstance(job, PressureJob):
-            assert isinstance(answer, Answer)
-            pressures[job] = answer
-        else:
-            assert isinstance(answer, SizeAnswer)
-            sizes[job] = answer
-    return Results(pressures, sizes)
+    if cache_folder is None:
+        return UNCACHED
+    return SolutionCache(cache_folder, walls=walls)
 
 
-def _once(jobs: Iterable[Job]) -> list[Job]:
-    """Each job once, and none that another one covers."""
+def _run(job: Job[Found], cache_folder: Path | None) -> Found:
+    return job.run(cache_folder)
+
+
+def _fuller(job: Job[Any]) -> Sequence[Job[Any]]:
+    return job.fuller() if isinstance(job, PressureJob) else ()
+
+
+def _once(jobs: Iterable[Job[Found]]) -> list[Job[Found]]:
+    """Return each job once, without those whose answer another one includes."""
     listed = dict.fromkeys(jobs)
-    return [
-        job
-        for job in listed
-        if isinstance(job, SizeJob) or not any(other in listed for other in job.fuller())
-    ]
-
-
-@runtime_checkable
-class Solver(Protocol):
-    """Whoever answers many cases."""
-
-    def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
-        """The answer of every case; without `error` the estimate of it may be left out."""
-
-
-@dataclass(frozen=True)
-class PooledSolver:
-    """Where cases are solved: how many processes, what is remembered, who is told."""
-
-    folder: Path | None = None
-    workers: int = 1
-    progress: Callable[[int, int], None] | None = None
-
-    def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
-        """The answer of every case, each solved once."""
-        jobs = [PressureJob(case, error=error) for case in cases]
-        found = run_jobs(jobs, self.folder, self.workers, self.progress)
-        return [found.answer(case, error=error) for case in cases]
+    return [job for job in listed if not any(other in listed for other in _fuller(job))]

@@ -15,30 +15,22 @@ from itertools import product
 import numpy as np
 from jaxtyping import Bool, Float
 from scipy.interpolate import RBFInterpolator
-from scipy.optimize import elementwise
 from scipy.spatial import KDTree
 from scipy.stats import qmc
 
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
-from stonepass.model.case import CONFINING, Case, Load, Stone, Ureter
-from stonepass.model.far_field import (
-    SMALLEST_LUMEN,
-    confining_traction,
-    far_field_law,
-    inflation,
-)
-from stonepass.studies.jobs import Solver
+from stonepass.model.case import Case
+from stonepass.model.far_field import confining_traction, inflation
+from stonepass.model.load import CONFINING, Load
+from stonepass.model.numerics import Numerics
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
+from stonepass.studies.case_solver import CaseSolver
+from stonepass.studies.conditions import Conditions, lumen_ratios, transmural
 from stonepass.units import Pressure
 
-__all__ = [
-    "OVERSIZE",
-    "Conditions",
-    "ResponseSurface",
-    "lumen_ratios",
-    "response_surface",
-    "transmural",
-]
+__all__ = ["OVERSIZE", "ResponseSurface", "response_surface"]
 
 OVERSIZE = (0.005, 0.8)  # of the lumen, over which the surface is built
 SMALLEST_FRICTION = 0.01
@@ -49,51 +41,6 @@ NARROW = 1e-9  # a range that counts as one value
 FEWEST = 10  # solves with an answer
 NEAR_END = 0.02  # of the closure's end, within which P_ucr may as well lie beyond it
 HALF_LENGTHS = 2.5  # half the tube's length, in radii of the largest stone
-
-
-@dataclass(frozen=True)
-class Conditions:
-    """Many cases: size ratio ξ, wall ratio η, friction, and a factor on the confining pressure."""
-
-    size_ratio: Float[np.ndarray, " n"]
-    wall_ratio: Float[np.ndarray, " n"]
-    friction: Float[np.ndarray, " n"]
-    load_factor: Float[np.ndarray, " n"]
-
-    def where(self, chosen: Bool[np.ndarray, " n"]) -> Conditions:
-        """Some of them."""
-        return Conditions(
-            self.size_ratio[chosen],
-            self.wall_ratio[chosen],
-            self.friction[chosen],
-            self.load_factor[chosen],
-        )
-
-
-def transmural(
-    case: Case, inner_ratio: Float[np.ndarray, " n"], wall_ratio: Float[np.ndarray, " n"]
-) -> Float[np.ndarray, " n"]:
-    """Pressure in Pa across walls widened to r_a/R_a, by the far field of the case's method."""
-    law = far_field_law(case)
-    return np.asarray(inflation(inner_ratio, wall_ratio, law, case.load.prestretch))
-
-
-def lumen_ratios(
-    case: Case, wall_ratio: Float[np.ndarray, " n"], load_factor: Float[np.ndarray, " n"]
-) -> Float[np.ndarray, " n"]:
-    """r_a/R_a that the load leaves open in many walls; NaN where it closes them."""
-    load, law = case.load, case.ureter.material.law
-    if load.confining_pressure == 0.0 and load.prestretch == 1.0:
-        return np.ones(len(wall_ratio))
-
-    def urine(ratio: np.ndarray, eta: np.ndarray, factor: np.ndarray) -> np.ndarray:
-        across = inflation(ratio, eta, law, load.prestretch)
-        return np.asarray(across + factor * confining_traction(ratio, eta, load))
-
-    widest = 1.2 / np.sqrt(load.prestretch)
-    ends = (np.full(len(wall_ratio), SMALLEST_LUMEN), np.full(len(wall_ratio), widest))
-    found = elementwise.find_root(urine, ends, args=(wall_ratio, load_factor))
-    return np.where(found.success, found.x, np.nan)
 
 
 @dataclass(frozen=True)
@@ -133,11 +80,11 @@ class ResponseSurface:
         return len(self.pressure) >= FEWEST
 
     def __call__(self, asked: Conditions) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
-        """P_ucr in Pa, and where that is only a lower bound.
+        """Return P_ucr in Pa, and where it is censored: where that is only a lower bound.
 
-        0 for a stone that is no larger than the lumen. Above the sizes that were solved, and where
-        the paper's closure ends first, P_ucr is at least what is returned; where the load closes
-        the lumen, or the nearest case that was tried has no answer, no more than 0 is known.
+        P_ucr is 0 for a stone that is no larger than the lumen. Above the sizes that were solved,
+        and where the paper's closure ends first, P_ucr is at least what is returned; where the load
+        closes the lumen, or the nearest case that was tried has no answer, no more than 0 is known.
         """
         lumen = lumen_ratios(self.case, asked.wall_ratio, asked.load_factor)
         closed = ~np.isfinite(lumen)
@@ -151,14 +98,14 @@ class ResponseSurface:
         found = np.exp(self._interpolant(near)) * asked.friction * self._scale(at)
         # Below the smallest size that was solved it falls in proportion to the oversize.
         found *= np.minimum(held / OVERSIZE[0], 1.0)
-        bound = over > top
+        censored = over > top
         if self.ended.any():  # near the closure's end the surface cannot say on which side it is
             end = self._closure_end(at)
-            bound |= found >= (1.0 - NEAR_END) * end
+            censored |= found >= (1.0 - NEAR_END) * end
             found = np.minimum(found, end)
         unknown = closed | ((over > 0.0) & self._lost(near))
         stuck = (over > 0.0) & ~unknown
-        return np.where(stuck, found, 0.0), (bound & stuck) | unknown
+        return np.where(stuck, found, 0.0), (censored & stuck) | unknown
 
     @cached_property
     def errors(self) -> Float[np.ndarray, " n"]:
@@ -219,16 +166,16 @@ class ResponseSurface:
         return raw.min(axis=0), raw.max(axis=0)
 
 
-def response_surface(case: Case, over: Conditions, solver: Solver) -> ResponseSurface:
+def response_surface(case: Case, over: Conditions, solver: CaseSolver) -> ResponseSurface:
     """Solve enough of the cases that `over` spans for a surface over all of them.
 
     Sizes are taken from the lumen up to `OVERSIZE` beyond it, whatever `over` has of them.
     """
-    if case.method.model == "beam":
-        raise BadInput("model", "beam", "paper or direct", "the beam holds for thin walls only")
+    if not case.model.NEEDS_ELEMENTS:
+        raise BadInput("model", case.model.NAME, "one of finite elements, such as paper or direct")
     longest = HALF_LENGTHS * (1.0 + OVERSIZE[1]) * max(1.0, case.stone.shape.reach)
-    half_length = max(case.method.half_length, longest)
-    quick = replace(case, method=replace(case.method, accuracy="fast", half_length=half_length))
+    half_length = max(case.numerics.half_length, longest)
+    quick = replace(case, numerics=Numerics("fast", half_length))
     design = _design(case, over)
     cases = [_case(quick, design, k) for k in range(len(design.friction))]
     answers = solver.answers(cases, error=False)
@@ -259,7 +206,7 @@ def _case(case: Case, at: Conditions, k: int) -> Case:
     )
     stone = Stone(None, float(at.friction[k]), float(at.size_ratio[k]), shape=case.stone.shape)
     ureter = Ureter(material=case.ureter.material, wall_ratio=float(at.wall_ratio[k]))
-    return Case(stone, ureter, load, case.method)
+    return Case(stone, ureter, load, case.model, case.numerics)
 
 
 def _raw(case: Case, at: Conditions) -> Float[np.ndarray, "n 4"]:

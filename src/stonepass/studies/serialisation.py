@@ -9,10 +9,10 @@ import numpy as np
 
 from stonepass.fe.axisymmetric.postprocessing import Field, Volume
 from stonepass.model.accuracy import ErrorEstimate
-from stonepass.model.case import Case
 from stonepass.model.opening_curve import OpeningCurve
-from stonepass.model.states.loaded import Critical, NoPush, PushedState, PushReport
-from stonepass.model.states.seated import Contact, NoSeat, SeatedState, SolverReport
+from stonepass.model.problem import Problem
+from stonepass.model.states.loaded_state import Critical, NoPush, PushedState, PushReport
+from stonepass.model.states.seated_state import Contact, NoSeat, SeatedState, SolverReport
 from stonepass.model.states.stability_report import StabilityReport
 
 __all__ = ["deserialise", "serialise"]
@@ -51,7 +51,7 @@ def serialise(value: Any) -> tuple[Any, dict[str, Any]]:
             return {"array": name}
         if isinstance(part, tuple):
             return {"tuple": [plain(each) for each in part]}
-        if isinstance(part, Case):
+        if isinstance(part, Problem):
             return {"case": True}
         assert is_dataclass(part), type(part)
         name = type(part).__name__
@@ -63,7 +63,7 @@ def serialise(value: Any) -> tuple[Any, dict[str, Any]]:
     return plain(value), arrays
 
 
-def deserialise(document: Any, arrays: dict[str, Any], case: Case) -> Any:
+def deserialise(document: Any, arrays: dict[str, Any], case: Problem) -> Any:
     """Put a result together again, as that of `case`."""
     if not isinstance(document, dict):
         return document

@@ -13,32 +13,31 @@ import json
 import os
 import zipfile
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, is_dataclass, replace
-from functools import lru_cache
-from importlib import metadata
+from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import Any
 
 import numpy as np
 import platformdirs
 
 from stonepass.errors import BadInput
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.case import Case
+from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
-from stonepass.model.states.loaded import Critical, NoPush
-from stonepass.model.states.seated import NoSeat, SeatedState
+from stonepass.model.problem import Problem
+from stonepass.model.seating import Seating
+from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
+from stonepass.model.states.seated_state import NoSeat, SeatedState
 from stonepass.model.states.uncached import UNCACHED
-from stonepass.studies.serialisation import deserialise, serialise
+from stonepass.studies.source_digest import solver_digest
+from stonepass.units import Pressure
 
-__all__ = ["SolutionCache", "default_folder"]
+__all__ = ["SolutionCache", "default_folder", "describe_law"]
 
 DIGEST = hashlib.sha256().digest_size
-SOLVER = ("fe", "materials", "model")  # folders whose source the results depend on
-LIBRARIES = ("ngsolve", "numpy", "scipy")
 CORRUPT = "corrupt"
-
-Found = TypeVar("Found")
+SOURCES = "sources"
+LAWS = "stonepass.materials"  # laws defined elsewhere have source that the key does not cover
 
 
 def default_folder() -> Path:
@@ -49,119 +48,182 @@ def default_folder() -> Path:
 
 @dataclass(frozen=True)
 class SolutionCache:
-    """Remembers finite-element results in `folder`; with `walls` those with their stress fields.
+    """A state solver (`model.states.state_solver.StateSolver`) that remembers states on disk.
 
     Results depend on ratios alone, so cases of another size share theirs, as do those that differ
-    only in closure, sign or far field. A law that is a Python function is solved afresh every time.
+    only in closure, sign or far field. A law that is a Python function, or is defined outside this
+    package, is solved afresh every time.
+
+    Attributes
+    ----------
+    folder : Path
+        Made on demand; processes may share it.
+    walls : bool
+        Whether states are kept with their stress fields.
     """
 
     folder: Path
     walls: bool = False
 
-    def seat(self, case: Case, resolution: Resolution | None) -> SeatedState | NoSeat:
-        """See `model.states.seated.seat`."""
-        asked = {"seating": case.method.seating, "friction": case.seating_friction}
-
-        def solve() -> SeatedState | NoSeat:
-            found = UNCACHED.seat(case, resolution)
-            return found if self.walls or isinstance(found, NoSeat) else replace(found, wall=None)
-
-        return self._remembered("seat", case, asked | _mesh(case, resolution), solve)
+    def seat(
+        self,
+        case: Problem,
+        seating: Seating,
+        numerics: Numerics,
+        resolution: Resolution | None = None,
+    ) -> SeatedState | NoSeat:
+        """See `StateSolver.seat`."""
+        asked = {"seating": seating.kind, "friction": seating.friction}
+        return self._remembered(
+            "seat",
+            case,
+            numerics,
+            asked | _mesh(numerics, resolution),
+            lambda: self._slim(UNCACHED.seat(case, seating, numerics, resolution)),
+        )
 
     def push(
-        self, case: Case, resolutions: Sequence[Resolution], *, leak: bool
+        self,
+        case: Problem,
+        numerics: Numerics,
+        resolutions: Sequence[Resolution],
+        *,
+        wetted: bool,
+        leak: bool,
     ) -> list[Critical | NoPush]:
-        """See `model.states.loaded.critical_push`."""
+        """See `StateSolver.push`."""
         asked = {
             "friction": case.stone.friction,
-            "wetted": case.method.wetted,
+            "wetted": wetted,
             "leak": leak,
             "resolutions": [asdict(each) for each in resolutions],
         }
 
         def solve() -> tuple[Critical | NoPush, ...]:
-            return tuple(map(self._slim, UNCACHED.push(case, resolutions, leak=leak)))
+            found = UNCACHED.push(case, numerics, resolutions, wetted=wetted, leak=leak)
+            return tuple(map(self._slim, found))
 
-        return list(self._remembered("push", case, asked, solve))
+        return list(self._remembered("push", case, numerics, asked, solve))
 
-    def pairs(self, case: Case) -> OpeningCurve | None:
-        """See `model.states.opening.solve_opening_curve`."""
-        return self._remembered("pairs", case, {}, lambda: UNCACHED.pairs(case))
+    def hold(
+        self,
+        case: Problem,
+        numerics: Numerics,
+        pressures: Sequence[Pressure],
+        resolution: Resolution,
+        *,
+        wetted: bool,
+    ) -> list[PushedState | NoPush]:
+        """See `StateSolver.hold`; cases of another size share states of equal pressure."""
+        asked = {
+            "friction": case.stone.friction,
+            "wetted": wetted,
+            "pressures": [float(each) for each in pressures],
+            "resolution": asdict(resolution),
+        }
+
+        def solve() -> tuple[PushedState | NoPush, ...]:
+            found = UNCACHED.hold(case, numerics, pressures, resolution, wetted=wetted)
+            return tuple(map(self._slim, found))
+
+        return list(self._remembered("hold", case, numerics, asked, solve))
+
+    def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
+        """See `StateSolver.opening_curve`."""
+        return self._remembered(
+            "opening_curve", case, numerics, {}, lambda: UNCACHED.opening_curve(case, numerics)
+        )
 
     def set_aside(self) -> int:
-        """How many corrupt files were found so far."""
+        """Return how many corrupt files were found so far."""
         return len(list((self.folder / CORRUPT).glob("*")))
 
-    def _slim(self, found: Critical | NoPush) -> Critical | NoPush:
-        if self.walls or isinstance(found, NoPush):
+    def _slim(self, found: Any) -> Any:
+        """Return a state without its stress field, unless it is to be kept."""
+        if self.walls:
             return found
-        return replace(found, state=replace(found.state, wall=None))
+        if hasattr(found, "wall"):
+            return replace(found, wall=None)
+        if hasattr(found, "state"):
+            return replace(found, state=replace(found.state, wall=None))
+        return found
 
     def _remembered(
         self,
         what: str,
-        case: Case,
+        case: Problem,
+        numerics: Numerics,
         asked: dict[str, Any],
-        solve: Callable[[], Found],
-    ) -> Found:
-        key = _key(what, case, asked | {"walls": self.walls})
-        if key is None:
+        solve: Callable[[], Any],
+    ) -> Any:
+        document = _document(what, case, numerics, asked | {"walls": self.walls})
+        if document is None:
             return solve()
+        from stonepass.studies.serialisation import deserialise, serialise  # loads NGSolve
+
+        solver = solver_digest(self.folder / SOURCES)
+        key = hashlib.sha256(f"{solver} {document}".encode()).hexdigest()
         path = self.folder / key[:2] / key
         known = _read(path, self.folder / CORRUPT)
         if known is not None:
-            return cast(Found, deserialise(known[0], known[1], case))
+            return deserialise(known[0], known[1], case)
         found = solve()
         _write(path, *serialise(found))
         return found
 
 
-def _mesh(case: Case, resolution: Resolution | None) -> dict[str, Any]:
+def _mesh(numerics: Numerics, resolution: Resolution | None) -> dict[str, Any]:
     if resolution is None:
-        return {"accuracy": case.method.accuracy}
+        return {"accuracy": numerics.accuracy}
     return {"resolution": asdict(resolution)}
 
 
-def _key(what: str, case: Case, asked: dict[str, Any]) -> str | None:
-    """Digest of all that a result depends on; None where the law cannot be written down."""
-    law = case.ureter.material.law
-    if not is_dataclass(law) or isinstance(law, type):
-        return None
-    if not type(law).__module__.startswith("stonepass.materials"):  # its source is not in the key
-        return None
-    document = {
-        "what": what,
-        "solver": _solver(),
-        "size_ratio": case.size_ratio,
-        "aspect": case.stone.shape.aspect,
-        "outline": case.stone.shape.outline,
-        "wall_ratio": case.wall_ratio,
-        "material": case.ureter.material.name,
-        "law": type(law).__name__,
-        "constants": asdict(law),
-        "strain_range": case.ureter.material.strain_range,
-        "load": asdict(case.load),
-        "half_length": case.method.half_length,
-        **asked,
-    }
+def _document(what: str, case: Problem, numerics: Numerics, asked: dict[str, Any]) -> str | None:
+    """Return as JSON all that a result depends on, apart from the solver.
+
+    None where the law cannot be written down.
+    """
     try:
-        text = json.dumps(document, sort_keys=True, allow_nan=False)
-    except (TypeError, ValueError):  # a law that holds a function
+        document = {
+            "what": what,
+            "size_ratio": case.size_ratio,
+            "aspect": case.stone.shape.aspect,
+            "outline": case.stone.shape.outline,
+            "wall_ratio": case.wall_ratio,
+            "material": case.ureter.material.name,
+            "law": describe_law(case.ureter.material.law),
+            "strain_range": case.ureter.material.strain_range,
+            "load": asdict(case.load),
+            "half_length": numerics.half_length,
+            **asked,
+        }
+        return json.dumps(document, sort_keys=True, allow_nan=False)
+    except (TypeError, ValueError):
         return None
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
-@lru_cache(maxsize=1)
-def _solver() -> str:
-    """Digest of the solver's source and of the libraries under it."""
-    digest = hashlib.sha256()
-    root = Path(__file__).parents[1]
-    sources = [each for name in SOLVER for each in (root / name).rglob("*.py")]
-    for path in sorted([*sources, root / "studies" / "serialisation.py"]):
-        digest.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
-    for library in LIBRARIES:
-        digest.update(metadata.version(library).encode())
-    return digest.hexdigest()
+def describe_law(law: Any) -> Any:
+    """Return the type and the constants of a law as JSON, for laws inside laws too.
+
+    Parameters
+    ----------
+    law : dataclass of `stonepass.materials`
+        Its constants are its fields.
+
+    Raises
+    ------
+    TypeError
+        For a part that is neither such a law nor a number, text, or sequence of them.
+    """
+    if law is None or isinstance(law, bool | int | float | str):
+        return law
+    if isinstance(law, tuple | list):
+        return [describe_law(each) for each in law]
+    kind = type(law)
+    if not is_dataclass(kind) or not f"{kind.__module__}.".startswith(f"{LAWS}."):
+        raise TypeError(f"a {kind.__name__} cannot be written down")
+    constants = {each.name: describe_law(getattr(law, each.name)) for each in fields(kind)}
+    return {"type": f"{kind.__module__}.{kind.__qualname__}", "constants": constants}
 
 
 def _write(path: Path, document: Any, arrays: dict[str, Any]) -> None:

@@ -62,14 +62,14 @@ class UncertainQuantity:
         first, last = np.clip(ends, -FARTHEST, FARTHEST)
         return truncnorm(first, last, loc=self.value, scale=self.sd)
 
-    def drawn(self, share: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """Quantiles: the numbers below which shares of it lie."""
+    def quantiles(self, fractions: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """Return the numbers below which the given fractions, between 0 and 1, of it lie."""
         if self.exact:
-            return np.full(len(share), self.value)
-        return np.clip(self.distribution.ppf(share), self.low, self.high)
+            return np.full(len(fractions), self.value)
+        return np.clip(self.distribution.ppf(fractions), self.low, self.high)
 
-    def told(self, scale: float = 1.0, unit: str = "") -> str:
-        """In words, over `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
+    def describe(self, scale: float = 1.0, unit: str = "") -> str:
+        """Return it in words, divided by `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
         tail = f" {unit}" if unit else ""
         if self.exact:
             return f"{self.value / scale:.4g}{tail}"

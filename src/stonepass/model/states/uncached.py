@@ -9,9 +9,10 @@ from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem
 from stonepass.model.seating import Seating
-from stonepass.model.states.loaded_state import Critical, NoPush
+from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
 from stonepass.model.states.seated_state import NoSeat, SeatedState
 from stonepass.model.states.state_solver import StateSolver
+from stonepass.units import Pressure
 
 __all__ = ["UNCACHED"]
 
@@ -42,6 +43,19 @@ class _Uncached:
         from stonepass.model.states.loaded import find_critical
 
         return find_critical(case, numerics, resolutions, wetted=wetted, leak=leak)
+
+    def hold(
+        self,
+        case: Problem,
+        numerics: Numerics,
+        pressures: Sequence[Pressure],
+        resolution: Resolution,
+        *,
+        wetted: bool,
+    ) -> list[PushedState | NoPush]:
+        from stonepass.model.states.loaded import solve_loaded
+
+        return solve_loaded(case, numerics, pressures, resolution, wetted=wetted)
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
         from stonepass.model.states.opening import solve_opening_curve

@@ -1,0 +1,78 @@
+"""The contract of a study: which jobs it needs, and what it makes of their results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any, Protocol, TypeVar, runtime_checkable
+
+from stonepass.studies.executor import InProcessExecutor, can_travel
+from stonepass.studies.jobs import Job, Progress, Results, run_jobs
+
+__all__ = ["Study", "run_studies", "run_study"]
+
+Outcome = TypeVar("Outcome")
+Outcome_co = TypeVar("Outcome_co", covariant=True)
+
+
+@runtime_checkable
+class Study(Protocol[Outcome_co]):
+    """Many cases and what is made of them.
+
+    A study solves nothing itself: it names jobs, which run in any order and anywhere, and reduces
+    their results. Its outcome depends on the results alone, not on where they were computed.
+    """
+
+    def jobs(self) -> Sequence[Job[Any]]:
+        """Return the jobs that the study needs, in the same order each time."""
+
+    def reduce(self, results: Results) -> Outcome_co:
+        """Return the outcome from the results, which contain those of all jobs."""
+
+
+def run_study(
+    study: Study[Outcome],
+    executor: Executor | None = None,
+    cache_folder: Path | None = None,
+    progress: Progress | None = None,
+) -> Outcome:
+    """Run the jobs of a study and return its outcome.
+
+    Parameters
+    ----------
+    study : Study
+    executor : concurrent.futures.Executor, optional
+        By default the work runs in this process.
+    cache_folder : Path, optional
+        Folder of the solution cache; by default every state is solved.
+    progress : callable, optional
+        Is called with (done, all) after each job.
+
+    Raises
+    ------
+    BadInput
+        If the cache folder cannot be written, or from a job.
+    """
+    return study.reduce(run_jobs(study.jobs(), executor, cache_folder, progress))
+
+
+def run_studies(
+    studies: Sequence[Study[Outcome]],
+    executor: Executor | None = None,
+    cache_folder: Path | None = None,
+    progress: Progress | None = None,
+) -> list[Outcome]:
+    """Run several studies together: jobs that they share run once, and reductions run in parallel.
+
+    For the parameters see `run_study`.
+    """
+    jobs = [list(study.jobs()) for study in studies]
+    results = run_jobs((job for each in jobs for job in each), executor, cache_folder, progress)
+    parts = [results.of(each) for each in jobs]
+    if executor is None or not can_travel((list(studies), parts)):
+        executor = InProcessExecutor()
+    futures = [
+        executor.submit(study.reduce, part) for study, part in zip(studies, parts, strict=True)
+    ]
+    return [future.result() for future in futures]

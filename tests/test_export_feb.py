@@ -19,9 +19,10 @@ from pyfebio import (
 
 import stonepass as sp
 from stonepass.errors import BadInput
-from stonepass.export.feb import CONTACT_FILE, INNER_FILE, WEDGE, write_feb
+from stonepass.export.feb import CONTACT_FILE, INNER_FILE, write_feb
 from stonepass.export.feb_material import VANISHING, fung_constants
 from stonepass.export.seating import bulk_modulus, seating
+from stonepass.export.wedge import WEDGE
 from stonepass.materials.fung import Fung
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
@@ -340,7 +341,7 @@ def test_the_faces_that_touch_are_the_right_ones(deck):
     s = deck.seating
     assert len(deck.surface("lumen")) == s.facing.stop - s.facing.start
     assert len(deck.surface("outside")) == s.wall.columns
-    assert len(deck.surface("facing")) == s.strip.columns
+    assert len(deck.surface("facing")) == s.element_strip.columns
     radius = np.hypot(deck.points[:, 0], deck.points[:, 1])
     np.testing.assert_allclose(radius[deck.surface("lumen")], 1.5, rtol=1e-9)
     np.testing.assert_allclose(radius[deck.surface("outside")], 1.5 * ETA, rtol=1e-9)
@@ -433,7 +434,7 @@ def test_steps_take_a_time_of_one_each_and_the_curves_go_on(deck):
         stepper = each.find("time_stepper")
         dtmin, dtmax = (float(stepper.find(name).text) for name in ("dtmin", "dtmax"))
         assert dtmin < float(each.find("step_size").text) <= dtmax
-    share = pytest.approx(deck.seating.first_share)
+    share = pytest.approx(deck.seating.first_fraction)
     assert curve(deck, 1) == [(0.0, 0.0), (1.0, share), (2.0, 1.0)]
     assert curve(deck, 2) == [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]
     strip = [bc for bc in deck.root.iterfind("Boundary/bc") if bc.get("node_set") == "strip"]

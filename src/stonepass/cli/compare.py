@@ -1,4 +1,4 @@
-"""``stonepass compare``: what CalculiX found for a deck, beside our own."""
+"""``stonepass compare``: the results of CalculiX for an input deck, beside our own."""
 
 from __future__ import annotations
 
@@ -7,27 +7,32 @@ from typing import Annotated
 
 import typer
 
-from stonepass.cli.options import BEAM_OPTIONS, Json, Settings, takes_settings
+from stonepass.cli.options import Json, Settings, takes_settings
+from stonepass.export.checks import checked_value
+from stonepass.export.input_options import FINE
+from stonepass.export.words import as_flag
 
 __all__ = ["command"]
 
 
-@takes_settings("model", "wetted", "closure", "series_order", "pairs", *BEAM_OPTIONS)
+@takes_settings("method.closure", "method.series_order", "method.opening_curve", models=("paper",))
 def command(
     settings: Settings,
     results: Annotated[
-        Path, typer.Option("--results", metavar="JOB.dat", help="What CalculiX wrote.")
+        Path, typer.Option("--results", metavar="JOB.dat", help="Results that CalculiX wrote.")
     ],
-    fine: Annotated[float | None, typer.Option("--fine", help="As it was exported.")] = None,
+    fine: Annotated[
+        float | None, typer.Option("--fine", help="The value of --fine of the export.")
+    ] = None,
     json: Json = False,
     figure: Annotated[
         Path | None,
         typer.Option("--figure", metavar="C.svg", help="Draw both pressures (svg, png or pdf)."),
     ] = None,
 ) -> int:
-    """Read CalculiX's results of an exported deck and put them beside our own.
+    """Read the results of CalculiX for an exported input deck and put them beside our own.
 
-    Give the case as it was exported. Exit code 0 where both have a critical pressure.
+    Give the same case as for the export. Exit code 0 where both have a critical pressure.
     """
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
     from stonepass.export.comparison import Comparison, compare
@@ -36,7 +41,8 @@ def command(
 
     writable(figure, FIGURES)
     case = settings.case()
-    contact = read_contact(seating(case, fine), results)
+    mesh = None if fine is None else checked_value(FINE, fine, as_flag)
+    contact = read_contact(seating(case, mesh), results)
     with working("solving for the wall"):
         found = compare(case, contact)
     if not isinstance(found, Comparison):

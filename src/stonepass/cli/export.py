@@ -1,121 +1,123 @@
-"""``stonepass export``: the same case for another finite-element program, or to look at."""
+"""``stonepass export``: a case for another program, made from the registered export formats."""
 
 from __future__ import annotations
 
-import shlex
+import inspect
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from stonepass.cli.options import Settings, takes_settings
-from stonepass.errors import BadInput, refuse_unknown
-from stonepass.io.text_file import write_text
+from stonepass.errors import Misplaced
+from stonepass.export.api import write
+from stonepass.export.checks import find_writer
+from stonepass.export.contract import Option, Writer
+from stonepass.export.registry import WRITERS
+from stonepass.export.words import as_flag
+from stonepass.inputs.catalogue import option_of
 
-if TYPE_CHECKING:
-    from stonepass.model.case import Case
+if TYPE_CHECKING:  # loads NumPy and SciPy
+    from stonepass.model.answer import Answer
 
-__all__ = ["command"]
+__all__ = ["command", "make_command"]
 
-FORMATS = ("inp", "feb", "vtu")
-ENDINGS = tuple(f".{each}" for each in FORMATS)
+HELP = """Write a case as an input file for another program, or its solved wall to look at.
+
+Lengths are in millimetres, with an inner radius of 1 mm where only ratios are given; stresses in
+an input file are in kPa, in a VTU file in Pa. Give the stone as for pressure.
+"""
 
 
-@takes_settings()
-def command(
+def make_command(writers: Sequence[Writer]) -> Callable[..., int]:
+    """Make the sub-command: its formats, options and help are those that `writers` declare."""
+
+    def command(settings: Settings, out: Path, format: str | None, **options: Any) -> int:
+        return _export(writers, settings, out, format, options)
+
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    owners = _owners(writers)
+    own = {
+        "out": Annotated[
+            Path, typer.Option("--out", metavar="FILE", help="File to write; its ending counts.")
+        ],
+        "format": Annotated[str | None, typer.Option("--format", help=_format_help(writers))],
+        **{name: _flag(option, formats) for name, (option, formats) in owners.items()},
+    }
+    command.__doc__ = HELP
+    command.__annotations__ = {"settings": Settings, **own}
+    required = {"settings", "out"}
+    parameters = [
+        inspect.Parameter(
+            name,
+            keyword,
+            annotation=annotation,
+            default=inspect.Parameter.empty if name in required else None,
+        )
+        for name, annotation in command.__annotations__.items()
+    ]
+    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    return takes_settings()(command)
+
+
+def _owners(writers: Sequence[Writer]) -> dict[str, tuple[Option, list[str]]]:
+    """Every declared option once, with the names of the formats that have it."""
+    found: dict[str, tuple[Option, list[str]]] = {}
+    for writer in writers:
+        for option in writer.options:
+            found.setdefault(option.name, (option, []))[1].append(writer.name)
+    return found
+
+
+def _format_help(writers: Sequence[Writer]) -> str:
+    told = "; ".join(f"{each.name}: {each.description}" for each in writers)
+    return f"{told}.  [default: by the ending of --out]"
+
+
+def _flag(option: Option, formats: Sequence[str]) -> Any:
+    choices = f": {' or '.join(option.choices)}" if option.choices else ""
+    default = option.default_text or option.default
+    tail = "" if default is None else f"  [default: {default}]"
+    text = f"Formats {' and '.join(formats)}: " if len(formats) > 1 else f"Format {formats[0]}: "
+    kind = option.kind | None
+    return Annotated[
+        kind, typer.Option(as_flag(option.name), help=f"{text}{option.meaning}{choices}.{tail}")
+    ]
+
+
+def _export(
+    writers: Sequence[Writer],
     settings: Settings,
-    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="Where to write it.")],
-    format: Annotated[
-        str | None,
-        typer.Option(
-            "--format",
-            help="inp: CalculiX or Abaqus; feb: FEBio; vtu: our solved wall.  "
-            "[default: the ending of --out]",
-        ),
-    ] = None,
-    flavour: Annotated[
-        str | None,
-        typer.Option("--flavour", help="Of a deck: calculix or abaqus.  [default: calculix]"),
-    ] = None,
-    element: Annotated[
-        str | None, typer.Option("--element", help="Of a deck: CAX8 or CAX8R.  [default: CAX8]")
-    ] = None,
-    fine: Annotated[
-        float | None,
-        typer.Option(
-            "--fine",
-            help="Deck, model: elements in the contact, in inner radii.  [default: 0.025 or less]",
-        ),
-    ] = None,
+    out: Path,
+    format: str | None,
+    options: dict[str, Any],
 ) -> int:
-    """Write the seated state as a deck or model for another program, or as a solved wall.
-
-    Lengths are in millimetres, with an inner radius of 1 mm where only ratios are given; stresses
-    in a deck or model in kPa, in a VTU in Pa. Give the stone as for pressure.
-    """
-    if format is None and out.suffix.lower() not in ENDINGS:
-        raise BadInput("ending of --out", out.name, "one of " + ", ".join(ENDINGS),
-                       "or give a --format")  # fmt: skip
-    kind = out.suffix.lower().removeprefix(".") if format is None else format
-    if kind not in FORMATS:
-        refuse_unknown("--format", kind, list(FORMATS))
-    for name, value in (("--flavour", flavour), ("--element", element)):
-        if value is not None and kind != "inp":
-            raise BadInput(name, value, f"left out with --format {kind}", "it is of a deck")
-    if fine is not None and kind == "vtu":
-        raise BadInput("--fine", fine, "left out with --format vtu", "--accuracy sets its mesh")
-    from stonepass.cli.terminal import show, writable
-
-    writable(out, (f".{kind}",))
-    case = settings.case()
-    if kind == "vtu":
-        return _write_wall(case, out)
-    from stonepass.export.seating import seating
-
-    model = seating(case, fine)
-    if kind == "feb":
-        from stonepass.export.feb import write_feb
-
-        text, way_on = write_feb(model), f"run it with: febio4 -i {shlex.quote(out.name)}"
-    else:
-        from stonepass.export.inp import write_inp
-
-        chosen = "CAX8" if element is None else element
-        text = write_inp(model, chosen, "calculix" if flavour is None else flavour)
-        job = shlex.quote(out.stem)
-        way_on = (
-            f"run it with: abaqus job={job} input={shlex.quote(out.name)}"
-            if flavour == "abaqus"
-            else f"run it with: ccx {job}; then: stonepass compare … {job}.dat"
-        )
-    write_text(out, text)
-    size = f"{len(model.wall.cells)} elements, {model.length:.4g} R_a of travel"
-    show(f"{out.name}: {size}; {way_on}")
-    return 0
-
-
-def _write_wall(case: Case, out: Path) -> int:
-    """Solve, and write the wall with its stress."""
+    """Write the file and say how to go on; exit code 1 where there is nothing to write."""
     from stonepass.cli.terminal import show, warn, working
-    from stonepass.model.critical import solve
-    from stonepass.units import METRE_PER_MM
 
-    if case.method.model == "beam":
-        raise BadInput(
-            "model", "beam", "'paper' or 'direct' for a VTU", "a beam has no solved wall"
-        )
-    with working("solving for the wall"):
-        answer = solve(case)
-    warn(answer.warnings)
-    if answer.state is None or answer.state.wall is None:
-        show(f"{answer.outcome.name}: {answer.message}")
-        warn(["there is no solved wall, so nothing was written"])
+    writer = find_writer(writers, out, format, as_flag)
+    for name in writer.ignores:
+        key = f"method.{name}"
+        if key in settings.given:
+            where = as_flag("format", writer.name)
+            raise Misplaced(option_of(key), where, "has no influence on the file")
+    case = settings.case()
+
+    def solved() -> Answer:
+        from stonepass.model.critical import solve  # loads the finite elements
+
+        with working("solving for the wall"):
+            return solve(case)
+
+    made = write(case, out, format, solved=solved, writers=writers, words=as_flag, **options)
+    warn(made.warnings)
+    if made.path is None:
+        show(made.summary)
+        warn(["there is no result to show, so nothing was written"])
         return 1
-    from stonepass.export.vtu import write_vtu
-
-    diameter = case.ureter.inner_diameter
-    radius = 1.0 if diameter is None else diameter / 2.0 / METRE_PER_MM
-    half = answer.pushed is None and case.stone.shape.symmetric
-    write_vtu(out, answer.state.wall, mirrored=half, inner_radius=radius)
-    show(f"{out.name}: {answer.state.wall.r.size} points of the meridian, turned round the axis")
+    show("; ".join(part for part in (f"{out.name}: {made.summary}", made.next_step) if part))
     return 0
+
+
+command = make_command(WRITERS)

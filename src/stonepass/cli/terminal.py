@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 import threading
 import time
@@ -14,7 +13,7 @@ from typing import Any
 
 from rich.console import Console
 
-from stonepass.errors import BadInput
+from stonepass.io.text_file import check_writable
 
 __all__ = ["FIGURES", "counting", "print_json", "show", "warn", "working", "writable"]
 
@@ -59,17 +58,8 @@ def working(what: str) -> Iterator[None]:
 
 def writable(path: Path | None, endings: tuple[str, ...]) -> None:
     """Refuse an output file that could not be written, before the work is done."""
-    if path is None:
-        return
-    if path.suffix.lower() not in endings:
-        raise BadInput("output file", str(path), "a name ending in " + ", ".join(endings))
-    try:
-        fits = not path.is_dir()
-        fits = fits and os.access(path if path.exists() else path.parent, os.W_OK)
-    except (OSError, ValueError):  # a name too long for the system, or with a NUL
-        fits = False
-    if not fits:
-        raise BadInput("output file", str(path), "in a folder that can be written to")
+    if path is not None:
+        check_writable(path, endings)
 
 
 @contextmanager

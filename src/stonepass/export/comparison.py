@@ -1,4 +1,4 @@
-"""Another program's contact beside our own, in the numbers that matter."""
+"""The contact that another program found, beside the contact of our own seated state."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ from stonepass.errors import require
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
-from stonepass.model.models.seated_balance import balance_pressure
+from stonepass.model.models.seated_balance import (
+    SeatedBalance,
+    SeatedBalanceDetail,
+    balance_pressure,
+)
 from stonepass.model.states.seated_state import Contact, SeatedState
 
 __all__ = ["Comparison", "compare"]
@@ -16,16 +20,16 @@ __all__ = ["Comparison", "compare"]
 
 @dataclass(frozen=True)
 class Comparison:
-    """One case, solved here and elsewhere.
+    """One case, solved here and by another program.
 
     Attributes
     ----------
     answer : Answer
-        Ours.
+        Our answer.
     seated : SeatedState
-        The contact behind it.
+        The seated state of our answer.
     contact : Contact
-        The other program's.
+        The contact that the other program found.
     pressure : float or None
         P_ucr in Pa by the paper's balance and closure with the other contact; None where the forces
         do not balance.
@@ -38,10 +42,32 @@ class Comparison:
 
 
 def compare(case: Case, contact: Contact) -> Comparison | Answer:
-    """Solve the case and put the other contact beside it; the answer alone where none is seated."""
-    require(case.method.closure == "linear", "closure", case.method.closure,
-            "'linear' beside another program's contact")  # fmt: skip
+    """Solve a case and put the contact of another program beside it.
+
+    Parameters
+    ----------
+    case : Case
+        A case with the linear closure.
+    contact : Contact
+        As `read_contact` returns it for the same case.
+
+    Returns
+    -------
+    Comparison or Answer
+        The answer alone where it has no seated state.
+
+    Raises
+    ------
+    BadInput
+        The closure is not linear.
+    """
+    model = case.model
+    closure = model.closure if isinstance(model, SeatedBalance) else f"that of '{model.NAME}'"
+    require(closure == "linear", "closure", closure, "'linear' beside another program's contact")
     answer = solve(case)
-    if answer.seated is None:
+    seated, detail = answer.contact, answer.detail
+    if not isinstance(seated, SeatedState) or not isinstance(detail, SeatedBalanceDetail):
         return answer
-    return Comparison(answer, answer.seated, contact, balance_pressure(contact))
+    printed = isinstance(model, SeatedBalance) and model.as_printed
+    pressure = balance_pressure(contact, detail.closure, as_printed=printed)
+    return Comparison(answer, seated, contact, pressure)

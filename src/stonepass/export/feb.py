@@ -8,108 +8,42 @@ components.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
 from xml.etree.ElementTree import Comment, Element, SubElement, indent, tostring
 
 import numpy as np
-from jaxtyping import Float, Int, Num
+from jaxtyping import Num
 
 from stonepass.about import DISCLAIMER
 from stonepass.export.feb_material import add_wall_material
-from stonepass.export.grid import Grid
 from stonepass.export.seating import KPA, MM, Seating
+from stonepass.export.wedge import WEDGE, Wedge
 from stonepass.materials.derivatives import hoop_modulus
 
 __all__ = ["CONTACT_FILE", "INNER_FILE", "WEDGE", "write_feb"]
 
-WEDGE = float(np.radians(2.0))  # angle of the wedge
 LOAD_INCREMENTS = 10
-SEARCH = 0.25  # how far a face of the wall looks for the strip, over R_a
+SEARCH = 0.25  # distance within which a face of the wall finds the element strip, over R_a
 INNER_FILE = "seated_inner.csv"  # node, u_r, 0, u_z of the inner wall, in mm
 CONTACT_FILE = "seated_contact.csv"  # face, contact pressure in kPa
 
 STRIP_CURVE, LOAD_CURVE = "1", "2"
 
 
-@dataclass(frozen=True)
-class _Wedge:
-    """A grid turned about the axis; node numbers start at `first`.
-
-    Numbers go through the side at angle 0, then the turned side, then the edges between corners.
-    """
-
-    grid: Grid
-    first: int
-
-    @cached_property
-    def corners(self) -> Int[np.ndarray, " corners"]:
-        """Nodes of the grid that are corners."""
-        return np.unique(self.grid.cells[:, :4])
-
-    @property
-    def count(self) -> int:
-        """How many nodes."""
-        return 2 * len(self.grid.points) + len(self.corners)
-
-    @cached_property
-    def sides(self) -> tuple[Int[np.ndarray, " points"], ...]:
-        """Numbers at angle 0, turned and halfway; the last −1 where the grid has no corner."""
-        n = len(self.grid.points)
-        halfway = np.full(n, -1)
-        halfway[self.corners] = self.first + 2 * n + np.arange(len(self.corners))
-        return self.first + np.arange(n), self.first + n + np.arange(n), halfway
-
-    def turned(self, vectors: Float[np.ndarray, "points 2"]) -> Float[np.ndarray, "nodes 3"]:
-        """Points or displacements r, z of the grid as x, y, z of every node."""
-        parts = []
-        for angle, (r, z) in (
-            (0.0, vectors.T),
-            (WEDGE, vectors.T),
-            (WEDGE / 2.0, vectors[self.corners].T),
-        ):
-            parts.append(np.column_stack([r * np.cos(angle), r * np.sin(angle), z]))
-        return np.vstack(parts)
-
-    def elements(self) -> Int[np.ndarray, "cells 20"]:
-        """hex20: e_r × e_z = −e_θ, so the turned side is the bottom."""
-        flat, turned, halfway = (side[self.grid.cells] for side in self.sides)
-        parts = (turned[:, :4], flat[:, :4], turned[:, 4:], flat[:, 4:], halfway[:, :4])
-        return np.hstack(parts)
-
-    def faces(
-        self, cells: Int[np.ndarray, "faces 8"], start: int, end: int, middle: int
-    ) -> Int[np.ndarray, "faces 8"]:
-        """quad8 on the side of each cell from `start` to `end`; its normal is that way × e_θ."""
-        a, b, m = cells[:, start], cells[:, end], cells[:, middle]
-        flat, turned, halfway = self.sides
-        around = (flat[a], flat[b], turned[b], turned[a], flat[m], halfway[b], turned[m])
-        return np.column_stack([*around, halfway[a]])
-
-    def inner(self, columns: slice) -> Int[np.ndarray, "faces 8"]:
-        """Faces of the first row, their normals towards the axis."""
-        return self.faces(self.grid.cells[: self.grid.columns][columns], 0, 3, 7)
-
-    def outer(self) -> Int[np.ndarray, "faces 8"]:
-        """Faces of the last row, their normals away from the axis."""
-        return self.faces(self.grid.cells[-self.grid.columns :], 2, 1, 5)
-
-    def on(self, line: Int[np.ndarray, " nodes"]) -> Int[np.ndarray, " numbers"]:
-        """Every node over a line of the grid."""
-        numbers = np.concatenate([side[line] for side in self.sides])
-        return np.sort(numbers[numbers >= 0])
-
-
 def write_feb(seating: Seating) -> str:
-    """The file as text.
+    """Return the input file as text.
+
+    Parameters
+    ----------
+    seating : Seating
+        Meshes, motions and loads.
 
     Raises
     ------
     BadInput
         FEBio has no such law.
     """
-    wall = _Wedge(seating.wall, 1)
-    strip = _Wedge(seating.strip, 1 + wall.count)
+    wall = Wedge(seating.wall, 1)
+    strip = Wedge(seating.element_strip, 1 + wall.count)
     root = Element("febio_spec", version="4.0")
     root.append(Comment(_header(seating)))
     SubElement(root, "Module", type="solid")
@@ -145,7 +79,7 @@ def _materials(root: Element, s: Seating) -> None:
     _leaf(stone, "v", 0.3)
 
 
-def _mesh(root: Element, s: Seating, wall: _Wedge, strip: _Wedge) -> None:
+def _mesh(root: Element, s: Seating, wall: Wedge, strip: Wedge) -> None:
     mesh = SubElement(root, "Mesh")
     bodies = {"wall": wall, "stone": strip}
     for name, wedge in bodies.items():
@@ -176,25 +110,25 @@ def _mesh(root: Element, s: Seating, wall: _Wedge, strip: _Wedge) -> None:
         SubElement(domains, "SolidDomain", name=name, mat=name)
 
 
-def _travel(root: Element, s: Seating, strip: _Wedge) -> None:
+def _travel(root: Element, s: Seating, strip: Wedge) -> None:
     data = SubElement(root, "MeshData")
-    way = strip.turned(s.travel) * s.inner_radius / MM
-    for dof, values in zip("xyz", way.T, strict=True):
+    travel = strip.turned(s.travel) * s.inner_radius / MM
+    for dof, values in zip("xyz", travel.T, strict=True):
         table = SubElement(data, "NodeData", name=f"travel_{dof}", node_set="strip")
         table.set("data_type", "scalar")
         for position, value in enumerate(values, start=1):
             _leaf(table, "node", float(value), lid=str(position))
 
 
-def _boundary(root: Element, s: Seating, wall: _Wedge) -> None:
+def _boundary(root: Element, s: Seating, wall: Wedge) -> None:
     section = SubElement(root, "Boundary")
     _hold(section, "side", "y")
     pull = s.pull * s.inner_radius / MM
-    for end, way in (("first", -pull if s.whole else 0.0), ("last", pull)):
-        if way == 0.0:
+    for end, distance in (("first", -pull if s.whole else 0.0), ("last", pull)):
+        if distance == 0.0:
             _hold(section, end, "z")
         else:
-            _leaf(_move(section, end, "z"), "value", way, lc=LOAD_CURVE)
+            _leaf(_move(section, end, "z"), "value", distance, lc=LOAD_CURVE)
     for dof in "xyz":
         move = _move(section, "strip", dof)
         _leaf(move, "value", f"travel_{dof}", lc=STRIP_CURVE, type="map")
@@ -222,7 +156,7 @@ def _move(section: Element, node_set: str, dof: str) -> Element:
 
 
 def _load(root: Element, s: Seating) -> None:
-    """A pressure on the outer wall; a dead one keeps its first area and normal, so its forces."""
+    """Add the confining pressure; a dead one keeps its first area and normal, so its forces."""
     load = s.case.load
     if load.confining_pressure == 0.0:
         return
@@ -234,7 +168,7 @@ def _load(root: Element, s: Seating) -> None:
 
 
 def _contact(root: Element, s: Seating) -> None:
-    """Pressure is penalty times penetration, without augmentation, as in the other decks."""
+    """Add the contact: pressure is penalty times penetration, as in the other input files."""
     section = SubElement(root, "Contact")
     touch = SubElement(section, "contact", type="sliding-elastic", surface_pair="touch")
     _leaf(touch, "laugon", "PENALTY")
@@ -243,7 +177,7 @@ def _contact(root: Element, s: Seating) -> None:
     _leaf(touch, "two_pass", 0)
     _leaf(touch, "symmetric_stiffness", 0)
     _leaf(touch, "search_radius", SEARCH * s.inner_radius / MM)
-    _leaf(touch, "fric_coeff", s.case.seating_friction)
+    _leaf(touch, "fric_coeff", s.friction)
 
 
 def _steps(root: Element, s: Seating) -> None:
@@ -255,7 +189,7 @@ def _steps(root: Element, s: Seating) -> None:
 
 
 def _control(control: Element, count: int) -> None:
-    """A time of one in `count` increments at first; full Newton steps."""
+    """Take a time of one, at first in `count` increments, with full Newton steps."""
     _leaf(control, "analysis", "STATIC")
     _leaf(control, "time_steps", count)
     _leaf(control, "step_size", 1.0 / count)
@@ -274,7 +208,7 @@ def _control(control: Element, count: int) -> None:
 
 def _curves(root: Element, s: Seating) -> None:
     section = SubElement(root, "LoadData")
-    for number, first in ((STRIP_CURVE, s.first_share), (LOAD_CURVE, 1.0)):
+    for number, first in ((STRIP_CURVE, s.first_fraction), (LOAD_CURVE, 1.0)):
         curve = SubElement(section, "load_controller", id=number, type="loadcurve")
         _leaf(curve, "interpolate", "LINEAR")
         _leaf(curve, "extend", "CONSTANT")

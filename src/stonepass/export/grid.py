@@ -1,4 +1,4 @@
-"""A structured grid of quadratic quadrilaterals in the r–z plane, as other programs take them."""
+"""A structured grid of eight-node quadrilaterals in the r–z plane."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Grid:
         r, z of every node.
     cells : array
         Nodes of every element, from 0: corners anticlockwise, then the middles of the sides in the
-        same order. StateSolver run along a row, then to the next.
+        same order. Elements run along a row, then to the next.
     numbers : array
         Node on each line of corners or middles, −1 where there is none (centres of elements).
     """
@@ -34,20 +34,20 @@ class Grid:
 
     @property
     def rows(self) -> int:
-        """Rows of elements."""
+        """Number of rows of elements."""
         return len(self.numbers) // 2
 
     @property
     def columns(self) -> int:
-        """Columns of elements."""
+        """Number of columns of elements."""
         return self.numbers.shape[1] // 2
 
     def row_line(self, index: int) -> Int[np.ndarray, " nodes"]:
-        """Nodes along the first (0) or last (−1) line of the first index."""
+        """Return the nodes along the first (0) or last (−1) line of the first index."""
         return self.numbers[index]
 
     def column_line(self, index: int) -> Int[np.ndarray, " nodes"]:
-        """Nodes along the first (0) or last (−1) line of the second index."""
+        """Return the nodes along the first (0) or last (−1) line of the second index."""
         return self.numbers[:, index]
 
 
@@ -56,7 +56,17 @@ def grid(
     along: Float[np.ndarray, " columns_1"],
     place: Callable[[Values, Values], tuple[Values, Values]] = lambda a, b: (a, b),
 ) -> Grid:
-    """Grid whose corner lines are at `across` × `along`, the middles halfway; `place` gives r, z.
+    """Return the grid with corner lines at `across` × `along` and middle nodes halfway between.
+
+    Parameters
+    ----------
+    across, along : arrays
+        Coordinates of the corner lines, ascending.
+    place : callable
+        Maps the two coordinates of nodes to r and z; by default they are r and z.
+
+    Examples
+    --------
 
     >>> grid(np.array([1.0, 2.0]), np.array([0.0, 1.0])).points.tolist()[:3]
     [[1.0, 0.0], [1.0, 0.5], [1.0, 1.0]]

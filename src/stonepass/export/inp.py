@@ -1,10 +1,10 @@
-"""A deck for CalculiX or Abaqus: millimetres, kilopascals, and so millinewtons.
+"""An input deck for CalculiX or Abaqus: millimetres, kilopascals, and so millinewtons.
 
-Two programs, one format, where they differ (`FLAVOURS`): CalculiX has no hybrid elements, so the
-wall is nearly incompressible (ν = 0.499); Abaqus has, and keeps volume exactly. CalculiX treats
-whatever touches in the first step as fitted together and there takes gaps below 1/penalty, in the
-deck's units, for contact, which pulls the wall on; so the strip touches in the second step only,
-and the units make 1/penalty far smaller than the clearance.
+Both programs read one format and differ in a few lines, the flavour of the deck. CalculiX has no
+hybrid elements, so the wall is nearly incompressible (ν = 0.499); Abaqus has them and keeps volume
+exactly. In the first step CalculiX treats surfaces that touch as fitted together, and takes gaps
+below 1/penalty, in the units of the deck, for contact, which pulls the wall on. So the element
+strip touches in the second step only, and the units make 1/penalty far smaller than the clearance.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from stonepass.about import DISCLAIMER
 from stonepass.errors import refuse_unknown
 from stonepass.export.grid import Grid
 from stonepass.export.inp_material import deck_line, has_overlaid_matrix, material_lines
+from stonepass.export.input_options import ELEMENT, FLAVOUR
 from stonepass.export.seating import KPA, MM, Seating
 
-__all__ = ["ELEMENTS", "FLAVOURS", "write_inp"]
+__all__ = ["write_inp"]
 
-FLAVOURS = ("calculix", "abaqus")
-ELEMENTS = ("CAX8", "CAX8R")
 A_LINE = 12  # numbers
-ELASTIC_SLIP, SLIP_SHARE = 1e-3, 5e-3  # over R_a, and of the strip's travel, at most
+# Largest elastic slip, over R_a and as a fraction of the travel of the element strip.
+ELASTIC_SLIP, SLIP_FRACTION = 1e-3, 5e-3
 ONLY_LAST = 1_000_000  # output every so many increments, and at the end of a step
 
 
@@ -35,16 +35,28 @@ def write_inp(
     flavour: str = "calculix",
     increment: float | None = None,
 ) -> str:
-    """The deck as text; the strip goes at most `increment` R_a at a time, else as the seating says.
+    """Return the input deck as text.
+
+    Parameters
+    ----------
+    seating : Seating
+        Meshes, motions and loads.
+    element : {"CAX8", "CAX8R"}
+        Element type of the wall.
+    flavour : {"calculix", "abaqus"}
+        Program that reads the deck.
+    increment : float, optional
+        Largest travel of the element strip in one increment of the second step, over R_a;
+        `Seating.increment` by default.
 
     Raises
     ------
     BadInput
         Element or flavour is not known, or the program has no such law.
     """
-    for what, value, known in (("element", element, ELEMENTS), ("flavour", flavour, FLAVOURS)):
-        if value not in known:
-            refuse_unknown(what, value, list(known))
+    for option, value in ((ELEMENT, element), (FLAVOUR, flavour)):
+        if value not in option.choices:
+            refuse_unknown(option.name, value, list(option.choices))
     parts = (
         _header(seating, element, flavour),
         _mesh(seating, element, flavour),
@@ -66,7 +78,7 @@ def _header(s: Seating, element: str, flavour: str) -> Iterator[str]:
 
 def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
     hybrid = "H" if flavour == "abaqus" else ""
-    points = np.vstack([s.wall.points, s.strip.points]) * s.inner_radius / MM
+    points = np.vstack([s.wall.points, s.element_strip.points]) * s.inner_radius / MM
     yield "*NODE, NSET=ALL"
     for number, (r, z) in enumerate(points, start=1):
         yield deck_line(number, float(r), float(z))
@@ -79,7 +91,7 @@ def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
         yield from _elements(s.wall, first, 1)
         first += len(s.wall.cells)
     yield "*ELEMENT, TYPE=CAX8, ELSET=STRIP"
-    yield from _elements(s.strip, first, len(s.wall.points) + 1)
+    yield from _elements(s.element_strip, first, len(s.wall.points) + 1)
 
 
 def _elements(grid: Grid, first: int, first_node: int) -> Iterator[str]:
@@ -92,15 +104,15 @@ def _sets(s: Seating) -> Iterator[str]:
     inner = s.wall.row_line(0)
     yield from _set("FIRST", s.wall.column_line(0))
     yield from _set("LAST", s.wall.column_line(-1))
-    yield from _set(f"INNER_{s.mark}", inner)
-    yield from _set("STONE", count + np.arange(len(s.strip.points)))
+    yield from _set(f"INNER_{s.fingerprint}", inner)
+    yield from _set("STONE", count + np.arange(len(s.element_strip.points)))
     yield "*SURFACE, NAME=LUMEN, TYPE=ELEMENT"
     for column in range(s.facing.start, s.facing.stop):
         yield deck_line(column + 1, "S4")
     yield "*SURFACE, NAME=STONE, TYPE=ELEMENT"
     copies = 2 if has_overlaid_matrix(s.case.ureter.material.law) else 1
-    before = copies * len(s.wall.cells) + (s.strip.rows - 1) * s.strip.columns
-    for column in range(s.strip.columns):
+    before = copies * len(s.wall.cells) + (s.element_strip.rows - 1) * s.element_strip.columns
+    for column in range(s.element_strip.columns):
         yield deck_line(before + column + 1, "S2")
 
 
@@ -116,12 +128,12 @@ def _contact(s: Seating, flavour: str) -> Iterator[str]:
     yield "*SURFACE INTERACTION, NAME=TOUCH"
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
     yield deck_line(stiffness)
-    friction = s.case.seating_friction
+    friction = s.friction
     if friction > 0.0 and flavour == "calculix":
         yield "*FRICTION"
         yield deck_line(friction, stiffness)
     elif friction > 0.0:
-        slip = min(ELASTIC_SLIP, SLIP_SHARE * s.length) * s.inner_radius / MM
+        slip = min(ELASTIC_SLIP, SLIP_FRACTION * s.length) * s.inner_radius / MM
         yield f"*FRICTION, ELASTIC SLIP={slip:.12g}"
         yield deck_line(friction)
     yield "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE"
@@ -134,9 +146,9 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield from ("FIRST, 2, 2", "LAST, 2, 2")
     if _radial(s):
         yield "STONE, 2, 2"
-    way = increment / s.length
+    size = increment / s.length  # of an increment of time in the second step
     unsymmetric = ", UNSYMM=YES" if flavour == "abaqus" else ""
-    step = f"*STEP, NLGEOM, INC={max(1000, 20 * int(np.ceil(1.0 / way)))}{unsymmetric}"
+    step = f"*STEP, NLGEOM, INC={max(1000, 20 * int(np.ceil(1.0 / size)))}{unsymmetric}"
     yield "** first: ends and load, the strip still clear of the wall"
     yield step
     yield "*STATIC"
@@ -146,13 +158,13 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
         yield deck_line("LAST", 2, 2, pull)
         if s.whole:
             yield deck_line("FIRST", 2, 2, -pull)
-    yield from _motion(s, s.first_share)
+    yield from _motion(s, s.first_fraction)
     yield from _load(s)
     yield "*END STEP"
     yield "** then: the strip presses the wall open"
     yield step
     yield "*STATIC"
-    yield deck_line(min(way, 1.0), 1.0, 1e-6, min(way, 1.0))
+    yield deck_line(min(size, 1.0), 1.0, 1e-6, min(size, 1.0))
     yield from _motion(s, 1.0)
     yield from _output(s, flavour)
     yield "*END STEP"
@@ -162,14 +174,14 @@ def _radial(s: Seating) -> bool:
     return not s.travel[:, 1].any()
 
 
-def _motion(s: Seating, share: float) -> Iterator[str]:
+def _motion(s: Seating, fraction: float) -> Iterator[str]:
     yield "*BOUNDARY"
-    way = share * s.travel * s.inner_radius / MM
+    moved = fraction * s.travel * s.inner_radius / MM
     if _radial(s):
-        yield deck_line("STONE", 1, 1, float(way[0, 0]))
+        yield deck_line("STONE", 1, 1, float(moved[0, 0]))
         return
     first = len(s.wall.points) + 1
-    for number, (r, z) in enumerate(way, start=first):
+    for number, (r, z) in enumerate(moved, start=first):
         yield deck_line(number, 1, 1, float(r))
         yield deck_line(number, 2, 2, float(z))
 
@@ -202,7 +214,7 @@ def _output(s: Seating, flavour: str) -> Iterator[str]:
         yield "CSTRESS, CDISP"
         return
     yield "** read back by: stonepass compare"
-    yield f"*NODE PRINT, NSET=INNER_{s.mark}, FREQUENCY={ONLY_LAST}"
+    yield f"*NODE PRINT, NSET=INNER_{s.fingerprint}, FREQUENCY={ONLY_LAST}"
     yield "U"
     yield f"*CONTACT PRINT, FREQUENCY={ONLY_LAST}"
     yield "CSTR"

@@ -1,4 +1,4 @@
-"""What CalculiX found for a deck, as a contact like that of our own seated state."""
+"""The results of CalculiX for an input deck, as a contact like that of our own seated state."""
 
 from __future__ import annotations
 
@@ -30,17 +30,30 @@ MOST = 200_000_000  # bytes
 
 
 def read_contact(seating: Seating, path: Path) -> Contact:
-    """Contact angle and pressure of the deck's last increment, from CalculiX's ``.dat``.
+    """Read contact angle and contact pressure of the last increment from CalculiX's ``.dat``.
 
-    The pressure is CalculiX's own, averaged over each element of the wall; the edges are where the
-    deformed wall leaves the stone. Both are of a penalty contact, so the wall sinks in a little.
+    The pressure is CalculiX's own, averaged over each element of the wall. The contact ends where
+    the deformed wall leaves the stone. CalculiX's contact has a penalty, so the wall sinks in a
+    little.
+
+    Parameters
+    ----------
+    seating : Seating
+        The meshes that the input deck was written from.
+    path : Path
+        File of at most 200 MB.
+
+    Returns
+    -------
+    Contact
+        Angles in rad, pressures in Pa, compression positive.
 
     Raises
     ------
     BadInput
-        No such results in the file, or results of another deck.
+        The file has no such results, or results of another input deck.
     """
-    blocks = _last_blocks(path, seating.mark)
+    blocks = _last_blocks(path, seating.fingerprint)
     r, z = _inner_wall(seating, blocks[DISPLACEMENTS], path).T
     stone = profile_of(seating.case)
     overlap, angle = -stone.gap(r, z), stone.parametric(r, z)
@@ -50,8 +63,8 @@ def read_contact(seating: Seating, path: Path) -> Contact:
     sound = sound and bool(np.all(np.diff(angle[touching[0] : touching[-1] + 2]) > 0.0))
     require(sound, "results", path.name, "of a wall that touches this case's stone, and not its "
             "ends")  # fmt: skip
-    low = _crossing(angle, overlap, touching[0]) if seating.whole else angle[0]
-    high = _crossing(angle, overlap, touching[-1] + 1)
+    low = _crossing(angle, overlap, int(touching[0])) if seating.whole else angle[0]
+    high = _crossing(angle, overlap, int(touching[-1]) + 1)
     theta, pressure = _means(seating, blocks[STRESSES], angle, (low, high), path)
     if not seating.whole:
         theta = np.concatenate([np.pi - theta[::-1], theta])
@@ -64,8 +77,8 @@ def read_contact(seating: Seating, path: Path) -> Contact:
     return Contact(seating.case, float(low), fine, np.maximum(fitted(fine), 0.0))
 
 
-def _last_blocks(path: Path, mark: str) -> dict[str, list[list[float]]]:
-    """Rows of the last block of each kind."""
+def _last_blocks(path: Path, fingerprint: str) -> dict[str, list[list[float]]]:
+    """Return the rows of the last block of each kind."""
     found: dict[str, list[list[float]]] = {}
     kind = None
     for number, line in enumerate(read_text(path, MOST, KIND, "results").splitlines(), start=1):
@@ -73,18 +86,24 @@ def _last_blocks(path: Path, mark: str) -> dict[str, list[list[float]]]:
         if header is not None:
             kind = next((kind for kind in COLUMNS if kind in line), None)
             if kind == DISPLACEMENTS:
-                ours = f"INNER_{mark} " in line
-                require(ours, "results", path.name, f"those of this case's deck, {mark}", OF_THIS)
+                ours = f"INNER_{fingerprint} " in line
+                require(
+                    ours,
+                    "results",
+                    path.name,
+                    f"those of this case's input deck, {fingerprint}",
+                    OF_THIS,
+                )
             # A run that broke off leaves what it had.
             require(_is(header[1], END), "results", path.name, f"at time {END:g}, not {header[1]}",
-                    "the deck has to run to its end")  # fmt: skip
+                    "CalculiX has to run the input deck to its end")  # fmt: skip
             if kind is not None:
                 found[kind] = []
         elif line.strip() and kind is not None:
             found[kind].append(_numbers(line, COLUMNS[kind], f"{path.name}, line {number}"))
     for kind, what in ((DISPLACEMENTS, "displacements of INNER"), (STRESSES, "contact stresses")):
         require(bool(found.get(kind)), "results", path.name, f"{KIND} with {what}",
-                "the deck has to run to its end")  # fmt: skip
+                "CalculiX has to run the input deck to its end")  # fmt: skip
     return found
 
 
@@ -96,7 +115,7 @@ def _is(text: str, number: float) -> bool:
 
 
 def _numbers(line: str, count: int, where: str) -> list[float]:
-    """The numbers of one row."""
+    """Return the numbers of one row."""
     try:
         row = [float(word) for word in line.split()]
     except ValueError:
@@ -109,18 +128,21 @@ def _numbers(line: str, count: int, where: str) -> list[float]:
 def _inner_wall(
     seating: Seating, rows: list[list[float]], path: Path
 ) -> Float[np.ndarray, "samples 2"]:
-    """Deformed inner wall in inner radii, `SAMPLES` − 1 steps along each element's side."""
+    """Return points of the deformed inner wall, r and z in inner radii.
+
+    Each side of an element is sampled in `SAMPLES` − 1 steps.
+    """
     nodes = seating.wall.row_line(0)
     moved = {int(number): (u, w) for number, u, w, _ in rows}
     require(
         sorted(int(row[0]) for row in rows) == sorted((nodes + 1).tolist()),
         "results",
         path.name,
-        f"those of this case's deck, {len(nodes)} nodes on the inner wall",
+        f"those of this case's input deck, {len(nodes)} nodes on the inner wall",
         OF_THIS,
     )
-    way = np.array([moved[int(node) + 1] for node in nodes]) * MM / seating.inner_radius
-    at = seating.wall.points[nodes] + way
+    shift = np.array([moved[int(node) + 1] for node in nodes]) * MM / seating.inner_radius
+    at = seating.wall.points[nodes] + shift
     t = np.linspace(-1.0, 1.0, SAMPLES)[:-1]
     shape = np.column_stack([t * (t - 1.0) / 2.0, 1.0 - t * t, t * (t + 1.0) / 2.0])
     sides = np.stack([at[:-2:2], at[1:-1:2], at[2::2]], axis=1)
@@ -130,7 +152,7 @@ def _inner_wall(
 def _crossing(
     angle: Float[np.ndarray, " n"], overlap: Float[np.ndarray, " n"], after: int
 ) -> float:
-    """The angle at which the overlap vanishes, between two neighbouring samples."""
+    """Return the angle at which the overlap vanishes between two neighbouring samples."""
     a, b = overlap[after - 1], overlap[after]
     return float(angle[after - 1] + a / (a - b) * (angle[after] - angle[after - 1]))
 
@@ -142,7 +164,11 @@ def _means(
     edges: tuple[float, float],
     path: Path,
 ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
-    """Mean pressure in Pa of each element that touches, at the middle of its part in contact."""
+    """Return angle and mean pressure in Pa of each element that touches.
+
+    The angle is that of the middle of the part in contact; the pressure is averaged over the
+    integration points of the element.
+    """
     columns = np.array([int(row[0]) - 1 for row in rows])
     pressures = np.array([row[2] for row in rows]) * KPA
     corners = angle[:: SAMPLES - 1]

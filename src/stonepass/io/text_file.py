@@ -1,13 +1,13 @@
-"""Files of text: read if there, small enough, readable, written if writable, else refused in one
-sentence."""
+"""Files: read text and write text or bytes, or else refuse in one sentence."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from stonepass.errors import BadInput, require
 
-__all__ = ["existing", "read_text", "write_text"]
+__all__ = ["check_writable", "existing", "read_text", "write_file"]
 
 
 def existing(path: Path, what: str = "file") -> Path:
@@ -41,8 +41,28 @@ def read_text(path: Path, largest: int, kind: str, what: str = "file") -> str:
         raise BadInput(what, path, f"{kind} ({problem})") from problem
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a file in UTF-8.
+def check_writable(path: Path, endings: tuple[str, ...]) -> None:
+    """Refuse an output file that could not be written, before the work is done.
+
+    Raises
+    ------
+    BadInput
+        The name has another ending than `endings` (in lower case), or its folder cannot be written
+        to.
+    """
+    if path.suffix.lower() not in endings:
+        raise BadInput("output file", str(path), "a name ending in " + ", ".join(endings))
+    try:
+        fits = not path.is_dir()
+        fits = fits and os.access(path if path.exists() else path.parent, os.W_OK)
+    except (OSError, ValueError):  # a name too long for the system, or with a NUL
+        fits = False
+    if not fits:
+        raise BadInput("output file", str(path), "in a folder that can be written to")
+
+
+def write_file(path: Path, content: str | bytes) -> None:
+    """Write a file; text is encoded in UTF-8.
 
     Raises
     ------
@@ -50,6 +70,6 @@ def write_text(path: Path, text: str) -> None:
         It cannot be written.
     """
     try:
-        path.write_text(text, encoding="utf-8")
+        path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
     except OSError as problem:
         raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem

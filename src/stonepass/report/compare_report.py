@@ -1,4 +1,4 @@
-"""CalculiX beside stonepass: table, record and picture."""
+"""The results of CalculiX beside our own: table, record and figure."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ KPA = 1e3
 
 
 def compare_table(found: Comparison) -> Table:
-    """The numbers of both, and by how much CalculiX differs."""
+    """Return a table of the numbers of both programs and their relative differences."""
     table = Table(box=box.SIMPLE_HEAD, title=case_title(found.answer.case))
     table.add_column("")
     for name in ("stonepass", "solver error", "CalculiX", "difference"):
@@ -62,7 +62,7 @@ def _kpa(pressure: float | None) -> str:
 
 
 def compare_record(found: Comparison) -> dict[str, Any]:
-    """Our record, and what CalculiX has for the same."""
+    """Return the record of our answer with the numbers of CalculiX under ``calculix``."""
     theirs = found.contact
     return {
         **answer_record(found.answer).to_dict(),
@@ -76,7 +76,7 @@ def compare_record(found: Comparison) -> dict[str, Any]:
 
 
 def compare_figure(found: Comparison) -> Figure:
-    """Contact pressure over the angle, both."""
+    """Draw the contact pressure of both programs over the angle."""
     figure = new_figure(6.4, 3.6)
     axes = figure.add_subplot()
     for contact, colour, label, width in (

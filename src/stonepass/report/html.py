@@ -9,7 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from stonepass.io.text_file import write_text
+from stonepass.io.text_file import write_file
 
 __all__ = ["inline_svg", "write_html"]
 
@@ -35,7 +35,7 @@ def write_html(path: Path, title: str, style: str, body: str) -> None:
         f"<title>{escape(title)}</title><style>{_STYLE}{style}</style></head><body>\n"
         f"{body}\n</body></html>\n"
     )
-    write_text(path, text)
+    write_file(path, text)
 
 
 def inline_svg(figure: Figure, text: str) -> str:

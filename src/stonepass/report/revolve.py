@@ -9,7 +9,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from stonepass.export.vtu import SEGMENTS, meridian
+from stonepass.export.meridian import SEGMENTS, meridian
 from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.problem import Problem
 from stonepass.report.style import COLOURS, new_figure

@@ -16,9 +16,9 @@ from rich.table import Table
 
 from stonepass.about import DISCLAIMER, VERSION
 from stonepass.errors import BadInput
+from stonepass.io.csv_file import write_csv
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.states.loaded_state import PushedState
-from stonepass.io.csv_file import write_csv
 from stonepass.report.push_figure import draw_pressure, draw_wall
 from stonepass.report.style import COLOURS, new_figure, tidy
 from stonepass.report.table import case_title, significant

@@ -1,0 +1,60 @@
+"""An export format in one file: contact pressure over the angle, as a table.
+
+python examples/toy_writer.py [FOLDER]
+
+In the package this file would stand in `stonepass/export/writers`, and its `CONTACT` in the tuple
+of `stonepass/export/registry.py`; then ``stonepass export`` has it too, with its option and help.
+"""
+
+import sys
+from pathlib import Path
+
+import stonepass as sp
+from stonepass import export
+
+PASCAL_PER = {"kPa": 1e3, "mmHg": 133.322387415}
+
+
+def contact_table(case, options, solved):
+    """Return the table; no content where the stone is not held, so that there is no contact."""
+    answer, unit = solved(), options["unit"]
+    if answer.seated is None:
+        return export.Export(None, f"{answer.outcome.name}: {answer.message}")
+    contact = answer.seated
+    rows = [
+        f"{theta:.6f},{pressure / PASCAL_PER[unit]:.6g}"
+        for theta, pressure in zip(contact.theta, contact.contact_pressure, strict=True)
+    ]
+    text = "\n".join([f"theta_rad,contact_pressure_{unit}", *rows]) + "\n"
+    return export.Export(text, f"{len(rows)} angles", "plot it with: gnuplot {file}")
+
+
+CONTACT = export.Writer(
+    name="contact",
+    ending=".csv",
+    description="table of the contact pressure",
+    write=contact_table,
+    options=(
+        export.Option("unit", "unit of the pressure", str, default="kPa", choices=("kPa", "mmHg")),
+    ),
+    limits={
+        "model": export.Limit(("paper",), "the table shows the contact of the seated state"),
+        "law": export.Limit(("neo-hookean", "mooney-rivlin", "yeoh", "fung")),
+    },
+)
+
+
+def main() -> None:
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    case = sp.Case(
+        sp.Stone(size_ratio=1.2),
+        sp.Ureter(wall_ratio=1.5, material="latex"),
+        method=sp.Method(seating="frictionless", accuracy="fast"),
+    )
+    writers = (*export.formats(), CONTACT)  # the registration
+    made = export.write(case, folder / "contact.csv", writers=writers, unit="mmHg")
+    print(f"{made.path.name}: {made.summary}; {made.next_step}")
+
+
+if __name__ == "__main__":
+    main()

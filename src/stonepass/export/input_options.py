@@ -1,0 +1,42 @@
+"""Options and limits of the input files for other finite-element programs.
+
+The declarations of the formats, the functions that write them and the mesh share them, so this
+module loads no numerical library.
+"""
+
+from __future__ import annotations
+
+from stonepass.export.contract import Limit, Option
+
+__all__ = ["ELEMENT", "FINE", "FLAVOUR", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS"]
+
+LENGTHS = (0.002, 0.5)  # of an element in the contact, in inner radii: smallest and largest
+FINE = Option(
+    "fine",
+    "length of the elements in the contact, in inner radii",
+    float,
+    default_text="0.025 or less",
+    bounds=LENGTHS,
+    unit="in inner radii R_a",
+)
+FLAVOUR = Option(
+    "flavour",
+    "program that reads the input deck",
+    str,
+    default="calculix",
+    choices=("calculix", "abaqus"),
+)
+ELEMENT = Option(
+    "element", "element type of the wall", str, default="CAX8", choices=("CAX8", "CAX8R")
+)
+SEATED_LIMITS = {
+    "model": Limit(("paper",), "the file describes the seated state, which is the paper's model"),
+    "seating": Limit(("pressed", "frictionless", "growing")),
+    "load": Limit(("prestretch", "dead", "hydrostatic")),
+    "shape": Limit(("sphere", "spheroid", "outline")),
+}
+# The files have the mesh of `FINE`, and what follows from a contact is not in them.
+SEATED_IGNORES = (
+    "accuracy", "as_printed", "closure_start", "closure", "series_order", "opening_curve",
+    "far_field_ground", "wetted",
+)  # fmt: skip

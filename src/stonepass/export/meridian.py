@@ -1,0 +1,66 @@
+"""The solved wall as points and quadrilaterals of its meridian, with the stress at each point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from stonepass.fe.axisymmetric.postprocessing import STRESSES, Field
+
+__all__ = ["SEGMENTS", "Meridian", "meridian"]
+
+SEGMENTS = 48  # round the axis, where the meridian is turned round it
+
+
+@dataclass(frozen=True)
+class Meridian:
+    """Points of the meridian with stresses, and quadrilaterals between them, four to an element.
+
+    R, Z are reference coordinates and r, z deformed ones in inner radii; stresses are in Pa.
+    """
+
+    R: Float[np.ndarray, " points"]
+    Z: Float[np.ndarray, " points"]
+    r: Float[np.ndarray, " points"]
+    z: Float[np.ndarray, " points"]
+    stress: dict[str, Float[np.ndarray, " points"]]
+    quads: Int[np.ndarray, "quads 4"]
+
+    def edges(
+        self, quads: Int[np.ndarray, "quads 4"], along: Float[np.ndarray, " points"], at: float
+    ) -> Int[np.ndarray, "edges 2"]:
+        """Return the edges of some quadrilaterals that lie where the coordinate `along` is `at`."""
+        edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
+        return edges[np.all(np.abs(along[edges] - at) < 1e-9, axis=1)]
+
+
+def meridian(wall: Field, *, mirrored: bool) -> Meridian:
+    """Return the meridian of a solved wall.
+
+    Parameters
+    ----------
+    wall : Field
+        Solved wall of a half tube or of a whole one.
+    mirrored : bool
+        Whether to add the other half of a half tube.
+    """
+    count = round(np.sqrt(wall.r.shape[1]))
+    kept = np.array([0, count // 2, count - 1])
+    some = (kept[:, None] * count + kept[None, :]).ravel()
+    corner = np.array([[0, 3, 4, 1], [1, 4, 5, 2], [3, 6, 7, 4], [4, 7, 8, 5]])
+    quads = (corner[None] + 9 * np.arange(len(wall.r))[:, None, None]).reshape(-1, 4)
+    R, Z, r, z = (getattr(wall, name)[:, some].ravel() for name in ("R", "Z", "r", "z"))
+    stress = {name: getattr(wall, name)[:, some].ravel() for name in STRESSES}
+    if not mirrored:
+        return Meridian(R, Z, r, z, stress, quads)
+    sign = {name: -1.0 if name == "stress_rz" else 1.0 for name in STRESSES}
+    return Meridian(
+        np.tile(R, 2),
+        np.concatenate([Z, -Z]),
+        np.tile(r, 2),
+        np.concatenate([z, -z]),
+        {name: np.concatenate([each, sign[name] * each]) for name, each in stress.items()},
+        np.concatenate([quads, quads[:, ::-1] + len(r)]),
+    )

@@ -1,0 +1,1 @@
+"""The declarations of the export formats, one file each; none loads a numerical library."""

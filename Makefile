@@ -3,16 +3,21 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help run test lint verify bench lock clean
+.PHONY: help run test test-slow test-all lint verify bench lock clean
 
 help: ## list the commands
-	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 11
 
 run: $(VENV)/.run ## compute the paper's headline: table here, figure in headline.svg
 	$(BIN)/stonepass headline
 
-test: $(VENV)/.dev ## run the tests
-	$(BIN)/pytest -n auto --dist worksteal
+test: $(VENV)/.dev ## run the tests: every command, contract and identity, in under 4 minutes
+	$(BIN)/pytest -n auto --dist worksteal -m "not slow"
+
+test-slow: $(VENV)/.dev ## run the tests that `make test` leaves out: fuzzing, other programs
+	$(BIN)/pytest -n auto --dist worksteal -m slow
+
+test-all: test test-slow ## run all tests
 
 lint: $(VENV)/.dev ## format, lint, types, layers
 	$(BIN)/ruff format --check .

@@ -14,8 +14,8 @@ from measure import Row, cpu_seconds, memory, stonepass
 
 import stonepass as sp
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.states.seated_state import NoSeat
 from stonepass.model.case_states import seat
+from stonepass.model.states.seated_state import NoSeat
 from stonepass.paper.fig8 import SIZES, WALLS
 from stonepass.paper.inputs import ureter_case
 from stonepass.studies.case_solver import JobSolver

@@ -4,8 +4,11 @@ The doors (units, case, case_file, user_law) are left out: they refuse wrong typ
 one sentence, and that is what their tests look at.
 """
 
+import re
+from functools import partial
 from pathlib import Path
 
+import jaxtyping
 import pytest
 from jaxtyping import install_import_hook
 
@@ -22,32 +25,84 @@ CHECKED = [
     "stonepass.studies",
     "stonepass.report",
 ]
+SHAPES = re.compile(r"\b(Float|Int|Bool|Shaped|Values)\b")
+check_shapes = jaxtyping.jaxtyped
+
+
+def unless_local_and_plain(function=None, *, typechecker=None):
+    """Check a function, but not one made inside another that is annotated without any shape.
+
+    The check is built each time such a function is made, a thousand times in one solve, which
+    takes longer than the solve itself; its plain types are mypy's business.
+    """
+    if function is None:
+        return partial(unless_local_and_plain, typechecker=typechecker)
+    if "<locals>" in getattr(function, "__qualname__", ""):
+        hints = getattr(function, "__annotations__", {}).values()
+        if not any(SHAPES.search(str(hint)) for hint in hints):
+            return function
+    return check_shapes(function, typechecker=typechecker)
+
+
+jaxtyping.jaxtyped = unless_local_and_plain  # what the hook puts on every function
 hook = install_import_hook(CHECKED, "beartype.beartype")
 
 
-@pytest.fixture(scope="session", autouse=True)
-def cache_of_the_tests(tmp_path_factory):
-    """Commands remember results for this run of the tests only, not among the user's own."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("STONEPASS_CACHE", str(tmp_path_factory.mktemp("cache")))
-        yield
+def wrap_solver(monkeypatch, wrapper):
+    """Replace each function of the uncached state solver by ``wrapper(name, function)``."""
+    from stonepass.model.states.uncached import UNCACHED
+
+    kind = type(UNCACHED)
+    for name in [each for each in vars(kind) if not each.startswith("_")]:
+        monkeypatch.setattr(kind, name, staticmethod(wrapper(name, getattr(UNCACHED, name))))
 
 
 @pytest.fixture
 def solved(monkeypatch):
     """Names of what was solved afresh."""
-    from stonepass.model.states.uncached import UNCACHED
-
     found = []
-    for name in ("seat", "push", "hold", "opening_curve"):
-        original = getattr(UNCACHED, name)
 
-        def called(*arguments, _name=name, _original=original, **keywords):
-            found.append(_name)
-            return _original(*arguments, **keywords)
+    def counted(name, function):
+        def called(*arguments, **keywords):
+            found.append(name)
+            return function(*arguments, **keywords)
 
-        monkeypatch.setattr(type(UNCACHED), name, staticmethod(called))
+        return called
+
+    wrap_solver(monkeypatch, counted)
     return found
+
+
+@pytest.fixture(scope="session")
+def solutions_of_this_session():
+    """What `shared_solutions` has solved so far, by the function and its arguments."""
+    return {}
+
+
+@pytest.fixture
+def shared_solutions(request, monkeypatch, solutions_of_this_session):
+    """A question that the finite elements have answered in this session is not solved again.
+
+    For tests of the doors and of what is made of states, many of which ask for the same state.
+    Tests of the solver and of the solution cache do without, so that they do solve; so does a
+    test with the marker `afresh` in a module that uses this fixture.
+    """
+    if request.node.get_closest_marker("afresh"):
+        return
+    known = solutions_of_this_session
+
+    def once(name, function):
+        def answered(*arguments, **keywords):
+            words = sorted(keywords.items())
+            key = (name, *(tuple(a) if isinstance(a, list) else a for a in arguments), *words)
+            if key not in known:
+                known[key] = function(*arguments, **keywords)
+            found = known[key]
+            return list(found) if isinstance(found, list) else found
+
+        return answered
+
+    wrap_solver(monkeypatch, once)
 
 
 @pytest.fixture

@@ -17,11 +17,11 @@ from stonepass.errors import BadInput, Outcome
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case, Method
+from stonepass.model.critical import solve
+from stonepass.model.far_field import inflation, lumen_ratio
 from stonepass.model.load import Load
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
-from stonepass.model.critical import solve
-from stonepass.model.far_field import inflation, lumen_ratio
 from stonepass.report.assess_figure import cohorts_figure, pressures_figure, sensitivity_figure
 from stonepass.report.assess_page import write_assessment
 from stonepass.report.assess_report import assess_record, describe_range

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from stonepass.model.case import Case, Method
-from stonepass.model.stone import Stone
-from stonepass.model.ureter import Ureter
 from stonepass.model.closure import linear_closure
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.shape import Shape
 from stonepass.model.states.seated_state import Contact
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 
 EDGE = np.pi / 3
 

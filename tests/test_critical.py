@@ -11,13 +11,18 @@ from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.models.seated_balance import pressure_of_angle
 
+pytestmark = pytest.mark.usefixtures("shared_solutions")
+
 THIN = sp.Ureter(wall_ratio=1.3)
 LATEX = sp.Ureter(wall_ratio=1.5, material="latex")
 
 
-def answer(xi, friction=0.5, ureter=LATEX, load=None, **method):
+def answer(xi, friction=0.5, ureter=LATEX, load=None, accuracy="fast", **method):
     return sp.critical_pressure(
-        sp.Stone(size_ratio=xi, friction=friction), ureter, load, sp.Method(**method)
+        sp.Stone(size_ratio=xi, friction=friction),
+        ureter,
+        load,
+        sp.Method(accuracy=accuracy, **method),
     )
 
 
@@ -128,7 +133,9 @@ def test_the_peak_may_lie_off_the_equator():
 def test_the_half_length_reaches_the_finite_elements():
     # Held ends: σ(π/2) falls as the tube gets longer (docs/verification.md, half-length).
     sigma = [
-        answer(1.2, half_length=L, seating="frictionless").seated.equator_contact_pressure
+        answer(
+            1.2, half_length=L, seating="frictionless", accuracy="standard"
+        ).seated.equator_contact_pressure
         for L in (6.0, 10.0, 40.0)
     ]
     assert sigma[0] > sigma[1] > sigma[2]
@@ -149,6 +156,7 @@ def test_absolute_size_drops_out_end_to_end():
         sp.critical_pressure(
             sp.Stone(diameter=f"{4.2 * s} mm"),
             sp.Ureter(inner_diameter=f"{3.5 * s} mm", outer_diameter=f"{4.55 * s} mm"),
+            method=sp.Method(accuracy="fast"),
         ).pressure
         for s in (1.0, 0.1, 30.0)
     ]
@@ -192,5 +200,5 @@ def test_the_unstable_law_is_refused_before_any_solve():
 def test_latex_golden():
     # Origin: order 6 on a mesh five times finer at the contact edge (verification/accuracy.py);
     # frictionless seating, friction 0.5.
-    found = answer(1.2, seating="frictionless")
+    found = answer(1.2, seating="frictionless", accuracy="standard")
     assert found.pressure == pytest.approx(41529.0, rel=2e-3)

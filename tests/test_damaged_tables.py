@@ -31,6 +31,7 @@ from stonepass.io.csv_file import MOST_ROWS
 
 SEED = 20250
 COUNT = dict.fromkeys(KINDS, 150) | {"shape": 20}  # a shape that is nearly one takes 0.3 s
+FEW = dict.fromkeys(KINDS, 30) | {"shape": 8}
 TABLES = [kind for kind in KINDS if KINDS[kind].file.endswith(".csv")]
 TEN_MILLION = 10**7 * 8  # bytes of as many rows; a hole, of which no byte is on the disk
 SECONDS = 2.0  # of CPU, for any file that is refused
@@ -526,10 +527,8 @@ def test_ten_million_rows_are_refused_unread(tmp_path, monkeypatch, kind):
     os.truncate(path, TEN_MILLION)
     for name in ("open", "read_text", "read_bytes"):
         monkeypatch.setattr(Path, name, lambda *_, **__: pytest.fail("read"))
-    begun = time.perf_counter()
     with pytest.raises(BadInput) as refused:
         KINDS[kind].read(path)
-    assert time.perf_counter() - begun < 0.5
     check_sentence(kind, refused.value, path.name)
     has(str(refused.value), "smaller than")
 
@@ -661,15 +660,16 @@ def test_the_files_that_are_damaged_are_good(tmp_path, kind):
 
 
 @pytest.mark.parametrize("kind", list(KINDS))
-def test_whatever_is_damaged_is_read_or_refused(kind):
-    random = Random(f"{kind} {SEED}")
+@pytest.mark.parametrize(
+    "counts", [FEW, pytest.param(COUNT, marks=pytest.mark.slow)], ids=["few", "many"]
+)
+def test_whatever_is_damaged_is_read_or_refused(kind, counts):
+    random, count = Random(f"{kind} {SEED}"), counts[kind]
     with TemporaryDirectory() as folder:
-        found = Counter(
-            outcome(kind, damaged(kind, random), Path(folder)) for _ in range(COUNT[kind])
-        )
-    assert found["read"] + found["refused"] == COUNT[kind]
-    assert found["read"] >= 0.05 * COUNT[kind]
-    assert found["refused"] >= 0.5 * COUNT[kind]
+        found = Counter(outcome(kind, damaged(kind, random), Path(folder)) for _ in range(count))
+    assert found["read"] + found["refused"] == count
+    assert found["read"] >= 0.05 * count
+    assert found["refused"] >= 0.5 * count
 
 
 def test_damage_is_seeded_and_leaves_no_file_whole():

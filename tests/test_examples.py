@@ -14,8 +14,16 @@ from stonepass.cli import run
 from stonepass.records.answer import record, size_record
 from stonepass.report.friction_report import friction_record
 
+pytestmark = pytest.mark.usefixtures("shared_solutions")
+
 ROOT = Path(__file__).parents[1]
-EXAMPLES = sorted((ROOT / "examples").iterdir())
+# Dozens of solves each; test_assess and test_invitro run the same commands with less.
+LONG = ("latex_series.csv", "person.toml")
+EXAMPLES = [
+    pytest.param(path, id=path.name, marks=[pytest.mark.slow] if path.name in LONG else [])
+    for path in sorted((ROOT / "examples").iterdir())
+]
+FAST = ["--accuracy", "fast"]
 
 
 # How the examples that are data are used.
@@ -23,7 +31,7 @@ COMMANDS = {
     "known_slopes.png": ["friction", "{}", "--pixel", "0.5um", "--height-range", "24.8um"],
     "crystals.tif": ["friction", "{}", "--crystal", "20um"],
     "crystals.x3p": ["friction", "{}"],
-    "egg.csv": ["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", "{}"],
+    "egg.csv": ["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", "{}", *FAST],
     "latex_tensile.csv": [
         "fit", "tensile", "{}", "--law", "neo-hookean", "--width", "10mm", "--thickness", "1.2mm"
     ],
@@ -41,21 +49,22 @@ COMMANDS = {
 
 
 def test_there_are_examples():
-    assert len([path for path in EXAMPLES if path.suffix in (".py", ".toml", ".csv")]) >= 5
+    paths = [path for example in EXAMPLES for path in example.values]
+    assert len([path for path in paths if path.suffix in (".py", ".toml", ".csv")]) >= 5
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", EXAMPLES)
 def test_example_runs(path, capsys, tmp_path, monkeypatch):
     monkeypatch.setenv("STONEPASS_CACHE", str(tmp_path))
     if path.name in COMMANDS:
         assert run([part.format(path) for part in COMMANDS[path.name]]) == 0
     elif path.suffix == ".toml" and "[stone]" in path.read_text():
         command = "assess" if "[assessment]" in path.read_text() else "pressure"
-        assert run([command, str(path)]) == 0
+        assert run([command, str(path), *(FAST if command == "pressure" else [])]) == 0
     elif path.suffix == ".toml" or "def energy" in path.read_text():
         law = str(path) if path.suffix == ".toml" else f"{path}:energy"
         assert run(["material", "check", law]) == 0
-        assert run(["pressure", "--xi", "1.2", "--eta", "1.3", "--material", law]) == 0
+        assert run(["pressure", "--xi", "1.2", "--eta", "1.3", "--material", law, *FAST]) == 0
     else:
         monkeypatch.setattr("sys.argv", [str(path), str(tmp_path)])  # a folder for what it writes
         runpy.run_path(str(path), run_name="__main__")
@@ -74,7 +83,8 @@ def test_json_keys_are_in_the_glossary():
     glossary = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
     ureter = stonepass.Ureter(wall_ratio=1.3)
     one = record(stonepass.critical_pressure(stonepass.Stone(size_ratio=0.9), ureter))
-    size = size_record(stonepass.critical_size(ureter, "1 Pa", friction=1.0))
+    quick = stonepass.Method(accuracy="fast")
+    size = size_record(stonepass.critical_size(ureter, "12 kPa", friction=0.0, method=quick))
     keys = {*one, *size, *one["inputs"], *one["solver"]}
     assert len(keys) > 30
     assert [key for key in sorted(keys) if f"`{key}`" not in glossary] == []

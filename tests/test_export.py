@@ -29,6 +29,8 @@ from stonepass.model.far_field import lumen_ratio
 from stonepass.model.models.seated_balance import balance_pressure
 from stonepass.model.states.nondimensional import profile_of
 
+pytestmark = pytest.mark.usefixtures("shared_solutions")
+
 XI, ETA, MU = 1.2, 1.5, 0.475
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -451,12 +453,28 @@ def test_bad_requests(options, words, capsys, tmp_path, monkeypatch):
     assert words in capsys.readouterr().err
 
 
+def test_compare_puts_results_beside_our_own(faked, tmp_path, capsys):
+    """The door without the other program: results made of our own state."""
+    _, path = faked
+    figure = tmp_path / "c.svg"
+    given = ["--xi", "1.2", "--eta", "1.5", "--material", "latex", "--friction", "0.475"]
+    given += ["--seating", "frictionless", "--fine", "0.02", "--results", str(path)]
+    assert run(["compare", *given, "--json", "--figure", str(figure)]) == 0
+    assert "pressure" in capsys.readouterr().out
+    assert figure.read_text(encoding="utf-8").startswith("<?xml")
+    assert run(["compare", *given]) == 0
+    assert "CalculiX" in capsys.readouterr().out
+    assert run(["compare", *given, "--fine", "0.03"]) == 2
+    assert "those of this case's deck" in capsys.readouterr().err
+
+
 # --- CalculiX itself
 
 
 needs_ccx = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
 
 
+@pytest.mark.slow
 @needs_ccx
 def test_a_coarse_deck_goes_through_calculix_and_back(tmp_path, capsys, monkeypatch):
     """At the command line: P_ucr within 4 %, contact angle within 1 degree.

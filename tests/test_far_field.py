@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.materials.neo_hookean import NeoHookean
-from stonepass.model.load import Load
 from stonepass.model.far_field import (
     confining_traction,
     inflation,
@@ -16,6 +15,7 @@ from stonepass.model.far_field import (
     lumen_ratio,
     urine_pressure,
 )
+from stonepass.model.load import Load
 
 FUNG = material("ureter").law.fibres
 

@@ -252,8 +252,8 @@ def test_values_set_at_nodes_are_read_there():
 def test_a_free_tube_under_load_is_the_far_field():
     """No contact: a finite-element tube under P_out and axial stretch is exactly uniform."""
     from stonepass.materials.neo_hookean import NeoHookean
-    from stonepass.model.load import Load
     from stonepass.model.far_field import lumen_ratio
+    from stonepass.model.load import Load
 
     law = NeoHookean(1.0 / 8.0)  # hoop modulus 1 Pa: units and SI coincide
     for confinement in ("dead", "hydrostatic"):

@@ -7,8 +7,8 @@ import pytest
 
 import stonepass as sp
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.states.seated_state import SeatedState
 from stonepass.model.case_states import seat
+from stonepass.model.states.seated_state import SeatedState
 
 LATEX = sp.Case(
     sp.Stone(size_ratio=1.2, friction=0.475), sp.Ureter(wall_ratio=1.5, material="latex")

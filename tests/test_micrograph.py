@@ -5,7 +5,6 @@ import json
 import struct
 import subprocess
 import sys
-import time
 import zlib
 from dataclasses import replace
 from pathlib import Path
@@ -470,10 +469,8 @@ def test_a_reader_is_believed_only_as_far_as_it_makes_sense(
     (tmp_path / "reader").write_text(f"#!/bin/sh\nread line\n{script}\n")
     (tmp_path / "reader").chmod(0o755)
     monkeypatch.setattr(sys, "executable", str(tmp_path / "reader"))
-    begun = time.monotonic()
     with pytest.raises(BadInput, match=sentence):
         read_untrusted(path, seconds=0.5)
-    assert time.monotonic() - begun < 20.0
 
 
 def test_other_bytes_first_and_planes_apart_are_the_same_numbers(tmp_path):
@@ -591,14 +588,27 @@ def files(tmp_path_factory):
     return valid(tmp_path_factory.mktemp("valid"))
 
 
-@settings(
-    max_examples=150,
+damage = settings(
     deadline=None,
     derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
+
+
+@settings(damage, max_examples=20)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused(files, tmp_path, data):
+    assert_read_or_refused(files, tmp_path, data)
+
+
+@pytest.mark.slow
+@settings(damage, max_examples=300)
+@given(data=st.data())
+def test_many_damaged_files_are_read_or_refused(files, tmp_path, data):
+    assert_read_or_refused(files, tmp_path, data)
+
+
+def assert_read_or_refused(files, tmp_path, data):
     name = data.draw(st.sampled_from(sorted(files)))
     raw = bytearray(files[name])
     for _ in range(data.draw(st.integers(1, 6))):

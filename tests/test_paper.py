@@ -24,6 +24,8 @@ from stonepass.studies.executor import process_pool
 from stonepass.studies.jobs import PressureJob, Results, SizeJob, run_jobs
 from stonepass.units import Pressure
 
+pytestmark = pytest.mark.usefixtures("shared_solutions")
+
 ASKED = Asked(inputs.LIMIT)
 
 

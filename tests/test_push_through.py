@@ -16,11 +16,11 @@ from stonepass.materials.derivatives import energy_derivatives, hoop_modulus
 from stonepass.materials.protocol import Material
 from stonepass.materials.relaxed_energy import KEPT, RelaxedEnergy, relaxed
 from stonepass.model.accuracy import LEVELS
+from stonepass.model.case_states import push_through
 from stonepass.model.energy_balance import advance_force, opened_radius, strained_force
 from stonepass.model.far_field import urine_pressure
 from stonepass.model.states.loaded import _critical, _set_up, _Setup
 from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
-from stonepass.model.case_states import push_through
 from stonepass.strain import INNER_WALL, CauchyGreen
 
 DIRECT = sp.Method(model="direct")

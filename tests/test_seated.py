@@ -13,15 +13,15 @@ from stonepass.fe.axisymmetric.seating import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.case import Case, Method
-from stonepass.model.load import Load
-from stonepass.model.stone import Stone
-from stonepass.model.ureter import Ureter
+from stonepass.model.case_states import seat
 from stonepass.model.far_field import lumen_ratio
+from stonepass.model.load import Load
 from stonepass.model.shape import Shape
 from stonepass.model.states.first_guess import wrap_round_arc
 from stonepass.model.states.nondimensional import profile_of, tube_of
 from stonepass.model.states.seated_state import NoSeat, SeatedState
-from stonepass.model.case_states import seat
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
 
 FRICTIONLESS = Method(seating="frictionless")
 LATEX = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material="latex"), method=FRICTIONLESS)

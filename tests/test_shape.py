@@ -8,10 +8,10 @@ from stonepass.errors import BadInput, Outcome
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.inputs.case_file import read_case, write_case
 from stonepass.model.accuracy import LEVELS
+from stonepass.model.case_states import push_through
 from stonepass.model.energy_balance import advance_force, strained_force
 from stonepass.model.shape import Shape
 from stonepass.model.states.loaded_state import PushedState
-from stonepass.model.case_states import push_through
 
 FAST = LEVELS["fast"].resolution
 TAU = np.linspace(0.0, np.pi, 41)

@@ -1,17 +1,22 @@
 """The critical size inverts the critical pressure, and every other end is named."""
 
+from dataclasses import replace
+
 import pytest
 
 import stonepass as sp
 from stonepass.model.answer import Answer
 from stonepass.model.size import _Search, _top, _Unanswered
 
+pytestmark = pytest.mark.usefixtures("shared_solutions")
+
 THIN = sp.Ureter(wall_ratio=1.3)
+FAST = sp.Method(accuracy="fast")
 
 
 def test_size_inverts_pressure():
-    found = sp.critical_size(THIN, "12 kPa")
-    back = sp.critical_pressure(sp.Stone(size_ratio=found.size_ratio), THIN)
+    found = sp.critical_size(THIN, "12 kPa", method=FAST)
+    back = sp.critical_pressure(sp.Stone(size_ratio=found.size_ratio), THIN, method=FAST)
     assert back.pressure == pytest.approx(12e3, rel=1e-4)
     assert found.outcome is sp.Outcome.MOVES
     assert found.diameter is None
@@ -19,40 +24,40 @@ def test_size_inverts_pressure():
 
 def test_size_has_a_diameter_where_the_ureter_has_lengths():
     ureter = sp.Ureter(inner_diameter="3.5 mm", outer_diameter="4.55 mm")
-    found = sp.critical_size(ureter, "12 kPa")
+    found = sp.critical_size(ureter, "12 kPa", method=FAST)
     assert found.diameter == pytest.approx(found.size_ratio * 3.5e-3, rel=1e-12)
 
 
 def test_the_headline_is_near_the_published_sizes():
     # Published 1.22 and 1.11 (paper, Fig. 8a): pressed seating, friction 0.5, one G for both.
     for wall_ratio, published in ((1.3, 1.22), (3.4, 1.11)):
-        found = sp.critical_size(sp.Ureter(wall_ratio=wall_ratio), "12 kPa")
+        found = sp.critical_size(sp.Ureter(wall_ratio=wall_ratio), "12 kPa", method=FAST)
         assert found.size_ratio == pytest.approx(published, abs=0.01)
 
 
 def test_a_limit_beyond_the_strain_range_is_told_with_its_bound():
-    found = sp.critical_size(THIN, "50 kPa")
+    found = sp.critical_size(THIN, "50 kPa", method=FAST)
     assert found.outcome is sp.Outcome.BEYOND_RANGE
     assert found.size_ratio is None
-    bound = sp.critical_pressure(sp.Stone(size_ratio=1.3), THIN).pressure / 1e3
+    bound = sp.critical_pressure(sp.Stone(size_ratio=1.3), THIN, method=FAST).pressure / 1e3
     assert f"{bound:.4g} kPa" in found.message
 
 
 def test_a_limit_below_every_stuck_stone_is_told():
-    found = sp.critical_size(THIN, "0.001 kPa", friction=1.0)
+    found = sp.critical_size(THIN, "0.001 kPa", friction=1.0, method=FAST)
     assert found.outcome is sp.Outcome.BELOW_RANGE
     assert found.size_ratio is None
 
 
 def test_beyond_the_closure_is_passed_on():
-    found = sp.critical_size(THIN, "50 kPa", friction=1.5)
+    found = sp.critical_size(THIN, "50 kPa", friction=1.5, method=FAST)
     assert found.outcome is sp.Outcome.BEYOND_CLOSURE
     assert "at size ratio 1.3" in found.message
 
 
 def test_an_end_beyond_the_closure_does_not_hide_a_smaller_answer():
     # Friction 0.8: no balance at ξ = 1.3, yet 2 kPa is reached far below.
-    found = sp.critical_size(THIN, "2 kPa", friction=0.8)
+    found = sp.critical_size(THIN, "2 kPa", friction=0.8, method=FAST)
     assert found.outcome is sp.Outcome.MOVES
     assert found.at_size.pressure == pytest.approx(2e3, rel=1e-4)
 
@@ -64,34 +69,34 @@ def test_absurd_limits_are_refused(limit):
 
 
 def test_warnings_at_the_critical_size_are_passed_on():
-    found = sp.critical_size(THIN, "14 kPa", load=sp.Load("4 kPa"))
+    found = sp.critical_size(THIN, "14 kPa", load=sp.Load("4 kPa"), method=FAST)
     assert found.outcome is sp.Outcome.MOVES
     assert any("shrinks the lumen" in warning for warning in found.warnings)
 
 
 def test_without_friction_no_size_is_critical():
-    found = sp.critical_size(THIN, "12 kPa", friction=0.0)
+    found = sp.critical_size(THIN, "12 kPa", friction=0.0, method=FAST)
     assert found.outcome is sp.Outcome.BEYOND_RANGE
     assert "Without friction" in found.message
 
 
 def test_a_small_limit_is_not_below_the_range():
     # P_ucr(1.0002) of the thin wall with friction 0.5 is a few pascals: 20 Pa is reached above it.
-    found = sp.critical_size(THIN, "0.02 kPa")
+    found = sp.critical_size(THIN, "0.02 kPa", method=FAST)
     assert found.outcome is sp.Outcome.MOVES
     assert 1.0002 < found.size_ratio < 1.005
 
 
 def test_progress_is_told_every_size():
     tried = []
-    sp.critical_size(THIN, "12 kPa", progress=tried.append)
+    sp.critical_size(THIN, "12 kPa", method=FAST, progress=tried.append)
     assert tried[0] == 1.3
     assert 3 < len(tried) < 15
 
 
-@pytest.mark.parametrize("model", ["paper", "direct"])
+@pytest.mark.parametrize("model", ["paper", pytest.param("direct", marks=pytest.mark.slow)])
 def test_a_search_that_begins_on_a_coarser_mesh_ends_where_one_without_does(monkeypatch, model):
-    method = sp.Method(accuracy="fast", model=model)
+    method = replace(FAST, model=model)
     tried = []
     near = sp.critical_size(THIN, "12 kPa", method=method, progress=tried.append)
     assert near.at_size.pressure == pytest.approx(12e3, rel=1e-5)
@@ -108,7 +113,7 @@ def test_a_search_that_begins_on_a_coarser_mesh_ends_where_one_without_does(monk
 def test_a_size_beyond_the_range_of_the_material_is_none():
     """The coarser mesh reaches the limit within the range, the finer one just beyond it."""
     ureter = sp.Ureter(wall_ratio=1.5)
-    found = sp.critical_size(ureter, "26.38 kPa", method=sp.Method(accuracy="fast"))
+    found = sp.critical_size(ureter, "26.38 kPa", method=FAST)
     assert found.outcome is sp.Outcome.BEYOND_RANGE
     assert found.size_ratio is None
 

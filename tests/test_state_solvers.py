@@ -8,9 +8,9 @@ from test_store import assert_same
 
 import stonepass as sp
 from stonepass.model.accuracy import LEVELS
+from stonepass.model.case_states import push_along
 from stonepass.model.states.loaded import critical_push
 from stonepass.model.states.loaded_state import NoPush
-from stonepass.model.case_states import push_along
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED
 from stonepass.studies.solution_cache import SolutionCache

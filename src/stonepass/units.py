@@ -39,6 +39,14 @@ Q = TypeVar("Q", Length, Pressure)
 _EXAMPLES = {Length: "'4.2 mm'", Pressure: "'12 kPa', '90 mmHg' or '122 cmH2O'"}
 _WORDS = {Length: "a length", Pressure: "a pressure"}
 _SI = {Length: "meter", Pressure: "pascal"}
+# Usual units, so that pint, which takes 0.3 s to import, is not loaded for them.
+_USUAL = {
+    "meter": {"m": 1.0, "cm": 0.01, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6},
+    "pascal": {
+        "Pa": 1.0, "hPa": 100.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "mbar": 100.0,
+        "centimeter_H2O": 98.06649999999999, "millimeter_Hg": 133.322387415,
+    },
+}  # fmt: skip
 _TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ%°/][^\s]*)\s*")
 _NAME = r"[A-Za-zµμ°%][A-Za-z0-9_µμ°%]{0,29}(?:(?:\*\*|\^)-?\d)?"
 _UNIT = re.compile(rf"{_NAME}(?:[*/·]{_NAME}){{0,5}}")
@@ -107,6 +115,9 @@ def _factor(unit: str, argument: str, value: str, kind: type[Q]) -> float:
 @lru_cache(maxsize=64)
 def _si_factor(unit: str, si: str) -> float | None:
     """SI units in one `unit`, or None where `unit` is unknown or of another dimension."""
+    for dimension, factors in _USUAL.items():
+        if unit in factors:
+            return factors[unit] if dimension == si else None
     if not _UNIT.fullmatch(unit):  # mm**9**9**9 keeps pint busy for good
         return None
     registry = _registry()

@@ -7,8 +7,9 @@ divided by π R_s², so they are pressures in Pa.
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 
+from stonepass.fe.core.roots import bracketed_root
 from stonepass.materials.protocol import Law
 from stonepass.materials.relaxed_energy import relaxed
 from stonepass.model.far_field import lumen_ratio, urine_pressure
@@ -36,7 +37,7 @@ def opened_radius(case: Problem, pressure: float) -> float | None:
     while wide < WIDEST:
         wide *= 1.05
         if excess(wide) > 0.0:
-            return float(brentq(excess, lumen, wide, xtol=1e-13))
+            return bracketed_root(excess, lumen, wide, xtol=1e-13)
     return None
 
 

@@ -6,9 +6,9 @@ from functools import lru_cache
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import brentq
 
 from stonepass.errors import BadInput
+from stonepass.fe.core.roots import bracketed_root
 from stonepass.materials.composition import fibres_of
 from stonepass.materials.derivatives import hoop_energy_slope
 from stonepass.materials.protocol import ClosedForm, Law
@@ -90,7 +90,7 @@ def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
         wide *= 1.1
     if not pressure(SMALLEST_LUMEN) < 0.0 < pressure(wide):
         return None
-    return float(brentq(pressure, SMALLEST_LUMEN, wide, xtol=1e-14))
+    return bracketed_root(pressure, SMALLEST_LUMEN, wide, xtol=1e-14)
 
 
 def stuck_lumen(case: Problem) -> float:

@@ -6,10 +6,8 @@ All forces here are divided by π R_s², so they are pressures in Pa and absolut
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
-from scipy.interpolate import PchipInterpolator
-
+from stonepass.model.monotone import MonotoneIntegral, monotone_integral
 from stonepass.model.states.seated_state import Contact
 from stonepass.units import Values
 
@@ -33,8 +31,8 @@ class Resistance:
     downstream_angle: float
     friction_coefficient: float
     wall_sign: float
-    _shear: Any
-    _axial: Any
+    _shear: MonotoneIntegral
+    _axial: MonotoneIntegral
 
     def friction(self, alpha: Values) -> Values:
         """F_f(α)/(π R_s²) in Pa, α in [α₀, π/2]."""
@@ -48,7 +46,7 @@ class Resistance:
         """F_re(α)/(π R_s²) in Pa (Eq. 7)."""
         return self.friction(alpha) + self.wall(alpha)
 
-    def _beyond(self, integral: Any, alpha: Values) -> Values:
+    def _beyond(self, integral: MonotoneIntegral, alpha: Values) -> Values:
         return integral(self.downstream_angle) - integral(alpha)
 
 
@@ -64,8 +62,8 @@ def resistance(contact: Contact, *, as_printed: bool = False) -> Resistance:
         downstream_angle=contact.downstream_angle,
         friction_coefficient=contact.case.stone.friction,
         wall_sign=-1.0 if as_printed else 1.0,
-        _shear=PchipInterpolator(theta, sigma * rho * z_slope).antiderivative(),
-        _axial=PchipInterpolator(theta, sigma * 2.0 * rho * rho_slope).antiderivative(),
+        _shear=monotone_integral(theta, sigma * rho * z_slope),
+        _axial=monotone_integral(theta, sigma * 2.0 * rho * rho_slope),
     )
 
 

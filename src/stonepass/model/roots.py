@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import brentq
 
+from stonepass.fe.core.roots import bracketed_root
 from stonepass.units import Values
 
 __all__ = ["first_root"]
@@ -34,4 +34,4 @@ def first_root(excess: Callable[[Values], Values], first: float, last: float) ->
     if below.size == 0:
         return None
     k = int(below[0])
-    return float(brentq(excess, grid[k - 1], grid[k], xtol=1e-14))
+    return bracketed_root(excess, float(grid[k - 1]), float(grid[k]), xtol=1e-14)

@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from jaxtyping import Float
 from numpy.polynomial import chebyshev
-from scipy.optimize import brentq, linprog
 
 from stonepass.errors import BadInput, require
 from stonepass.fe.axisymmetric.profile import ROUND
+from stonepass.fe.core.roots import bracketed_root
 from stonepass.model.shape import ASPECT, Shape
 
 __all__ = ["shape_through"]
@@ -152,7 +152,7 @@ def _widest(
     low, high = float(z[at - 1]), float(z[at + 1])
     if not slope(low) * slope(high) < 0.0:
         return float(z[at])
-    return float(brentq(slope, low, high, xtol=1e-13 * float(z[-1] - z[0])))
+    return bracketed_root(slope, low, high, xtol=1e-13 * float(z[-1] - z[0]))
 
 
 def _nearest(
@@ -215,6 +215,8 @@ def _held_convex(
 
     By linear programming, the distance along rays one more unknown; None where it fails.
     """
+    from scipy.optimize import linprog  # takes long to load, and most points need no such search
+
     k = np.arange(basis.shape[1])
     curvature = np.cos(GRID[:, None] * k) @ (basis * (1.0 - k**2)).T
     rays = (basis @ chebyshev.chebvander(np.cos(tau), len(k) - 1).T * size).T

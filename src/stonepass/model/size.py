@@ -20,8 +20,8 @@ from stonepass.model.size_search import (
     NoValue,
     Root,
     TooSmall,
-    bracketed_root,
     local_slope,
+    root_in_range,
     secant_root,
 )
 from stonepass.model.states.state_solver import StateSolver
@@ -216,7 +216,7 @@ class _OneMesh:
         def excess(size_ratio: float) -> float | None:
             return self.excess(size_ratio, tried)
 
-        found = bracketed_root(
+        found = root_in_range(
             excess,
             low,
             high,

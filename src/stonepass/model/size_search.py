@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from scipy.optimize import brentq
+from stonepass.fe.core.roots import bracketed_root
 
-__all__ = ["NoValue", "Root", "TooSmall", "bracketed_root", "local_slope", "secant_root"]
+__all__ = ["NoValue", "Root", "TooSmall", "local_slope", "root_in_range", "secant_root"]
 
 SLOPE_BASE = 1e-4  # points nearer than this say too little of the slope
 CLOSE = 1e-3  # a step of this length is probably the last one
@@ -55,7 +55,7 @@ class _Lost(Exception):
         self.x = x
 
 
-def bracketed_root(
+def root_in_range(
     excess: Excess,
     low: float,
     high: float,
@@ -119,7 +119,7 @@ def bracketed_root(
         return 0.0 if abs(missed) < tolerance * -low_excess else missed
 
     try:
-        return float(brentq(continued, low, top, xtol=tolerance))
+        return bracketed_root(continued, low, top, xtol=tolerance)
     except _Lost as stop:
         return NoValue(stop.x)
 

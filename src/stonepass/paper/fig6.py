@@ -16,7 +16,7 @@ from stonepass.model.case import Case
 from stonepass.model.load import Load
 from stonepass.paper.inputs import LATEX_WALLS, WATER, latex_case
 from stonepass.paper.section import Asked, Claim, Illustration, Section, answers_table
-from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results
 
 __all__ = ["Fig6"]
@@ -40,6 +40,7 @@ class Fig6:
         ]
         return [*curves, *(PressureJob(_case(point)) for point in asked.points)]
 
+    @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw both panels, write the curves, compare with points."""
         figure = new_figure(9.2, 4.0)

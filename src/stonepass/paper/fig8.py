@@ -17,7 +17,7 @@ from stonepass.model.load import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, LIMIT, PASSING, PUBLISHED, ureter_case
 from stonepass.paper.section import Asked, Claim, Illustration, Section, Table, answers_table
-from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results, SizeJob
 from stonepass.units import Pressure
 
@@ -52,6 +52,7 @@ class Fig8:
             *(SizeJob(case, asked.limit) for case in sizes),
         ]
 
+    @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the panels, write their data, judge the claims."""
         line = {eta: _size_of(found, eta, asked.limit) for eta in WALLS}

@@ -18,7 +18,7 @@ from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.model.stone import Stone
 from stonepass.paper.inputs import BEAM, BEAM_SIZE, FRICTION, LIMIT, ureter_case
 from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
-from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results
 from stonepass.units import Pressure
 
@@ -38,6 +38,7 @@ class Fig9:
         """The finite-element curve; the beam costs nothing."""
         return [PressureJob(ureter_case(WALL, xi)) for xi in SIZES]
 
+    @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw both panels, judge the claims."""
         answers = [

@@ -11,7 +11,7 @@ from rich.table import Table
 from stonepass.paper.headline import Wall
 from stonepass.paper.inputs import FRICTION, LIMIT
 from stonepass.report.curve_figure import draw_curve, frame_curve
-from stonepass.report.style import COLOURS, new_figure
+from stonepass.report.style import COLOURS, in_style, new_figure
 
 __all__ = ["confining_table", "headline_figure", "headline_table"]
 
@@ -59,6 +59,7 @@ def confining_table(walls: Sequence[Wall]) -> Table:
     return table
 
 
+@in_style
 def headline_figure(walls: Sequence[Wall]) -> Figure:
     """Draw P_ucr(ξ) of both walls, the 12 kPa limit and the published critical sizes."""
     figure = new_figure(6.4, 4.4)

@@ -19,7 +19,7 @@ from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
 from stonepass.report.revolve import revolved_figure
 from stonepass.report.section import draw_section, element_rim
 from stonepass.report.stone import draw_radii
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.studies.jobs import Job, PressureJob, Results
 
 __all__ = ["Fig4", "Fig5", "Fig7"]
@@ -59,6 +59,7 @@ class Fig5:
         """One state with its wall for each."""
         return [PressureJob(case, wall=True) for case in _ureters()]
 
+    @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the meshes."""
         states = [_state(found, case) for case in _ureters()]
@@ -101,6 +102,7 @@ class Fig7:
             *(PressureJob(ureter_case(eta, xi)) for eta in PUBLISHED for xi in SIZES),
         ]
 
+    @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw, write the profiles, judge their form."""
         states = [_state(found, case) for case in _ureters()]
@@ -182,6 +184,7 @@ def _single_peak(states: Sequence[SeatedState]) -> Claim:
     )
 
 
+@in_style
 def _sections(
     title: str, name: str, states: Sequence[SeatedState], caption: str, folder: Path
 ) -> Section:

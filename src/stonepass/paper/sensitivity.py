@@ -21,7 +21,7 @@ from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.paper.inputs import FRICTION, PUBLISHED
 from stonepass.paper.section import Asked, Illustration, Section, Table
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.studies.jobs import Job, Results, SizeJob
 from stonepass.units import Pressure
 
@@ -63,6 +63,7 @@ class Sensitivity:
             for eta in PUBLISHED
         ]
 
+    @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw and tell."""
         names, rows = [], []

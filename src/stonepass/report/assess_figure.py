@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import COHORTS
 from stonepass.clinic.pressure_limits import LIMITS
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 
 __all__ = ["cohorts_figure", "pressures_figure", "sensitivity_figure"]
 
@@ -19,6 +19,7 @@ SHADES = {"Jendeberg 2017": "orange", "Coll 2002": "green", "Miller & Kane 1999"
 WIDEST = 10.0  # mm, of the axis
 
 
+@in_style
 def pressures_figure(found: Assessment) -> Figure:
     """Draw the fraction of samples with P_ucr below a pressure, with limits and the present P_u."""
     figure = new_figure(7.2, 2.8)
@@ -50,6 +51,7 @@ def pressures_figure(found: Assessment) -> Figure:
     return figure
 
 
+@in_style
 def sensitivity_figure(found: Assessment) -> Figure:
     """Draw what the spread of P_ucr comes from."""
     indices = found.sensitivity
@@ -66,6 +68,7 @@ def sensitivity_figure(found: Assessment) -> Figure:
     return figure
 
 
+@in_style
 def cohorts_figure(found: Assessment) -> Figure:
     """Draw the fraction that passed by size in cohorts, and the model's below the limit."""
     figure = new_figure(7.2, 3.1)

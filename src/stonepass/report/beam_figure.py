@@ -11,11 +11,12 @@ from stonepass.model.answer import Answer
 from stonepass.model.models.elastic_foundation import BeamState
 from stonepass.report.balance import draw_balance
 from stonepass.report.stone import draw_radii, draw_stone
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 
 __all__ = ["beam_figure"]
 
 
+@in_style
 def beam_figure(answer: Answer) -> Figure:
     """Draw the wall as a beam above, contact pressure and force balance below."""
     beam = answer.contact

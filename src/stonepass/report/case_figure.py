@@ -15,11 +15,12 @@ from stonepass.model.states.seated_state import SeatedState
 from stonepass.report.balance import draw_balance
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 
 __all__ = ["case_figure"]
 
 
+@in_style
 def case_figure(answer: Answer) -> Figure:
     """Draw the seated wall above, contact pressure and force balance below."""
     seated = answer.contact

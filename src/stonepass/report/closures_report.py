@@ -13,7 +13,8 @@ from rich.table import Table
 
 from stonepass.about import DISCLAIMER, VERSION
 from stonepass.io.csv_file import write_csv
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.model.closure import linear_closure
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 
 __all__ = ["closures_figure", "closures_record", "closures_table", "map_figure", "write_map"]
@@ -62,10 +63,9 @@ def write_map(found: Sequence[ClosureComparison], path: Path) -> None:
     write_csv(path, _MAP_COLUMNS, [[row[name] for name in _MAP_COLUMNS] for row in rows])
 
 
+@in_style
 def closures_figure(found: ClosureComparison) -> Figure:
     """How wide the tube is when the wall has opened to α: direct states, series, Eq. 15."""
-    from stonepass.model.closure import linear_closure
-
     figure = new_figure(6.0, 4.2)
     axes = figure.add_subplot()
     if found.opening_curve is not None and found.series is not None:
@@ -95,6 +95,7 @@ def closures_figure(found: ClosureComparison) -> Figure:
     return figure
 
 
+@in_style
 def map_figure(found: Sequence[ClosureComparison]) -> Figure:
     """Error of each closure against direct over ξ, a panel for each η, friction by shade."""
     walls = sorted({each.case.wall_ratio for each in found})

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from stonepass.export.comparison import Comparison
 from stonepass.records.answer import answer_record
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.report.table import case_title, significant
 
 __all__ = ["compare_figure", "compare_record", "compare_table"]
@@ -75,6 +75,7 @@ def compare_record(found: Comparison) -> dict[str, Any]:
     }
 
 
+@in_style
 def compare_figure(found: Comparison) -> Figure:
     """Draw the contact pressure of both programs over the angle."""
     figure = new_figure(6.4, 3.6)

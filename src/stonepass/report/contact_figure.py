@@ -6,11 +6,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stonepass.model.answer import Answer
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 
 __all__ = ["contact_figure"]
 
 
+@in_style
 def contact_figure(answer: Answer) -> Figure:
     """Draw the contact pressure in kPa over θ from the upstream axis."""
     contact = answer.contact

@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
-from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
 
 __all__ = ["curve_figure", "draw_curve", "frame_curve"]
 
 
+@in_style
 def curve_figure(answers: Sequence[Answer]) -> Figure:
     """Draw one curve; size ratios without an answer are marked on the axis."""
     figure = new_figure(6.0, 4.2)

@@ -7,13 +7,14 @@ from matplotlib.figure import Figure
 
 from stonepass.bench.law_fit import FittedLaw
 from stonepass.materials.known_laws import name_of_law
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 
 __all__ = ["fit_figure"]
 
 SHADES = ("blue", "orange", "green", "pink", "grey")
 
 
+@in_style
 def fit_figure(found: FittedLaw) -> Figure:
     """Draw data and law on the left, residuals on the right, one colour for each curve."""
     figure = new_figure(9.2, 3.8)

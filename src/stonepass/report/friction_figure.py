@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.surface.friction import SurfaceFriction
 
 __all__ = ["friction_figure"]
@@ -20,6 +20,7 @@ SHOWN = 1200  # pixels along the longer side, of the picture as drawn
 TANGENT, NEAR = 0.08, 1e-4  # of the profile's length: drawn of the steepest tangent, to find it
 
 
+@in_style
 def friction_figure(found: SurfaceFriction) -> Figure:
     """Draw the four panels: surface with paths, profiles, mean and deviation with baselines."""
     figure = new_figure(9.2, 6.4)

@@ -10,6 +10,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from stonepass.io.text_file import write_file
+from stonepass.report.style import in_style
 
 __all__ = ["inline_svg", "write_html"]
 
@@ -38,6 +39,7 @@ def write_html(path: Path, title: str, style: str, body: str) -> None:
     write_file(path, text)
 
 
+@in_style
 def inline_svg(figure: Figure, text: str) -> str:
     """An image that is in the page itself; `text` says what it shows."""
     drawn = io.BytesIO()

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from stonepass.bench.comparison import SizeCurve
 from stonepass.bench.invitro import LARGEST, SMALLEST, STIFFNESS, InVitro, JointFit
-from stonepass.report.style import COLOURS, add_mmhg_axis, new_figure, tidy
+from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
 
 __all__ = ["invitro_figure"]
 
@@ -21,6 +21,7 @@ MARKS = ("o", "s", "^", "D")
 AROUND = 1.12  # the joint region's picture reaches that far beyond it
 
 
+@in_style
 def invitro_figure(found: InVitro, curves: Sequence[SizeCurve]) -> Figure:
     """Draw points and curves on the left; on the right the joint 95 % region where there is one."""
     joint = found.joint

@@ -12,7 +12,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 
 __all__ = ["draw_pressure", "draw_wall", "push_figure"]
 
@@ -21,6 +21,7 @@ ARROW, LEAST_ROOM = 0.22, 0.1  # length of an arrow, and room that one needs, in
 URINE = COLOURS["green"]
 
 
+@in_style
 def push_figure(answer: Answer) -> Figure:
     """Draw the loaded wall above, and the pressure on the stone below."""
     pushed = answer.contact

@@ -12,7 +12,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from stonepass.export.meridian import SEGMENTS, meridian
 from stonepass.fe.axisymmetric.postprocessing import Field
 from stonepass.model.problem import Problem
-from stonepass.report.style import COLOURS, new_figure
+from stonepass.report.style import COLOURS, in_style, new_figure
 
 __all__ = ["revolved_figure"]
 
@@ -21,6 +21,7 @@ LIGHT = np.array([-0.45, 0.9, 0.25])
 STONE_RINGS = 40
 
 
+@in_style
 def revolved_figure(wall: Field, case: Problem, top: float, extent: float = 3.0) -> Figure:
     """Draw wall and stone in space, coloured by radial compression in Pa from 0 to `top`."""
     mirrored = case.stone.shape.symmetric

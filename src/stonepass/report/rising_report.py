@@ -20,7 +20,7 @@ from stonepass.io.csv_file import write_csv
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.push_figure import draw_pressure, draw_wall
-from stonepass.report.style import COLOURS, new_figure, tidy
+from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.report.table import case_title, significant
 from stonepass.studies.rising import Rising
 
@@ -105,6 +105,7 @@ def write_rising(rising: Rising, path: Path) -> None:
     write_csv(path, COLUMNS, [[row[name] for name in COLUMNS] for row in rising_rows(rising)])
 
 
+@in_style
 def rising_figure(rising: Rising) -> Figure:
     """Net force, opening, contact pressure against the seated one, and how far it deviates."""
     figure = new_figure(8.4, 6.4)
@@ -139,6 +140,7 @@ def save_animation(rising: Rising, path: Path) -> None:
         raise BadInput("animation", str(path), f"writable ({problem.strerror})") from problem
 
 
+@in_style
 def _frame(state: PushedState, top: float) -> Image.Image:
     figure = new_figure(7.6, 6.0)
     rows = figure.add_gridspec(2, 1, height_ratios=(1.3, 1.0))

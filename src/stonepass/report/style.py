@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -12,7 +14,10 @@ from matplotlib.figure import Figure
 from stonepass.errors import BadInput
 from stonepass.units import PASCAL_PER
 
-__all__ = ["COLOURS", "add_mmhg_axis", "new_figure", "save", "tidy"]
+__all__ = ["COLOURS", "add_mmhg_axis", "in_style", "new_figure", "save", "tidy"]
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 # Distinguishable with colour blindness and in grey (Okabe–Ito).
 COLOURS = {
@@ -41,7 +46,20 @@ _STYLE: Any = {
     "svg.hashsalt": "stonepass",
     "svg.fonttype": "path",
 }
-mpl.rcParams.update(_STYLE)
+
+
+def in_style(function: Callable[P, R]) -> Callable[P, R]:
+    """Let a function that makes or draws figures do so in this style.
+
+    The user's own settings of matplotlib are neither used nor changed.
+    """
+
+    @wraps(function)
+    def styled(*arguments: P.args, **keywords: P.kwargs) -> R:
+        with mpl.rc_context(_STYLE):
+            return function(*arguments, **keywords)
+
+    return styled
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -70,6 +88,7 @@ def add_mmhg_axis(axes: Axes) -> None:
     right.set_ylabel("mmHg")
 
 
+@in_style
 def save(figure: Figure, path: Path) -> None:
     """Write the figure; the ending of `path` says which format, the same bytes every time."""
     ending = path.suffix.lower().lstrip(".")

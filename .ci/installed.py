@@ -1,0 +1,49 @@
+"""What an installed wheel must do, from a folder without the sources: ``installed.py CHECKOUT``."""
+
+import importlib
+import pkgutil
+import sys
+from pathlib import Path
+
+import stonepass as sp
+
+EXTRAS = {"lmfit", "tifffile", "SurfaceTopography"}  # of optional dependencies, not installed here
+MODULES = 100  # at least; fewer means that a package was left out of the wheel
+
+
+def modules() -> int:
+    """Import every module of the package; return how many there are."""
+    names = [each.name for each in pkgutil.walk_packages(sp.__path__, "stonepass.")]
+    missing = set()
+    for name in names:
+        if name.endswith("__main__"):
+            continue
+        try:
+            importlib.import_module(name)
+        except ModuleNotFoundError as problem:
+            missing.add(str(problem.name))
+    assert missing <= EXTRAS, missing
+    return len(names)
+
+
+def main() -> None:
+    """Fail with a traceback where something is missing."""
+    home, checkout = Path(sp.__file__).resolve(), Path(sys.argv[1]).resolve()
+    assert not home.is_relative_to(checkout / "src"), f"the sources were imported: {home}"
+    assert (home.parent / "py.typed").is_file()
+    found = modules()
+    assert found >= MODULES, found
+    for name in sp.__all__:
+        getattr(sp, name)
+    loose = sp.critical_pressure(sp.Stone(size_ratio=0.9), sp.Ureter(wall_ratio=1.5))
+    assert loose.outcome is sp.Outcome.LOOSE
+    method = sp.Method(seating="frictionless", accuracy="fast")
+    latex = sp.Ureter(wall_ratio=1.5, material="latex")
+    held = sp.critical_pressure(sp.Stone(size_ratio=1.2), latex, method=method)
+    assert held.pressure is not None
+    assert 40e3 < held.pressure < 43e3, held.pressure
+    print(f"The installed wheel has {found} modules and answers.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,82 @@
+"""The integral of a monotone cubic through points (Fritsch and Butland 1984).
+
+Written out here because `scipy.interpolate`, which has the same, imports most of SciPy, which takes
+as long as a frictionless case takes to solve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.units import Values
+
+__all__ = ["MonotoneIntegral", "monotone_integral"]
+
+Points = Float[np.ndarray, " points"]
+
+
+@dataclass(frozen=True)
+class MonotoneIntegral:
+    """∫ from the first point to x, a quartic in x − x_k in each interval.
+
+    Attributes
+    ----------
+    x : array
+        The points, rising.
+    coefficients : array
+        Of the powers 0 to 4 of x − x_k, in each interval.
+    """
+
+    x: Points
+    coefficients: Float[np.ndarray, "5 intervals"]
+
+    def __call__(self, x: Values) -> Values:
+        """Return the integral up to `x`; beyond the points the last quartic goes on."""
+        k = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.x) - 2)
+        h, c = np.asarray(x) - self.x[k], self.coefficients
+        return c[0, k] + h * (c[1, k] + h * (c[2, k] + h * (c[3, k] + h * c[4, k])))
+
+
+def monotone_integral(x: Points, y: Points) -> MonotoneIntegral:
+    """Integrate the cubic through points that rises and falls only where they do.
+
+    Parameters
+    ----------
+    x : array, shape (points,)
+        Rising, at least three.
+    y : array, shape (points,)
+    """
+    h = np.diff(x)
+    slope = np.diff(y) / h
+    at = _derivatives(h, slope)
+    bend = (at[:-1] + at[1:] - 2.0 * slope) / h
+    quadratic, cubic = (slope - at[:-1]) / h - bend, bend / h
+    parts = [y[:-1], at[:-1] / 2.0, quadratic / 3.0, cubic / 4.0]
+    whole = h * (parts[0] + h * (parts[1] + h * (parts[2] + h * parts[3])))
+    start = np.concatenate([[0.0], np.cumsum(whole)[:-1]])
+    return MonotoneIntegral(x, np.stack([start, *parts]))
+
+
+def _derivatives(h: Float[np.ndarray, " n"], slope: Float[np.ndarray, " n"]) -> Points:
+    """Derivatives at the points: weighted harmonic means of the slopes beside, 0 at a turn."""
+    left, right = slope[:-1], slope[1:]
+    one, two = 2.0 * h[1:] + h[:-1], h[1:] + 2.0 * h[:-1]
+    turn = left * right <= 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = (one + two) / (one / left + two / right)
+    inside = np.where(turn, 0.0, mean)
+    ends = [_at_end(h[0], h[1], slope[0], slope[1]), _at_end(h[-1], h[-2], slope[-1], slope[-2])]
+    return np.concatenate([ends[:1], inside, ends[1:]])
+
+
+def _at_end(near: float, next_: float, slope: float, beyond: float) -> float:
+    """Derivative at an end: of the parabola through three points, as far as it is monotone."""
+    found = ((2.0 * near + next_) * slope - near * beyond) / (near + next_)
+    if np.sign(found) != np.sign(slope):
+        return 0.0
+    if np.sign(slope) != np.sign(beyond) and abs(found) > 3.0 * abs(slope):
+        return float(3.0 * slope)
+    return float(found)

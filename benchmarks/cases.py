@@ -18,5 +18,6 @@ def tube(
     return sp.Case(
         sp.Stone(size_ratio=xi, friction=friction),
         sp.Ureter(wall_ratio=eta, material=material),
-        method=sp.Method(seating=kind, model=model, accuracy=accuracy),
+        model=sp.PushThrough() if model == "direct" else sp.SeatedBalance(seating=kind),
+        numerics=sp.Numerics(accuracy),
     )

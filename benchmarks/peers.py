@@ -16,8 +16,9 @@ from stonepass.export.inp import write_inp
 from stonepass.export.results import read_contact
 from stonepass.export.seating import seating
 from stonepass.model.accuracy import LEVELS
-from stonepass.model.models.seated_balance import balance_pressure
-from stonepass.model.states.seated_state import Contact
+from stonepass.model.far_field import far_field_law
+from stonepass.model.models.seated_balance import Closure, balance_pressure
+from stonepass.model.states.seated_state import Contact, SeatedState
 
 FINE = 0.025
 OURS = ("fast", "standard")
@@ -69,9 +70,9 @@ def ours(kind: str, level: str, *, alone: bool = False, repeats: int = 7) -> Sol
     case = latex(kind, level)
     only = LEVELS[level].resolution if alone else None
     answer = sp.solve(case, only)
-    assert answer.seated is not None
+    assert isinstance(answer.contact, SeatedState)
     seconds = cpu_seconds(lambda: sp.solve(case, only), repeats)
-    return Solved(f"stonepass, {level}{ALONE if alone else ''}", seconds, _numbers(answer.seated))
+    return Solved(f"stonepass, {level}{ALONE if alone else ''}", seconds, _numbers(answer.contact))
 
 
 def theirs(kind: str, element: str, folder: Path) -> Solved:
@@ -90,7 +91,7 @@ def theirs(kind: str, element: str, folder: Path) -> Solved:
 
 
 def _numbers(contact: Contact) -> tuple[float, float, float]:
-    pressure = balance_pressure(contact)
+    pressure = balance_pressure(contact, Closure(far_field_law(contact.case, ground=False)))
     assert pressure is not None
     angle = float(np.degrees(contact.contact_angle))
     return angle, contact.equator_contact_pressure, pressure

@@ -16,15 +16,15 @@ PHASES = {
     "tangent: assembly and condensation": ("ngsolve.comp.AssembleLinearization",),
     "tangent: factorisation": ("ngsolve.la.Inverse", "ngsolve.la.Update"),
     "residual": ("ngsolve.comp.Apply",),
-    "back substitution": ("newton.py:solve",),
+    "back substitution": ("systems.py:solve",),
     "set-up of meshes, spaces and forms": (
-        "discrete.py:discretise",
-        "fit.py:_closed_form",
-        "fit.py:_open_form",
-        "scout.py:_form",
-        "press.py:_form",
+        "discretisation.py:discretise",
+        "contact_predictor.py:_form",
+        "loading_path.py:_form",
+        "active_set.py:_form",
+        "fitted_contact.py:_form",
     ),
-    "stability of the solved wall": ("soundness.py:soundness",),
+    "stability of the solved wall": ("stability.py:stability_of",),
 }
 
 

@@ -19,7 +19,7 @@ from stonepass.model.far_field import inflation
 
 SEED = 2022
 NOISE, SERIES_NOISE = 0.01, 0.03
-FAST = sp.Method(accuracy="fast")
+FAST = sp.Numerics("fast")
 # wall ratio, size ratio, confining pressure in kPa
 SPHERES = (
     (1.5, 1.1, 0.0), (1.5, 1.2, 0.0), (1.5, 1.3, 0.0), (2.0, 1.1, 0.0), (2.0, 1.2, 0.0),
@@ -61,7 +61,7 @@ def main():
     for eta, xi, confining in SPHERES:
         stone, tube = sp.Stone(size_ratio=xi, friction=0.475), sp.Ureter(None, None, "latex", eta)
         bath = sp.Load(f"{confining} kPa", "hydrostatic")
-        exact = sp.critical_pressure(stone, tube, bath, FAST).pressure / 1e3
+        exact = sp.critical_pressure(stone, tube, bath, numerics=FAST).pressure / 1e3
         found = exact * (1.0 + SERIES_NOISE * generator.normal())
         series.append((xi, eta, confining, found, SERIES_NOISE * exact))
     write(folder / "latex_series.csv", "xi,eta,confining_kPa,pressure_kPa,sd_kPa", series)

@@ -10,7 +10,7 @@ def main() -> None:
     answer = sp.critical_pressure(stone, ureter)
     print(answer.outcome.name, "-", answer.message)
     print(f"critical pressure  {answer.pressure / 1e3:.2f} kPa")
-    print(f"contact pressure   {answer.seated.peak_contact_pressure / 1e3:.2f} kPa at most")
+    print(f"contact pressure   {answer.contact.peak_contact_pressure / 1e3:.2f} kPa at most")
 
     # The paper's limit of 12 kPa comes from a pig study; patients with stones show 2 to 6 kPa.
     for limit in ("6 kPa", "12 kPa"):

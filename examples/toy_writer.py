@@ -11,6 +11,7 @@ from pathlib import Path
 
 import stonepass as sp
 from stonepass import export
+from stonepass.materials.known_laws import KNOWN_LAWS
 
 PASCAL_PER = {"kPa": 1e3, "mmHg": 133.322387415}
 
@@ -18,9 +19,9 @@ PASCAL_PER = {"kPa": 1e3, "mmHg": 133.322387415}
 def contact_table(case, options, solved):
     """Return the table; no content where the stone is not held, so that there is no contact."""
     answer, unit = solved(), options["unit"]
-    if answer.seated is None:
+    contact = answer.contact
+    if contact is None:
         return export.Export(None, f"{answer.outcome.name}: {answer.message}")
-    contact = answer.seated
     rows = [
         f"{theta:.6f},{pressure / PASCAL_PER[unit]:.6g}"
         for theta, pressure in zip(contact.theta, contact.contact_pressure, strict=True)
@@ -39,7 +40,7 @@ CONTACT = export.Writer(
     ),
     limits={
         "model": export.Limit(("paper",), "the table shows the contact of the seated state"),
-        "law": export.Limit(("neo-hookean", "mooney-rivlin", "yeoh", "fung")),
+        "law": export.Limit(tuple(KNOWN_LAWS)),
     },
 )
 
@@ -49,7 +50,8 @@ def main() -> None:
     case = sp.Case(
         sp.Stone(size_ratio=1.2),
         sp.Ureter(wall_ratio=1.5, material="latex"),
-        method=sp.Method(seating="frictionless", accuracy="fast"),
+        model=sp.SeatedBalance(seating="frictionless"),
+        numerics=sp.Numerics("fast"),
     )
     writers = (*export.formats(), CONTACT)  # the registration
     made = export.write(case, folder / "contact.csv", writers=writers, unit="mmHg")

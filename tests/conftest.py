@@ -1,51 +1,44 @@
-"""Shapes and types in annotations are executed: jaxtyping and beartype, all numerical modules.
+"""Shapes and types in annotations are checked at run time, in all numerical modules.
 
-The doors (units, case, case_file, user_law) are left out: they refuse wrong types themselves, in
-one sentence, and that is what their tests look at.
+The doors are left out: they refuse wrong types themselves with a sentence, which their tests read.
+`test_annotations.py` counts the modules.
 """
 
-import re
-from functools import partial
 from pathlib import Path
 
-import jaxtyping
 import pytest
 from jaxtyping import install_import_hook
 
-CHECKED = [
-    "stonepass.fe",
-    "stonepass.materials.derivatives",
-    "stonepass.materials.fung",
-    "stonepass.materials.neo_hookean",
-    "stonepass.materials.stability",
-    *(
-        f"stonepass.model.{name}"
-        for name in ("balance", "closure", "critical", "far_field", "seated", "size")
+SOURCE = Path(__file__).parents[1] / "src"
+# Packages whose modules are checked.
+NUMERICAL = (
+    "fe", "materials", "model", "studies", "surface", "bench", "clinic", "export", "records",
+    "report", "paper",
+)  # fmt: skip
+# Modules that are not checked, each with the reason.
+DOORS = {
+    **dict.fromkeys(
+        [f"stonepass.model.{name}" for name in ("stone", "ureter", "load", "numerics", "case")]
+        + [
+            f"stonepass.model.models.{name}"
+            for name in ("seated_balance", "push_through", "elastic_foundation")
+        ],
+        "the constructors of values refuse wrong types with a sentence",
     ),
-    "stonepass.studies",
-    "stonepass.report",
-]
-SHAPES = re.compile(r"\b(Float|Int|Bool|Shaped|Values)\b")
-check_shapes = jaxtyping.jaxtyped
+    "stonepass.materials.protocol": "the constructor of a material refuses a law with a sentence",
+    "stonepass.materials.user_law": "a user's function may return anything; refused with a sentence",
+}
 
 
-def unless_local_and_plain(function=None, *, typechecker=None):
-    """Check a function, but not one made inside another that is annotated without any shape.
-
-    The check is built each time such a function is made, a thousand times in one solve, which
-    takes longer than the solve itself; its plain types are mypy's business.
-    """
-    if function is None:
-        return partial(unless_local_and_plain, typechecker=typechecker)
-    if "<locals>" in getattr(function, "__qualname__", ""):
-        hints = getattr(function, "__annotations__", {}).values()
-        if not any(SHAPES.search(str(hint)) for hint in hints):
-            return function
-    return check_shapes(function, typechecker=typechecker)
+def numerical_modules():
+    """Names of all modules of the numerical packages, the doors included."""
+    root = SOURCE / "stonepass"
+    files = sorted(path for name in NUMERICAL for path in (root / name).rglob("*.py"))
+    names = (".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in files)
+    return [name for name in names if not name.endswith(".__init__")]
 
 
-jaxtyping.jaxtyped = unless_local_and_plain  # what the hook puts on every function
-hook = install_import_hook(CHECKED, "beartype.beartype")
+install_import_hook([m for m in numerical_modules() if m not in DOORS], "first_call.checked")
 
 
 def wrap_solver(monkeypatch, wrapper):
@@ -118,8 +111,10 @@ def undocumented():
         if isinstance(record, dict):
             for key, value in record.items():
                 found += [] if f"`{key}`" in text else [key]
-                # Their keys are names of inputs, constants, outcomes.
-                if key not in ("sensitivity", "without_answer", "law_constants", "correlations"):
+                # Their keys are names of inputs, constants, outcomes, parts of a sentence.
+                named = ("sensitivity", "without_answer", "correlations", "values")
+                of_a_law = key == "constants" and isinstance(value, dict)
+                if key not in named and not of_a_law:
                     found += missing(
                         list(value.values())
                         if key == "measured" and isinstance(value, dict)

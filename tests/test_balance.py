@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from options import asking
 
-from stonepass.model.case import Case, Method
+from stonepass.model.case import Case
 from stonepass.model.closure import linear_closure
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.shape import Shape
@@ -19,7 +20,7 @@ def uniform(sigma=7.0, friction=0.4, as_printed=False, shape=None):
     case = Case(
         Stone(size_ratio=1.2, friction=friction, shape=shape),
         Ureter(wall_ratio=1.5),
-        method=Method(as_printed=as_printed),
+        **asking(as_printed=as_printed),
     )
     theta = np.linspace(EDGE, np.pi - EDGE, 801)
     return Contact(case, EDGE, theta, np.full(801, sigma))
@@ -76,7 +77,7 @@ def test_wall_force_by_hand():
     for alpha in (EDGE, 1.2, np.pi / 2):
         expected = 7.0 * (np.sin(alpha) ** 2 - 0.75)
         derived = float(resistance(uniform()).wall(np.array(alpha)))
-        printed = float(resistance(uniform(as_printed=True)).wall(np.array(alpha)))
+        printed = float(resistance(uniform(), as_printed=True).wall(np.array(alpha)))
         assert derived == pytest.approx(expected, rel=1e-7, abs=1e-12)
         assert printed == -derived
 

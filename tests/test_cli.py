@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from options import asking
 
 import stonepass
 from stonepass.cli import run
 from stonepass.cli.curve import size_range
 from stonepass.inputs.case_file import read_case
-from stonepass.model.case import Method
 from stonepass.paper.inputs import ureter_case
 
 pytestmark = pytest.mark.usefixtures("shared_solutions")
@@ -201,9 +201,9 @@ def test_laws_that_print_or_warn_leave_stdout_to_the_answer(cli, tmp_path):
     law = tmp_path / "law.py"
     law.write_text(
         "import warnings\nprint('hello')\n"
-        "def energy(C_rr, C_tt, C_zz, C_rz, xp):\n"
+        "def energy(C, place, xp):\n"
         "    print('called'); warnings.warn('beware')\n"
-        "    return 146.5e3 * (C_rr + C_tt + C_zz - 3.0)\n"
+        "    return 146.5e3 * (C.I1 - 3.0)\n"
     )
     options = ["--xi", "1.2", "--eta", "1.5", "--seating", "frictionless", "--json"]
     code, out, _ = cli("pressure", *options, "--material", f"{law}:energy")
@@ -215,8 +215,8 @@ def test_a_law_with_a_strain_limit_ends_in_an_outcome(cli, tmp_path):
     """U = −log(1 − (I₁ − 3)/0.5): no energy beyond I₁ = 3.5, so the iteration meets NaN."""
     law = tmp_path / "lock.py"
     law.write_text(
-        "def energy(C_rr, C_tt, C_zz, C_rz, xp):\n"
-        "    return -5e4 * xp.log(1.0 - (C_rr + C_tt + C_zz - 3.0) / 0.5)\n"
+        "def energy(C, place, xp):\n"
+        "    return -5e4 * xp.log(1.0 - (C.I1 - 3.0) / 0.5)\n"
         "strain_range = (1.0, 1.3)\n"
     )
     command = [sys.executable, "-m", "stonepass", "pressure", "--xi", "1.6", "--eta", "1.3"]
@@ -293,7 +293,7 @@ def test_save_and_read_again(cli, tmp_path):
     for record in (first, again):
         record["solver"].pop("seconds")
     assert again == first
-    assert read_case(path).method.as_printed
+    assert read_case(path).model.as_printed
 
 
 def test_options_win_over_the_case_file(cli, tmp_path):
@@ -555,7 +555,7 @@ def test_version_and_help(cli):
 
 
 def test_headline(cli, tmp_path, monkeypatch):
-    quick = Method(accuracy="fast")
+    quick = asking(accuracy="fast")
     monkeypatch.setattr("stonepass.paper.headline.SIZE_RATIOS", (1.0, 1.2))
     monkeypatch.setattr(
         "stonepass.paper.headline.ureter_case",

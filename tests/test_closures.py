@@ -2,15 +2,19 @@
 
 import csv
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
+from options import asking
 
 import stonepass as sp
 from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
-from stonepass.inputs.case_file import read_case, write_case
-from stonepass.inputs.opening_curve_file import read_opening_curve
+from stonepass.inputs.build import build_method
+from stonepass.inputs.case_file import read_case, values_of, write_case
+from stonepass.inputs.opening_curve_file import find_opening_curve, read_opening_curve
+from stonepass.inputs.overlay import overlay
 from stonepass.model.closure import Series, fit_series, linear_closure
 from stonepass.model.energy_balance import opening_pressure
 from stonepass.model.far_field import urine_pressure
@@ -19,13 +23,15 @@ from stonepass.model.states.opening import solve_opening_curve
 from stonepass.studies.closures import CLOSURES, compare_closures
 from stonepass.studies.rising import contact_deviation, raise_pressure
 
+pytestmark = pytest.mark.usefixtures("shared_solutions")
+
 EDGE, XI = 0.94, 1.2  # ρ₀ over R_s
-FAST = sp.Method(accuracy="fast")
+FAST = asking(accuracy="fast")
 
 
-def case(mu=0.475, method=FAST):
+def case(mu=0.475, **options):
     stone = sp.Stone(size_ratio=1.2, friction=mu)
-    return sp.Case(stone, sp.Ureter(wall_ratio=1.5, material="latex"), method=method)
+    return sp.Case(stone, sp.Ureter(wall_ratio=1.5, material="latex"), **(options or FAST))
 
 
 def test_the_series_of_first_order_is_the_linear_closure():
@@ -74,9 +80,9 @@ def compared():
 
 
 def test_pairs_begin_at_the_seated_state_and_lie_below_the_linear_closure(compared):
-    alpha, radius = solve_opening_curve(case()).arrays
+    alpha, radius = solve_opening_curve(case(), case().numerics).arrays
     assert radius[0] == pytest.approx(1.0, abs=1e-9)
-    seated = sp.seat(case(method=sp.Method(seating="frictionless", accuracy="fast")))
+    seated = sp.seat(case(**asking(seating="frictionless", accuracy="fast")))
     assert alpha[0] == pytest.approx(seated.contact_angle, abs=1e-4)
     assert np.all(np.diff(alpha) > 0.0)
     first = np.sin(alpha[0])
@@ -93,9 +99,9 @@ def test_energy_and_direct_agree_and_the_paper_lies_around_them(compared):
     assert abs(compared.error("series")) < 0.03
     assert compared.error("printed") < 0.0 < compared.error("derived")
     assert compared.outcome is Outcome.MOVES
-    alone = sp.solve(case(method=sp.Method(model="direct", accuracy="fast")))
+    alone = sp.solve(case(**asking(model="direct", accuracy="fast")))
     assert compared.pressures["direct"] == pytest.approx(alone.pressure, rel=1e-7)
-    printed = sp.solve(case(method=sp.Method(as_printed=True, accuracy="fast")))
+    printed = sp.solve(case(**asking(as_printed=True, accuracy="fast")))
     assert compared.pressures["printed"] == printed.pressure
 
 
@@ -107,7 +113,7 @@ def test_rising_pressure_ends_where_the_stone_moves_and_the_seat_is_measured_aga
     assert forces[-1] == pytest.approx(0.0, abs=1e-3 * abs(forces[0]))
     assert np.all((rising.deviation > 0.01) & (rising.deviation < 0.3))
     # Without friction and pressure it is the seated state itself.
-    bare = raise_pressure(case(0.0, sp.Method(seating="frictionless", accuracy="fast")), steps=2)
+    bare = raise_pressure(case(0.0, **asking(seating="frictionless", accuracy="fast")), steps=2)
     assert bare.states[0].urine_pressure == 0.0
     assert contact_deviation(bare.states[0], bare.seated) < 1e-3
 
@@ -137,7 +143,7 @@ def test_closures_and_push_at_the_door(tmp_path, capsys):
     assert run([*bare, "--map-eta", "1.5;2"]) == 2
     assert "numbers with commas between" in capsys.readouterr().err
     assert run([*bare, "--xi", "1.2"]) == 2
-    assert "--xi is given, but must be left out beside --map" in capsys.readouterr().err
+    assert "--xi cannot be used with --map" in capsys.readouterr().err
     assert run(["closures", *stone, "--order", "9"]) == 2
     assert "order is 9, but must be 1 to 8" in capsys.readouterr().err
     assert run(["push", *stone, "--steps", "1"]) == 2
@@ -171,37 +177,37 @@ def test_a_map_takes_the_material_of_a_case_file(tmp_path, capsys):
 
 def test_under_a_load_the_comparison_carries_the_warnings_of_its_models():
     stone = sp.Stone(size_ratio=1.2, friction=0.3)
-    found = compare_closures(sp.Case(stone, sp.Ureter(wall_ratio=1.3), sp.Load("4 kPa"), FAST))
-    assert any("would fold this tube" in text for text in found.warnings)
-    assert any("hoop compression" in text for text in found.warnings)
-    assert not any("error is not estimated" in text for text in found.warnings)
+    found = compare_closures(sp.Case(stone, sp.Ureter(wall_ratio=1.3), sp.Load("4 kPa"), **FAST))
+    assert any("would fold this tube" in str(each) for each in found.warnings)
+    assert any("hoop compression" in str(each) for each in found.warnings)
+    assert not any("error is not estimated" in str(each) for each in found.warnings)
     # Opened from the narrowed lumen, each pair gives its own pressure back.
-    assert found.pairs.radius[0] < 0.95
+    assert found.opening_curve.radius[0] < 0.95
     assert abs(found.error("energy")) < 5e-3
 
 
 def test_a_series_as_the_closure_of_an_answer(compared, tmp_path):
     """Fitted to direct states, from a file of them, of first order; and Eq. 15 as a series."""
-    series = sp.solve(case(method=sp.Method(closure="series", accuracy="fast")))
+    series = sp.solve(case(**asking(closure="series", accuracy="fast")))
     assert series.pressure == pytest.approx(compared.pressures["series"], rel=1e-6)
-    assert series.series == compared.series
+    assert series.detail.closure.series == compared.series
     assert series.error.critical_pressure < 0.01 * series.pressure
-    alpha, radius = compared.pairs.arrays
+    alpha, radius = compared.opening_curve.arrays
     rows = [f"{r:.15g},{a:.15g}" for a, r in zip(np.degrees(alpha), radius, strict=True)]
     (tmp_path / "pairs.csv").write_text("\n".join(["radius_ratio,alpha_deg", *rows]))
     pairs = read_opening_curve(tmp_path / "pairs.csv")
     np.testing.assert_allclose(pairs.arrays, (alpha, radius), rtol=1e-12)
-    method = sp.Method(closure="series", pairs=pairs, far_field_ground=True, accuracy="fast")
-    by_file = sp.solve(case(method=method))
+    method = asking(closure="series", opening_curve=pairs, far_field_ground=True, accuracy="fast")
+    by_file = sp.solve(case(**method))
     # From a file the series begins where the pressed stone touches, not the direct one.
     assert by_file.pressure == pytest.approx(series.pressure, rel=3e-3)
     straight = np.linspace(alpha[0], np.pi / 2, 9)
     sine = np.sin(straight)
     line = 1.0 + 0.2 * (sine - sine[0]) / (1.0 - sine[0])
     eq15 = OpeningCurve(tuple(straight), tuple(line))
-    linear = sp.solve(case(method=sp.Method(accuracy="fast")))
-    method = sp.Method(closure="series", pairs=eq15, series_order=1, accuracy="fast")
-    assert sp.solve(case(method=method)).pressure == pytest.approx(linear.pressure, rel=2e-3)
+    linear = sp.solve(case(**asking(accuracy="fast")))
+    method = asking(closure="series", opening_curve=eq15, series_order=1, accuracy="fast")
+    assert sp.solve(case(**method)).pressure == pytest.approx(linear.pressure, rel=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -230,66 +236,94 @@ def test_pairs_that_are_none_are_refused_with_their_place(tmp_path, text, senten
 @pytest.mark.parametrize(
     ("method", "sentence"),
     [
-        (
-            {"closure": "series", "model": "direct"},
-            "closure is series, but must be left out; it is of the model 'paper', not 'direct'",
-        ),
         ({"closure": "cubic"}, "closure is cubic, but must be one of linear, series"),
         ({"series_order": 9}, "series_order is 9, but must be a whole number from 1 to 8"),
         ({"series_order": 2.0}, "series_order is 2.0, but must be a whole number"),
-        ({"pairs": OpeningCurve((1.3,), (1.0,))}, "pairs is given, but must be left out"),
         (
-            {"closure": "series", "pairs": OpeningCurve((1.3,), (1.0,))},
-            "pairs is 1, but must be at least as many as coefficients, 3",
+            {"opening_curve": OpeningCurve((1.3,), (1.0,))},
+            "opening_curve cannot be used with the closure 'linear'",
         ),
-        ({"closure": "series", "pairs": "pairs.csv"}, "as read_opening_curve gives them"),
+        (
+            {"closure": "series", "opening_curve": OpeningCurve((1.3,), (1.0,))},
+            "opening_curve is 1 points, but must be at least as many points as coefficients, 3",
+        ),
+        ({"closure": "series", "opening_curve": "pairs.csv"}, "as read_opening_curve gives it"),
     ],
 )
 def test_a_method_asks_for_a_series_that_can_be(method, sentence):
     with pytest.raises(BadInput) as refused:
-        sp.Method(**method)
+        asking(**method)
     assert sentence in str(refused.value)
+
+
+def test_a_closure_belongs_to_the_model_of_the_paper():
+    sentence = "closure cannot be used with the model 'direct': it belongs to 'paper'"
+    with pytest.raises(BadInput, match=sentence):
+        build_method({"method.closure": "series", "method.model": "direct"})
 
 
 def test_a_case_file_keeps_its_pairs(tmp_path):
     table = "alpha_deg,radius_ratio\n75,1.02\n80,1.08\n85,1.13\n"
     (tmp_path / "pairs.csv").write_text(table)
     pairs = read_opening_curve(tmp_path / "pairs.csv")
-    question = case(method=sp.Method(closure="series", series_order=2, pairs=pairs))
+    question = case(**asking(closure="series", series_order=2, opening_curve=pairs))
     write_case(question, tmp_path / "case.toml")
-    assert 'pairs = "pairs.csv"' in (tmp_path / "case.toml").read_text()
+    assert 'opening_curve = "pairs.csv"' in (tmp_path / "case.toml").read_text()
     assert read_case(tmp_path / "case.toml") == question
     made = case(
-        method=sp.Method(closure="series", series_order=1, pairs=OpeningCurve((1.4,), (1.1,)))
+        **asking(closure="series", series_order=1, opening_curve=OpeningCurve((1.4,), (1.1,)))
     )
-    with pytest.raises(BadInput, match="from a file to be saved"):
-        write_case(made, tmp_path / "other.toml")
+    write_case(made, tmp_path / "other.toml")  # the points themselves, since no file has them
+    assert read_case(tmp_path / "other.toml") == made
 
 
 def test_pairs_are_of_one_stone_and_of_a_series_that_stays_near_it():
     wild = OpeningCurve(tuple(np.radians([75.0, 80.0, 85.0, 89.0])), (1.02, 3.0, 5.0, 9.0))
-    with pytest.raises(BadInput, match="pairs is such that their series reaches r_a"):
-        sp.solve(case(method=sp.Method(closure="series", pairs=wild, accuracy="fast")))
-    method = sp.Method(closure="series", series_order=1, pairs=OpeningCurve((1.4,), (1.1,)))
-    with pytest.raises(BadInput, match="left out where the size varies"):
-        sp.critical_size(sp.Ureter(wall_ratio=1.5, material="latex"), "20 kPa", method=method)
-    with pytest.raises(BadInput, match="left out where the size varies"):
-        case(method=method).with_size_ratio(1.1)
+    with pytest.raises(BadInput, match="opening_curve is such that its series reaches r_a"):
+        sp.solve(case(**asking(closure="series", opening_curve=wild, accuracy="fast")))
+    method = asking(closure="series", series_order=1, opening_curve=OpeningCurve((1.4,), (1.1,)))
+    with pytest.raises(BadInput, match="opening_curve cannot be used with sizes that vary"):
+        sp.critical_size(sp.Ureter(wall_ratio=1.5, material="latex"), "20 kPa", **method)
+    with pytest.raises(BadInput, match="opening_curve cannot be used with sizes that vary"):
+        case(**method).with_size_ratio(1.1)
 
 
-def test_a_beam_question_is_raised_by_the_direct_model():
-    method = sp.Method(model="beam", secant_stretch=1.2, accuracy="fast")
-    rising = raise_pressure(case(method=method), steps=2)
-    direct = sp.solve(case(method=sp.Method(model="direct", accuracy="fast")))
-    assert rising.critical.pressure == pytest.approx(direct.pressure)
-    assert method.by("direct").secant_stretch is None
-    assert method.by("beam") == method
+def test_a_beam_question_is_raised_by_the_direct_model(tmp_path, capsys):
+    beam = case(**asking(model="beam", secant_stretch=1.2, accuracy="fast"))
+    with pytest.raises(BadInput, match="model is beam, but must be 'paper'"):
+        raise_pressure(beam, steps=2)
+    write_case(beam, tmp_path / "case.toml")
+    assert run(["push", str(tmp_path / "case.toml"), "--steps", "2", "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    direct = sp.solve(case(**asking(model="direct", accuracy="fast")))
+    assert record["critical_pressure_kPa"] == pytest.approx(direct.pressure / 1e3)
+
+
+def by(model, options):
+    """Model and numerics of a case file once another model is chosen beside it."""
+    question = case(**options)
+    return build_method(overlay(values_of(question, Path.cwd()), {"method.model": model}))
 
 
 def test_another_model_leaves_the_closure_behind(compared):
-    method = sp.Method(closure="series", pairs=compared.pairs)
-    assert method.by("direct") == sp.Method(model="direct")
-    assert method.by("paper") == method
-    beam = sp.Method(model="beam", secant_stretch=1.2)
-    assert beam.by("beam") == beam
-    assert beam.by("direct") == sp.Method(model="direct")
+    series = asking(closure="series", opening_curve=compared.opening_curve)
+    assert by("direct", series) == tuple(asking(model="direct").values())
+    assert by("paper", series)[0].closure == "series"
+    beam = asking(model="beam", secant_stretch=1.2)
+    assert by("beam", beam) == tuple(beam.values())
+    assert by("direct", beam) == tuple(asking(model="direct").values())
+
+
+@pytest.mark.parametrize(
+    ("table", "sentence"),
+    [
+        ({"alpha_deg": [70.0, 95.0], "radius_ratio": [1.0, 1.1]}, "alpha of pair 2 is 95°"),
+        ({"alpha_deg": [70.0, 80.0], "radius_ratio": [1.0]}, "is 2 angles and 1 radii, but must"),
+        ({"alpha_deg": [70.0]}, "must be a table of two lists of numbers"),
+        ({"alpha_deg": "70", "radius_ratio": [1.0]}, "must be a table of two lists of numbers"),
+    ],
+)
+def test_a_table_that_is_no_opening_curve_is_refused_for_what_is_wrong(table, sentence):
+    with pytest.raises(BadInput) as refused:
+        find_opening_curve(table)
+    assert sentence in str(refused.value)

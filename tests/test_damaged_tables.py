@@ -13,7 +13,7 @@ import pytest
 from damaged_tables import (
     CASE,
     KINDS,
-    PERSON,
+    PATIENT,
     SPHEROID,
     Kind,
     beside,
@@ -261,81 +261,81 @@ def test_line_ends_and_a_byte_order_mark_are_read(tmp_path, kind, ends):
         ("beam case", "[ureter]", "[[ureter]]", ("'ureter' is [{", "a section, written [ureter]")),
         ("law", "a1111", "b1111", ("key is b1111", "did you mean 'a1111'")),
         ("law", "source", "sauce", ("key is sauce", "did you mean 'source'")),
-        ("person", "samples", "sample", ("key of [assessment] is sample", "did you mean 'samples'")),
-        ("person", "[dilated]", "[dilatet]", ("key is dilatet", "did you mean 'dilated'")),
+        ("patient", "samples", "sample", ("key of [assessment] is sample", "did you mean 'samples'")),
+        ("patient", "[dilated]", "[dilatet]", ("key is dilatet", "did you mean 'dilated'")),
         # Missing, empty, there twice
-        ("case", '[ureter]\ninner_diameter = "3.5 mm"', "[ureter]", ("inner diameter is missing", "must be given")),
+        ("case", '[ureter]\ninner_diameter = "3.5 mm"', "[ureter]", ("'ureter.inner_diameter' is missing", "must be given")),
         ("case", 'diameter = "4.2 mm"', "", ("size of the stone is missing", "as diameter or size_ratio")),
         ("case", 'diameter = "4.2 mm"', 'diameter = "4.2 mm"\nsize_ratio = 1.2', ("size of the stone is given twice",)),
-        ("case", 'diameter = "4.2 mm"', 'diameter = ""', ("stone diameter is empty", "a length with its unit")),
+        ("case", 'diameter = "4.2 mm"', 'diameter = ""', ("'stone.diameter' is empty", "a length with its unit")),
         ("case", "friction = 0.5", "friction = 0.5\nfriction = 0.5", ("valid TOML", "line 5")),
         ("case", "[load]", "[stone]\n[load]", ("valid TOML", "line 12")),
         ("law", 'C = "0.2 MPa"', "", ("'C'", "missing", "given for law 'fung'")),
         ("law", "a2222 = 0.8892", "", ("'a2222'", "missing", "given for law 'fung'")),
         ("yeoh law", 'source = "a test"', "", ("'source' is missing",)),
         ("yeoh law", 'source = "a test"', 'source = ""', ("'source' is empty", "not empty")),
-        ("person", 'diameter = "5 mm ± 1 mm"', "", ("'stone.diameter' is missing",)),
-        ("person", 'wall_thickness = "0.7 ± 0.15 mm"', "", ("wall of the ureter is missing", "as outer_diameter or wall_thickness")),
-        ("person", "[assessment]", "[assessment]\nlimit = '1 kPa'", ("valid TOML", "line")),
+        ("patient", 'diameter = "5 mm ± 1 mm"', "", ("'stone.diameter' is missing",)),
+        ("patient", 'wall_thickness = "0.7 ± 0.15 mm"', "", ("wall of the ureter is missing", "as outer_diameter or wall_thickness")),
+        ("patient", "[assessment]", "[assessment]\nlimit = '1 kPa'", ("valid TOML", "line")),
         # Units
-        ("case", "4.2 mm", "4.2", ("stone diameter is 4.2", "a length with its unit")),
+        ("case", "4.2 mm", "4.2", ("'stone.diameter' is 4.2", "a length with its unit")),
         ("case", '"4.2 mm"', "4.2", ("'stone.diameter' is 4.2", "text in quotes")),
-        ("case", "4.2 mm", "4.2 kg", ("stone diameter is 4.2 kg", "a length")),
-        ("case", "4.2 mm", "4,2 mm", ("stone diameter is 4,2 mm", "a length with its unit")),
-        ("case", "4.2 mm", "NaN mm", ("stone diameter is NaN mm", "a length with its unit")),
-        ("case", "4.2 mm", "1e400 mm", ("stone diameter is 1e400 mm", "a finite length")),
-        ("case", "4.2 mm", "-4.2 mm", ("stone diameter is -4.2 mm", "0.01 mm to 1000 mm")),
-        ("case", "4.2 mm", "4.2 m", ("stone diameter is 4.2 m", "0.01 mm to 1000 mm")),
-        ("case", "40 mmHg", "40 mm", ("confining pressure is 40 mm", "a pressure")),
-        ("case", "40 mmHg", "40 MPa", ("confining pressure is 40 MPa", "0 kPa to 100 kPa")),
-        ("beam case", "20 kPa", "20 kPa/m", ("longitudinal_modulus is 20 kPa/m", "a pressure")),
+        ("case", "4.2 mm", "4.2 kg", ("'stone.diameter' is 4.2 kg", "a length")),
+        ("case", "4.2 mm", "4,2 mm", ("'stone.diameter' is 4,2 mm", "a length with its unit")),
+        ("case", "4.2 mm", "NaN mm", ("'stone.diameter' is NaN mm", "a length with its unit")),
+        ("case", "4.2 mm", "1e400 mm", ("'stone.diameter' is 1e400 mm", "a finite length")),
+        ("case", "4.2 mm", "-4.2 mm", ("'stone.diameter' is -4.2 mm", "0.01 mm to 1000 mm")),
+        ("case", "4.2 mm", "4.2 m", ("'stone.diameter' is 4.2 m", "0.01 mm to 1000 mm")),
+        ("case", "40 mmHg", "40 mm", ("'load.confining_pressure' is 40 mm", "a pressure")),
+        ("case", "40 mmHg", "40 MPa", ("'load.confining_pressure' is 40 MPa", "0 kPa to 100 kPa")),
+        ("beam case", "20 kPa", "20 kPa/m", ("'method.longitudinal_modulus' is 20 kPa/m", "a pressure")),
         ("law", "0.2 MPa", "0.2", ("C is 0.2", "a pressure with its unit")),
         ("law", "0.2 MPa", "0.2 mm", ("C is 0.2 mm", "a pressure")),
         ("law", "10 kPa", "1e400 kPa", ("G is 1e400 kPa", "a finite pressure")),
         ("law", "0.2 MPa", "-0.2 MPa", ("C is -200000", "a positive modulus")),
         ("yeoh law", "30 kPa", "30 kg", ("C10 is 30 kg", "a pressure")),
-        ("person", "5 mm ± 1 mm", "5 mm", ("stone diameter is 5 mm", "a length with its uncertainty")),
-        ("person", "5 mm ± 1 mm", "5", ("stone diameter is 5", "a length with its uncertainty")),
-        ("person", "5 mm ± 1 mm", "5 mm ± x", ("stone diameter is", "a length with its unit")),
-        ("person", "5 mm ± 1 mm", "5 mm ± 1 kg", ("stone diameter is 1 kg", "a length")),
-        ("person", "5 mm ± 1 mm", "5 kg ± 1 kg", ("stone diameter is 5 kg", "a length")),
-        ("person", "5 mm ± 1 mm", "NaN mm ± 1 mm", ("stone diameter is NaN mm",)),
-        ("person", "5 mm ± 1 mm", "5 mm ± NaN mm", ("stone diameter is NaN mm",)),
-        ("person", "5 mm ± 1 mm", "5 mm ± 1e400 mm", ("stone diameter is 1e400 mm", "a finite length")),
-        ("person", "5 mm ± 1 mm", "5 mm ± 20 %", ("5 mm ± 20 %", "an uncertainty in its own unit")),
-        ("person", "5 mm ± 1 mm", "5 mm ± -1 mm", ("5 mm ± -1 mm", "an uncertainty from 0 to")),
-        ("person", "4 mm to 4.8 mm", "4.8 mm to 4 mm", ("inner diameter is 4.8 mm to 4 mm", "a rising range")),
-        ("person", "0.05 to 0.5", "0.05 to", ("friction is 0.05 to", "a number with its uncertainty")),
-        ("person", "1 ± 0.3", "nan ± 0.3", ("stiffness is nan ± 0.3", "from 0.05 to 20")),
-        ("person", "6 kPa", "6", ("limit is 6", "a pressure with its unit")),
+        ("patient", "5 mm ± 1 mm", "5 mm", ("stone diameter is 5 mm", "a length with its uncertainty")),
+        ("patient", "5 mm ± 1 mm", "5", ("stone diameter is 5", "a length with its uncertainty")),
+        ("patient", "5 mm ± 1 mm", "5 mm ± x", ("stone diameter is", "a length with its unit")),
+        ("patient", "5 mm ± 1 mm", "5 mm ± 1 kg", ("stone diameter is 1 kg", "a length")),
+        ("patient", "5 mm ± 1 mm", "5 kg ± 1 kg", ("stone diameter is 5 kg", "a length")),
+        ("patient", "5 mm ± 1 mm", "NaN mm ± 1 mm", ("stone diameter is NaN mm",)),
+        ("patient", "5 mm ± 1 mm", "5 mm ± NaN mm", ("stone diameter is NaN mm",)),
+        ("patient", "5 mm ± 1 mm", "5 mm ± 1e400 mm", ("stone diameter is 1e400 mm", "a finite length")),
+        ("patient", "5 mm ± 1 mm", "5 mm ± 20 %", ("5 mm ± 20 %", "an uncertainty in its own unit")),
+        ("patient", "5 mm ± 1 mm", "5 mm ± -1 mm", ("5 mm ± -1 mm", "an uncertainty from 0 to")),
+        ("patient", "4 mm to 4.8 mm", "4.8 mm to 4 mm", ("inner diameter is 4.8 mm to 4 mm", "a rising range")),
+        ("patient", "0.05 to 0.5", "0.05 to", ("friction is 0.05 to", "a number with its uncertainty")),
+        ("patient", "1 ± 0.3", "nan ± 0.3", ("stiffness is nan ± 0.3", "from 0.05 to 20")),
+        ("patient", "6 kPa", "6", ("limit is 6", "a pressure with its unit")),
         # Numbers
-        ("case", "friction = 0.5", "friction = nan", ("friction is nan", "a number from 0 to 2")),
-        ("case", "friction = 0.5", "friction = -0.5", ("friction is -0.5", "a number from 0 to 2")),
-        ("case", "prestretch = 1.05", "prestretch = inf", ("prestretch is inf", "a number from 0.8 to 1.6")),
-        ("case", "half_length = 12.5", "half_length = 1e400", ("half_length is inf", "a number from 3 to 100")),
-        ("case", "half_length = 12.5", "half_length = 3", ("half_length is 3", "at least twice the stone's largest extent")),
-        ("case", "series_order = 3", "series_order = 9", ("series_order is 9", "a whole number from 1 to 8")),
-        ("case", "series_order = 3", "series_order = 3.0", ("'method.series_order' is 3.0", "valid integer")),
-        ("case", "series_order = 3", "series_order = 7", ("pairs is 5", "at least as many as coefficients, 7")),
-        ("beam case", "size_ratio = 1.2", "size_ratio = nan", ("size_ratio is nan", "a number from 0.1 to 3")),
-        ("beam case", "aspect = 1.5", "aspect = 2.5", ("aspect is 2.5", "a number from 0.5 to 2")),
-        ("beam case", "wall_ratio = 1.3", "wall_ratio = 1", ("wall_ratio is 1.0", "a number from 1.02 to 10")),
+        ("case", "friction = 0.5", "friction = nan", ("'stone.friction' is nan", "a number from 0 to 2")),
+        ("case", "friction = 0.5", "friction = -0.5", ("'stone.friction' is -0.5", "a number from 0 to 2")),
+        ("case", "prestretch = 1.05", "prestretch = inf", ("'load.prestretch' is inf", "a number from 0.8 to 1.6")),
+        ("case", "half_length = 12.5", "half_length = 1e400", ("'method.half_length' is inf", "a number from 3 to 100")),
+        ("case", "half_length = 12.5", "half_length = 3", ("'method.half_length' is 3", "at least twice the stone's largest extent")),
+        ("case", "series_order = 3", "series_order = 9", ("'method.series_order' is 9", "a whole number from 1 to 8")),
+        ("case", "series_order = 3", "series_order = 3.0", ("'method.series_order' is 3.0", "a whole number")),
+        ("case", "series_order = 3", "series_order = 7", ("'method.opening_curve' is 5 points", "at least as many points as coefficients, 7")),
+        ("beam case", "size_ratio = 1.2", "size_ratio = nan", ("'stone.size_ratio' is nan", "a number from 0.1 to 3")),
+        ("beam case", "aspect = 1.5", "aspect = 2.5", ("'stone.aspect' is 2.5", "a number from 0.5 to 2")),
+        ("beam case", "wall_ratio = 1.3", "wall_ratio = 1", ("'ureter.wall_ratio' is 1.0", "a number from 1.02 to 10")),
         ("law", "0.7091", "nan", ("a1111 is nan", "a number above 0 and below 1000")),
         ("law", "0.1856", "1e3", ("a1122 is 1000.0", "a number between -1000 and 1000")),
         ("law", "[1.0, 1.3]", "[1.0, nan]", ("strain_range is [1.0, nan]", "two circumferential stretches")),
         ("law", "[1.0, 1.3]", "[1.0, 1.3, 1.4]", ("'strain_range'", "shorter")),
         ("law", "[1.0, 1.3]", "[1.0]", ("'strain_range", "given")),
-        ("person", "samples = 1024", "samples = 10", ("samples is 10", "a whole number from 256 to 65536")),
-        ("person", "seed = 7", "seed = -7", ("seed is -7", "from 0 to")),
-        ("person", "5 mm ± 1 mm", "50 mm ± 1 mm", ("stone diameter over inner diameter is 11.3636", "0.1 to 3")),
+        ("patient", "samples = 1024", "samples = 10", ("samples is 10", "a whole number from 256 to 65536")),
+        ("patient", "seed = 7", "seed = -7", ("seed is -7", "from 0 to")),
+        ("patient", "5 mm ± 1 mm", "50 mm ± 1 mm", ("stone diameter over inner diameter is 11.3636", "0.1 to 3")),
         # Words
-        ("case", '"paper"', '"papre"', ("model is papre", "did you mean 'paper'")),
-        ("case", '"soft.toml"', '"latx"', ("material is latx", "did you mean 'latex'")),
+        ("case", '"paper"', '"papre"', ("'method.model' is papre", "did you mean 'paper'")),
+        ("case", '"soft.toml"', '"latx"', ("'ureter.material' is latx", "did you mean 'latex'")),
         ("law", '"fung"', '"fungus"', ("fungus", "did you mean 'fung'")),
-        ("person", '"distal"', '"dital"', ("place is dital", "did you mean 'distal'")),
+        ("patient", '"distal"', '"dital"', ("place is dital", "did you mean 'distal'")),
         # Types and nesting
-        ("case", "wetted = false", 'wetted = "no"', ("'method.wetted' is no", "true or false")),
-        ("case", "wetted = false", "wetted = 0", ("'method.wetted' is 0", "true or false")),
+        ("case", "as_printed = true", 'as_printed = "no"', ("'method.as_printed' is no", "true or false")),
+        ("case", "as_printed = true", "as_printed = 0", ("'method.as_printed' is 0", "true or false")),
         ("case", "friction = 0.5", 'friction = "0.5"', ("'stone.friction' is 0.5", "a number")),
         ("case", "friction = 0.5", "friction = true", ("'stone.friction' is True", "a number")),
         ("case", "friction = 0.5", "friction = {}", ("'stone.friction' is {}", "a number")),
@@ -347,22 +347,22 @@ def test_line_ends_and_a_byte_order_mark_are_read(tmp_path, kind, ends):
         ("case", '"4.2 mm"', "[{a = 1}, {b = 2}]", ("'stone.diameter' is [{", "text in quotes")),
         ("beam case", "stone = {size_ratio = 1.2, aspect = 1.5}", "stone = 1.2", ("'stone' is 1.2", "a section, written [stone]")),
         ("law", '"fung"', '["fung"]', ("'law' is ['fung']", "text in quotes")),
-        ("person", '"1 ± 0.3"', "{value = 1, sd = 0.3}", ("'ureter.stiffness' is {", "text in quotes")),
+        ("patient", '"1 ± 0.3"', "{value = 1, sd = 0.3}", ("'ureter.stiffness' is {", "text in quotes")),
         # Files that are named
         ("case", '"pairs.csv"', '"none.csv"', ("none.csv", "a file that exists")),
         ("case", '"pairs.csv"', '"."', ("a file that exists",)),
         ("case", '"soft.toml"', '"none.toml"', ("none.toml, but must be", "a file that exists")),
         ("case", '"soft.toml"', '"none.py:energy"', ("a file that exists",)),
         ("case", '"pairs.csv"', r'"a\u0000.csv"', ("a file that exists",)),
-        ("person", '"spheroid.csv"', '"pairs.csv"', ("in pairs.csv, column is alpha_deg", "one of z, rho")),
-        ("person", '"soft.toml"', '"person.toml"', ("key is stone", "one of law, source")),
+        ("patient", '"spheroid.csv"', '"pairs.csv"', ("in pairs.csv, column is alpha_deg", "one of z, rho")),
+        ("patient", '"soft.toml"', '"patient.toml"', ("key is stone", "one of law, source")),
     ],
 )  # fmt: skip
 def test_a_key_or_a_value_that_is_wrong(tmp_path, kind, old, new, parts):
     has(refusal(kind, changed(kind, old, new), tmp_path), KINDS[kind].file, *parts)
 
 
-@pytest.mark.parametrize("kind", ["case", "beam case", "law", "yeoh law", "person"])
+@pytest.mark.parametrize("kind", ["case", "beam case", "law", "yeoh law", "patient"])
 def test_a_file_without_keys(tmp_path, kind):
     for text in ("", "\n", "# nothing\n", "x", "[", "[]", "= 1", "a = 1", "\ufeff\ufeff"):
         refusal(kind, text, tmp_path)
@@ -419,13 +419,13 @@ def test_what_is_long_or_deep_in_a_case(tmp_path, old, new):
     ],
     ids=lambda text: text[:24],
 )
-def test_what_is_long_in_a_person(tmp_path, old, new):
-    refusal("person", changed("person", old, new), tmp_path)
+def test_what_is_long_in_a_patient(tmp_path, old, new):
+    refusal("patient", changed("patient", old, new), tmp_path)
 
 
 def test_a_number_beside_diameters_that_is_none(tmp_path):
     text = CASE.replace("[load]", "wall_ratio = nan\n[load]")
-    has(refusal("case", text, tmp_path), "wall_ratio is nan")
+    has(refusal("case", text, tmp_path), "'ureter.wall_ratio' cannot be used with both diameters")
 
 
 @pytest.mark.parametrize(
@@ -571,12 +571,12 @@ COMMANDS = {
     "fit forces": ("forces", ["fit", "tensile", "FILE", "--law", "fung", "--width", "4mm", "--thickness", "1mm"]),
     "fit inflation": ("inflation", ["fit", "inflation", "FILE", "--law", "fung", *TUBE]),
     "invitro": ("points", ["invitro", "FILE", "--material", "latex", "--no-cache"]),
-    "assess": ("person", ["assess", "FILE", "--no-cache"]),
+    "assess": ("patient", ["assess", "FILE", "--no-cache"]),
     "pressure": ("case", ["pressure", "FILE"]),
     "pressure --material": ("law", ["pressure", *SIZES, "--material", "FILE"]),
     "pressure --friction-from": ("friction", ["pressure", *SIZES, "--friction-from", "FILE"]),
     "pressure --shape": ("shape", ["pressure", *SIZES, "--shape", "FILE"]),
-    "pressure --pairs": ("pairs", ["pressure", *SIZES, "--closure", "series", "--pairs", "FILE"]),
+    "pressure --opening-curve": ("pairs", ["pressure", *SIZES, "--closure", "series", "--opening-curve", "FILE"]),
     "curve --shape": ("shape", ["curve", "--xi", "1:1.2:0.1", "--eta", "1.3", "--shape", "FILE"]),
     "size": ("case", ["size", "FILE", "--limit", "12kPa"]),
     "size --material": ("yeoh law", ["size", "--eta", "1.3", "--limit", "12kPa", "--material", "FILE"]),
@@ -645,9 +645,9 @@ def test_a_law_of_several_lines_that_is_not_stable_is_told_in_one(tmp_path, caps
 
 
 def test_a_page_is_not_written_where_the_file_is_refused(tmp_path, capsys):
-    path = written(tmp_path / "person.toml", PERSON.replace("5 mm ± 1 mm", "5 mm ± x"))
+    path = written(tmp_path / "patient.toml", PATIENT.replace("5 mm ± 1 mm", "5 mm ± x"))
     page = tmp_path / "page.html"
-    has(sentence_of_command(capsys, ["assess", path, "--html", page]), "person.toml")
+    has(sentence_of_command(capsys, ["assess", path, "--html", page]), "patient.toml")
     assert not page.exists()
 
 

@@ -12,8 +12,8 @@ from stonepass.materials.fung import Fung
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.states.nondimensional import tube_of
-from stonepass.model.states.stability_report import axisymmetric_buckling
-from stonepass.model.validity import folding_warning
+from stonepass.model.states.stability import axisymmetric_buckling
+from stonepass.model.validity import ring_buckling
 from stonepass.strain import INNER_WALL, CauchyGreen
 
 REST = np.array([[1.0, 0.0, 0.0, 1.0, 1.0]])
@@ -105,7 +105,7 @@ def test_the_solved_state_reports_its_margin_and_where():
 
 def test_confining_pressure_brings_warnings_that_say_where():
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3), sp.Load("5 kPa"))
-    sentences = sp.solve(case).warnings
+    sentences = [str(each) for each in sp.solve(case).warnings]
     unstable = next(s for s in sentences if "not stable" in s)
     folding = next(s for s in sentences if "may fold" in s)
     for sentence in (unstable, folding):
@@ -119,10 +119,10 @@ def test_folding_is_told_by_hand():
     def sentences(kilopascals):
         ureter = sp.Ureter(wall_ratio=1.15, material="latex")
         load = sp.Load(f"{kilopascals} kPa", "hydrostatic")
-        return folding_warning(sp.Case(sp.Stone(size_ratio=1.1), ureter, load))
+        return ring_buckling(sp.Case(sp.Stone(size_ratio=1.1), ureter, load))
 
     assert sentences(0.79) == []
-    assert "0.8 kPa" in sentences(0.81)[0]
+    assert "0.8 kPa" in str(sentences(0.81)[0])
 
 
 def test_a_thin_shell_wrinkles_where_shell_theory_says():
@@ -150,5 +150,5 @@ def test_a_tube_that_wrinkles_by_itself_has_no_seated_state():
     assert answer.outcome is sp.Outcome.NO_SOLUTION
     assert "far from the stone axisymmetric waves" in answer.message
     held = sp.Case(sp.Stone(size_ratio=1.1), ureter, sp.Load("2 kPa", "hydrostatic"))
-    assert axisymmetric_buckling(held) == ""
-    assert axisymmetric_buckling(sp.Case(sp.Stone(size_ratio=1.1), ureter)) == ""
+    assert axisymmetric_buckling(held, 10.0) == ""
+    assert axisymmetric_buckling(sp.Case(sp.Stone(size_ratio=1.1), ureter), 10.0) == ""

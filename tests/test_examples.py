@@ -8,20 +8,26 @@ import runpy
 from pathlib import Path
 
 import pytest
+from options import asking
 
 import stonepass
 from stonepass.cli import run
-from stonepass.records.answer import record, size_record
+from stonepass.records.answer import answer_record
+from stonepass.records.size import size_record
 from stonepass.report.friction_report import friction_record
 
 pytestmark = pytest.mark.usefixtures("shared_solutions")
 
 ROOT = Path(__file__).parents[1]
-# Dozens of solves each; test_assess and test_invitro run the same commands with less.
-LONG = ("latex_series.csv", "person.toml")
+# Dozens of solves each, whose commands and functions other tests run with less; and the maker of
+# micrographs, whose files test_micrograph makes too.
+LONG = (
+    "latex_series.csv", "make_bench.py", "make_micrographs.py", "one_stone.py", "patient.toml"
+)  # fmt: skip
 EXAMPLES = [
     pytest.param(path, id=path.name, marks=[pytest.mark.slow] if path.name in LONG else [])
     for path in sorted((ROOT / "examples").iterdir())
+    if path.is_file()  # those in "extend" are run by test_extending.py
 ]
 FAST = ["--accuracy", "fast"]
 
@@ -79,15 +85,16 @@ def test_docstring_examples():
     assert sum(result.attempted for result in results) >= 3  # the guard inspected something
 
 
-def test_json_keys_are_in_the_glossary():
+def test_json_keys_are_in_the_glossary(undocumented):
     glossary = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
     ureter = stonepass.Ureter(wall_ratio=1.3)
-    one = record(stonepass.critical_pressure(stonepass.Stone(size_ratio=0.9), ureter))
-    quick = stonepass.Method(accuracy="fast")
-    size = size_record(stonepass.critical_size(ureter, "12 kPa", friction=0.0, method=quick))
-    keys = {*one, *size, *one["inputs"], *one["solver"]}
-    assert len(keys) > 30
-    assert [key for key in sorted(keys) if f"`{key}`" not in glossary] == []
+    loose = stonepass.critical_pressure(stonepass.Stone(size_ratio=0.9), ureter)
+    one = answer_record(loose).to_dict()
+    quick = asking(accuracy="fast")
+    found = stonepass.critical_size(ureter, "12 kPa", friction=0.0, **quick)
+    size = size_record(found).to_dict()
+    assert len({*one, *size, *one["case"], *one["solver"], *size["detail"]}) > 30
+    assert undocumented([one, size]) == []
     for outcome in stonepass.Outcome:
         assert f"`{outcome.name}`" in glossary
     surface = stonepass.surface_friction(

@@ -1,4 +1,7 @@
-"""The recipes of the developer guide: one file and one registration make a model, a law, …."""
+"""The recipes of the developer guide: one file and one registration make a model, a law, a study.
+
+An export format by the same recipe is tested in `test_writers`.
+"""
 
 import importlib.util
 import json
@@ -10,12 +13,15 @@ import pytest
 
 import stonepass as sp
 from stonepass.cli import run
+from stonepass.inputs import material_file
 from stonepass.inputs.catalogue import all_inputs
 from stonepass.inputs.schema import case_schema
+from stonepass.materials.known_laws import KNOWN_LAWS
 from stonepass.model.answer import Detail, Model
 from stonepass.model.contact_state import ContactState
 from stonepass.model.far_field import urine_pressure
 from stonepass.model.models.registry import MODELS
+from stonepass.studies.study import Study, run_study
 
 EXTEND = Path(__file__).parents[1] / "examples" / "extend"
 
@@ -72,3 +78,66 @@ def test_a_model_answers_through_every_door(plug, tmp_path, capsys):
     assert sp.solve(case.with_size_ratio(size.size_ratio)).pressure == pytest.approx(20e3, rel=1e-5)
     assert run(["pressure", "--xi", "1.2", "--eta", "1.5", "--plug-length", "1"]) == 2
     assert "--plug-length cannot be used with the model 'paper'" in capsys.readouterr().err
+
+
+@pytest.fixture
+def gent(monkeypatch):
+    module = load("gent_law")
+    monkeypatch.setitem(KNOWN_LAWS, "gent", module.Gent)
+    importlib.reload(material_file)  # whose schema follows from the registered laws
+    yield module
+    monkeypatch.undo()
+    importlib.reload(material_file)
+
+
+def test_a_law_is_read_checked_and_solved(gent, tmp_path, capsys):
+    path = tmp_path / "gent.toml"
+    path.write_text(
+        'law = "gent"\nmu = "293 kPa"\nJm = 9e3\nsource = "made up"\nstrain_range = [1.0, 1.5]\n'
+    )
+    wall = material_file.load_material(str(path))
+    assert wall.law == gent.Gent(293e3, 9e3)
+    # With chains of nearly unlimited length it is the neo-Hookean law of half its modulus.
+    latex = sp.Ureter(wall_ratio=1.5, material="latex")
+    pressures = [
+        sp.critical_pressure(
+            sp.Stone(size_ratio=1.2), ureter, numerics=sp.Numerics("fast")
+        ).pressure
+        for ureter in (latex, sp.Ureter(wall_ratio=1.5, material=wall))
+    ]
+    assert pressures[1] == pytest.approx(pressures[0], rel=1e-3)
+    assert run(["material", "show", str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert "293 kPa" in shown
+    assert "limit of I1 - 3" in shown or "J_m" in shown
+    path.write_text(path.read_text().replace("9e3", "0.01"))
+    with pytest.raises(sp.BadInput, match=r"Jm is 0\.01, but must be"):
+        material_file.load_material(str(path))
+
+
+def test_a_study_runs_its_jobs_anywhere():
+    module = load("friction_study")
+    case = sp.Case(
+        sp.Stone(size_ratio=1.1),
+        sp.Ureter(wall_ratio=1.3),
+        model=sp.ElasticFoundation(secant_stretch=1.2),
+    )
+    study = module.FrictionRange(case)
+    assert isinstance(study, Study)
+    seen = []
+    found = run_study(study, progress=lambda done, count: seen.append((done, count)))
+    assert [friction for friction, _, _ in found] == [0.1, 0.3, 0.5]
+    assert found[1][1] == sp.solve(case.with_friction(0.3)).pressure
+    assert seen[-1] == (3, 3)
+
+
+def test_the_guide_shows_the_code_that_is_tested():
+    guide = (Path(__file__).parents[1] / "docs" / "developing.md").read_text(encoding="utf-8")
+    shown = [block.split("```")[0] for block in guide.split("```python\n")[1:]]
+    assert len(shown) >= 4
+    sources = "\n".join(
+        path.read_text(encoding="utf-8")
+        for path in [*EXTEND.glob("*.py"), EXTEND.parent / "toy_writer.py"]
+    )
+    for block in shown:
+        assert block.strip() in sources, block

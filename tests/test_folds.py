@@ -90,13 +90,13 @@ def test_a_real_wall_that_meets_itself_is_found(solved, component, change, where
 def test_a_real_wall_that_folds_over_is_found(solved):
     """An S: the wall comes back over itself with the radius changed on the way."""
     u, w, *_ = solved.discretisation.fields
-    kept = solved.discretisation.state.vec.CreateVector()
-    kept.data = solved.discretisation.state.vec
+    kept = solved.discretisation.contact.vec.CreateVector()
+    kept.data = solved.discretisation.contact.vec
     turn = ng.IfPos(ng.y - 4.0, ng.IfPos(7.0 - ng.y, ng.y - 4.0, 3.0), 0.0) * 2.0 * np.pi / 3.0
     w.Set(w - 1.5 * ng.sin(turn))
     u.Set(u + 0.5 * (1.0 - ng.cos(turn)) + 0.3 * ng.sin(2.0 * turn))
     try:
         assert self_contact(solved) is not None
     finally:
-        solved.discretisation.state.vec.data = kept
+        solved.discretisation.contact.vec.data = kept
     assert self_contact(solved) is None

@@ -401,7 +401,7 @@ def test_some_black_or_white_is_told_of(profile):
     found = surface_friction(
         SurfaceImage(values, grey.pixel, 255, grey.area), height_range(profile)
     )
-    assert any("darkest or brightest grey, where heights" in told for told in found.warnings)
+    assert any("darkest or brightest grey, where heights" in str(told) for told in found.warnings)
 
 
 def test_without_the_extra_it_says_what_to_install(tmp_path, monkeypatch):
@@ -567,7 +567,7 @@ def test_steepest_at_the_edge_of_where_it_is_looked_at():
     heights = np.tile(x**2 / 1000.0 * MICRO, (20, 1))
     found = surface_friction(SurfaceImage(heights, (MICRO, MICRO), 0, Area(0, 0, 501, 20)))
     assert found.k0 == pytest.approx(1.0 * (1.0 - 1.0 / 8.0), rel=1e-3)
-    assert any("may be steeper still" in told for told in found.warnings)
+    assert any("may be steeper still" in str(told) for told in found.warnings)
 
 
 def test_the_child_writes_numbers_and_json(tmp_path):

@@ -4,6 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from options import asking
 
 import stonepass as sp
 from stonepass.fe.axisymmetric.balances import stored_energy
@@ -12,7 +13,7 @@ from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.fe.axisymmetric.seating import seat_on_stone
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.neo_hookean import NeoHookean
-from stonepass.model.case import Case, Method
+from stonepass.model.case import Case
 from stonepass.model.case_states import seat
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.load import Load
@@ -23,8 +24,8 @@ from stonepass.model.states.seated_state import NoSeat, SeatedState
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 
-FRICTIONLESS = Method(seating="frictionless")
-LATEX = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material="latex"), method=FRICTIONLESS)
+FRICTIONLESS = asking(seating="frictionless")
+LATEX = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material="latex"), **FRICTIONLESS)
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +40,7 @@ BLUNT, EGG = Shape(1.2, (0.95, 0.0, 0.0, 0.0, 0.05)), Shape(1.3, (1.01, 0.12, 0.
 
 def fitted(case):
     law = case.ureter.material.law
-    tube = tube_of(law, case.wall_ratio, case.load, case.method.half_length)
+    tube = tube_of(law, case.wall_ratio, case.load, case.numerics.half_length)
     guess = partial(wrap_round_arc, case, 1.0, hoop_modulus(law))
     return seat_on_stone(tube, profile_of(case), guess)[0]
 
@@ -120,7 +121,7 @@ def test_profile_is_symmetric_and_zero_outside_contact(latex):
 def test_contact_pressure_scales_with_stiffness():
     soft = seat(LATEX)
     wall = sp.Material("stiff", NeoHookean(37.0 * 0.1465e6), "", "", "", (1.0, 1.5))
-    stiff = seat(Case(LATEX.stone, Ureter(wall_ratio=1.5, material=wall), method=FRICTIONLESS))
+    stiff = seat(Case(LATEX.stone, Ureter(wall_ratio=1.5, material=wall), **FRICTIONLESS))
     np.testing.assert_allclose(
         stiff.contact_pressure, 37.0 * soft.contact_pressure, rtol=1e-9, atol=1e-3
     )
@@ -140,8 +141,8 @@ def test_error_of_the_contact_angle_falls_with_the_edge_elements():
 def test_far_from_the_stone_the_wall_is_the_far_field():
     """Under load and pre-stretch the lumen far away is that of section 3 at the local stretch."""
     load = Load("6 kPa", "hydrostatic", prestretch=1.05)
-    method = Method(half_length=20.0, seating="frictionless")
-    case = Case(Stone(size_ratio=1.1), Ureter(wall_ratio=1.5, material="latex"), load, method)
+    method = asking(half_length=20.0, seating="frictionless")
+    case = Case(Stone(size_ratio=1.1), Ureter(wall_ratio=1.5, material="latex"), load, **method)
     wall = seat(case).wall
     inner = (wall.R == 1.0) & (wall.Z > 8.0) & (wall.Z < 19.0)
     order = np.argsort(wall.Z[inner])
@@ -180,13 +181,13 @@ def test_a_spheroid_of_aspect_one_is_the_sphere(seating):
     def solved(aspect):
         stone = Stone(size_ratio=1.2, friction=0.4, aspect=aspect)
         return sp.solve(Case(stone, Ureter(wall_ratio=1.5, material="latex"),
-                          method=Method(seating=seating, accuracy="fast")))  # fmt: skip
+                          **asking(seating=seating, accuracy="fast")))  # fmt: skip
 
     sphere, nearly = solved(1.0), solved(1.0 + 1e-9)
     assert nearly.pressure == pytest.approx(sphere.pressure, rel=1e-7)
-    assert nearly.seated.contact_angle == pytest.approx(sphere.seated.contact_angle, abs=1e-7)
+    assert nearly.contact.contact_angle == pytest.approx(sphere.contact.contact_angle, abs=1e-7)
     np.testing.assert_allclose(
-        nearly.seated.contact_pressure, sphere.seated.contact_pressure, rtol=1e-5, atol=1.0
+        nearly.contact.contact_pressure, sphere.contact.contact_pressure, rtol=1e-5, atol=1.0
     )
 
 

@@ -4,12 +4,14 @@ import dataclasses
 import pickle
 
 import pytest
+from options import asking
 from test_store import assert_same
 
 import stonepass as sp
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.case_states import push_along
-from stonepass.model.states.loaded import critical_push
+from stonepass.model.seating import Seating
+from stonepass.model.states.loaded import find_critical
 from stonepass.model.states.loaded_state import NoPush
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED
@@ -20,9 +22,10 @@ COARSE = LEVELS["fast"].companion
 CASE = sp.Case(
     sp.Stone("3 mm", 0.3),
     sp.Ureter("2.5 mm", "3.75 mm", "latex"),
-    method=sp.Method(accuracy="fast", seating="frictionless", half_length=5.0),
+    **asking(accuracy="fast", seating="frictionless", half_length=5.0),
 )
-DIRECT = dataclasses.replace(CASE, method=CASE.method.by("direct"))
+DIRECT = dataclasses.replace(CASE, model=sp.PushThrough())
+NUMERICS, SEATING = CASE.numerics, Seating("frictionless", 0.0)
 PRESSURES = [Pressure(0.0), Pressure(5e3)]
 SOLVERS = {
     "uncached": lambda folder: UNCACHED,
@@ -30,9 +33,9 @@ SOLVERS = {
     "cache with walls": lambda folder: SolutionCache(folder, walls=True),
 }
 QUESTIONS = {
-    "seat": lambda solver: solver.seat(CASE, COARSE),
-    "push": lambda solver: solver.push(DIRECT, [COARSE], leak=False),
-    "hold": lambda solver: solver.hold(DIRECT, PRESSURES, COARSE),
+    "seat": lambda solver: solver.seat(CASE, SEATING, NUMERICS, COARSE),
+    "push": lambda solver: solver.push(DIRECT, NUMERICS, [COARSE], wetted=False, leak=False),
+    "hold": lambda solver: solver.hold(DIRECT, NUMERICS, PRESSURES, COARSE, wetted=False),
 }
 
 
@@ -41,7 +44,7 @@ def plain():
     """What the functions themselves return."""
     return {
         "seat": sp.seat(CASE, COARSE),
-        "push": critical_push(DIRECT, [COARSE], leak=False),
+        "push": find_critical(DIRECT, NUMERICS, [COARSE], leak=False),
         "hold": push_along(DIRECT, PRESSURES, COARSE),
     }
 
@@ -77,10 +80,11 @@ def test_a_state_that_cannot_be_found_is_a_value(tmp_path):
     """An axially compressed wall of fibres kinks all along."""
     question = sp.Case(
         sp.Stone(size_ratio=1.2, friction=0.4), sp.Ureter(wall_ratio=1.3),
-        sp.Load(prestretch=0.85), sp.Method(accuracy="fast", model="direct"),
+        sp.Load(prestretch=0.85), **asking(accuracy="fast", model="direct"),
     )  # fmt: skip
     for make in SOLVERS.values():
         for _ in range(2):
-            (found,) = make(tmp_path).hold(question, PRESSURES[:1], COARSE)
+            solver, first = make(tmp_path), PRESSURES[:1]
+            (found,) = solver.hold(question, question.numerics, first, COARSE, wetted=False)
             assert isinstance(found, NoPush)
-            assert "wrinkles or kinks" in found.reason
+            assert "buckles all along" in found.reason

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from options import asking
 
 import stonepass as sp
 from stonepass.inputs.material_file import load_material
 from stonepass.materials.derivatives import hoop_energy_slope
 from stonepass.strain import INNER_WALL, CauchyGreen
 
-FAST = sp.Method(accuracy="fast")
+FAST = asking(accuracy="fast")
 RUBBER = """
 source = "a bench"
 strain_range = (1.0, 1.6)
@@ -26,8 +27,8 @@ def test_a_user_law_equals_the_same_catalogue_law_end_to_end(tmp_path):
     mine = load_material(write(tmp_path, RUBBER))
     assert (mine.source, mine.strain_range) == ("a bench", (1.0, 1.6))
     stone = sp.Stone(size_ratio=1.2)
-    one = sp.critical_pressure(stone, sp.Ureter(wall_ratio=1.5, material=mine), method=FAST)
-    two = sp.critical_pressure(stone, sp.Ureter(wall_ratio=1.5, material="latex"), method=FAST)
+    one = sp.critical_pressure(stone, sp.Ureter(wall_ratio=1.5, material=mine), **FAST)
+    two = sp.critical_pressure(stone, sp.Ureter(wall_ratio=1.5, material="latex"), **FAST)
     assert one.pressure == pytest.approx(two.pressure, rel=1e-9)
 
 
@@ -56,7 +57,7 @@ def energy(C, place, xp):
     mine = load_material(write(tmp_path, text))
     stone = sp.Stone(size_ratio=1.2)
     state, latex = (
-        sp.seat(sp.Case(stone, sp.Ureter(wall_ratio=1.5, material=each), method=FAST))
+        sp.seat(sp.Case(stone, sp.Ureter(wall_ratio=1.5, material=each), **FAST))
         for each in (mine, "latex")
     )
     assert state.contact_angle == pytest.approx(latex.contact_angle, rel=1e-8)

@@ -22,22 +22,23 @@ def section() -> Section:
         case = sp.Case(
             sp.Stone(size_ratio=xi, friction=0.3),
             sp.Ureter(wall_ratio=eta, material=material),
-            method=sp.Method(seating="frictionless"),
+            model=sp.SeatedBalance(seating="frictionless"),
         )
         default, reference = sp.solve(case), sp.solve(case, REFERENCE)
-        assert default.seated is not None, (material, eta, xi, default.message)
-        assert reference.seated is not None, (material, eta, xi, reference.message)
+        assert default.contact is not None, (material, eta, xi, default.message)
+        assert reference.contact is not None, (material, eta, xi, reference.message)
         assert default.pressure is not None
         assert reference.pressure is not None
-        angle = np.degrees(abs(default.seated.contact_angle - reference.seated.contact_angle))
+        angle = np.degrees(abs(default.contact.contact_angle - reference.contact.contact_angle))
         equator = abs(
-            default.seated.equator_contact_pressure / reference.seated.equator_contact_pressure - 1
+            default.contact.equator_contact_pressure / reference.contact.equator_contact_pressure
+            - 1
         )
         critical = abs(default.pressure / reference.pressure - 1)
         angles.append(angle)
         pressures.append(equator)
         criticals.append(critical)
-        alpha = np.degrees(default.seated.contact_angle)
+        alpha = np.degrees(default.contact.contact_angle)
         rows.append(
             [
                 material,

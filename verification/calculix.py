@@ -50,7 +50,7 @@ def case(
         sp.Stone(size_ratio=xi, friction=FRICTION, **stone),
         sp.Ureter(wall_ratio=eta, material=own),
         sp.Load() if load is None else load,
-        sp.Method(seating=kind),
+        sp.SeatedBalance(seating=kind),
     )
 
 
@@ -94,7 +94,7 @@ def section() -> Section:
         angle, sigma, inner, critical = differences(found)
         rows.append([question.what, question.element, f"{angle:+.2f}°", f"{sigma:+.2%}",
                      f"{inner:.2%}", f"{critical:+.2%}"])  # fmt: skip
-        if question.case.method.seating == "frictionless":
+        if question.case.model.seating == "frictionless":
             smooth.append(inner)
         pressed.append(abs(critical))
     lost = sum(found is None for found in solved)

@@ -75,15 +75,15 @@ def wall_of(G: float) -> sp.Material:
 
 def margin(G: float) -> float:
     ureter = sp.Ureter(wall_ratio=1.3, material=wall_of(G))
-    smooth = sp.Method(seating="frictionless")
-    return sp.seat(sp.Case(sp.Stone(size_ratio=1.3), ureter, method=smooth)).stability.margin
+    smooth = sp.SeatedBalance(seating="frictionless")
+    return sp.seat(sp.Case(sp.Stone(size_ratio=1.3), ureter, model=smooth)).stability.margin
 
 
 def size(G: float, wall_ratio: float, ground: bool) -> float:
     found = sp.critical_size(
         sp.Ureter(wall_ratio=wall_ratio, material=wall_of(G)),
         "12 kPa",
-        method=sp.Method(far_field_ground=ground),
+        model=sp.SeatedBalance(far_field_ground=ground),
     )
     assert found.size_ratio is not None, found.message
     return found.size_ratio

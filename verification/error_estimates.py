@@ -109,8 +109,8 @@ def compare(case: sp.Case, levels: Sequence[str], truth: Resolution) -> list[Com
     fine = sp.solve(case, truth)
     found = []
     for level in levels:
-        answer = sp.solve(replace(case, method=replace(case.method, accuracy=level)))
-        state, error, limit = answer.seated, answer.error, fine.seated
+        answer = sp.solve(replace(case, numerics=replace(case.numerics, accuracy=level)))
+        state, error, limit = answer.contact, answer.error, fine.contact
         if state is None or error is None or limit is None:
             continue
         angle = np.degrees([abs(state.contact_angle - limit.contact_angle), error.contact_angle])

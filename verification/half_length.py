@@ -49,6 +49,7 @@ def equator(material: str, eta: float, xi: float, half_length: float) -> float:
     case = sp.Case(
         sp.Stone(size_ratio=xi),
         sp.Ureter(wall_ratio=eta, material=material),
-        method=sp.Method(half_length=half_length, seating="frictionless"),
+        model=sp.SeatedBalance(seating="frictionless"),
+        numerics=sp.Numerics(half_length=half_length),
     )
     return sp.seat(case).equator_contact_pressure

@@ -28,7 +28,7 @@ from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Material
 from stonepass.materials.yeoh import Yeoh
-from stonepass.model.case import Case, Method
+from stonepass.model.case import Case
 from stonepass.model.load import Load
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
@@ -185,7 +185,7 @@ def _surfaces():
 
 
 def _errors(name: str, load: Load, walls: tuple[float, float]) -> _Errors:
-    case = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material=name), load, Method())
+    case = Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material=name), load)
     generator = np.random.default_rng(SEED)
     loaded = load.confining_pressure > 0.0
     many = Conditions(

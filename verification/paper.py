@@ -13,6 +13,7 @@ from page import Check, Section
 from stonepass.paper.inputs import LIMIT
 from stonepass.paper.run import WITH_CLAIMS, reproduce
 from stonepass.paper.section import Asked, Claim
+from stonepass.studies.executor import process_pool
 
 INTERVAL = 15.0  # seconds between lines
 
@@ -26,10 +27,9 @@ def section() -> Section:
             last = time.monotonic()
             print(f"paper: {done} of {total}", file=sys.stderr, flush=True)
 
-    with TemporaryDirectory() as folder:
-        cores = os.cpu_count() or 1
+    with TemporaryDirectory() as folder, process_pool(os.cpu_count() or 1) as pool:
         names = [*WITH_CLAIMS, "sensitivity"]
-        parts = reproduce(names, Path(folder), Asked(LIMIT), None, cores, told)
+        parts = reproduce(names, Path(folder), Asked(LIMIT), pool, progress=told)
         rows = (Path(folder) / "sensitivity.csv").read_text(encoding="utf-8").splitlines()[1:]
     claims = [claim for part in parts for claim in part.claims]
     judged = [claim for claim in claims if claim.holds is not None]

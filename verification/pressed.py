@@ -82,11 +82,11 @@ def accuracy_table() -> tuple[list[list[str]], list[Check]]:
             sp.Stone(size_ratio=xi, friction=mu), sp.Ureter(wall_ratio=eta, material=material)
         )
         default, fine = sp.solve(case), sp.solve(case, LEVELS["reference"].resolution)
-        angles.append(np.degrees(abs(default.seated.contact_angle - fine.seated.contact_angle)))
+        angles.append(np.degrees(abs(default.contact.contact_angle - fine.contact.contact_angle)))
         pressures.append(abs(default.pressure / fine.pressure - 1.0))
-        sigma = [a.seated.equator_contact_pressure for a in (default, fine)]
+        sigma = [a.contact.equator_contact_pressure for a in (default, fine)]
         equators.append(abs(sigma[0] / sigma[1] - 1.0))
-        alpha = np.degrees(default.seated.contact_angle)
+        alpha = np.degrees(default.contact.contact_angle)
         rows.append([f"{material} {eta:g}/{xi:g}/{mu:g}", f"{alpha:.3f}"])
         rows[-1] += [f"{angles[-1]:.4f}", f"{pressures[-1]:.1e}", f"{equators[-1]:.1e}"]
     return rows, [
@@ -106,7 +106,7 @@ def limit_table() -> tuple[list[list[str]], list[Check]]:
         case = sp.Case(
             sp.Stone(size_ratio=1.2),
             sp.Ureter(wall_ratio=1.5, material="latex"),
-            method=sp.Method(seating_friction=mu),
+            model=sp.SeatedBalance(seating_friction=mu),
         )
         state = states[mu] = sp.seat(case)
         cone = mu * state.contact_pressure

@@ -1,4 +1,4 @@
-"""The loaded push-through: identities, convergence, a random grid, what is kept against kinks."""
+"""The loaded push-through: identities, convergence, a random grid, what resists microbuckling."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Drawn:
     text: str
     outcome: str
     cause: str
-    kinked: bool
+    microbuckled: bool
     seconds: float
     penetration: float
     errors: tuple[tuple[float, float], ...]  # true and claimed: α, σ(π/2), P_ucr
@@ -98,7 +98,7 @@ def section() -> Section:
                 [row[0] for row in meshes],
             ),
             (
-                "P_ucr in kPa with other parts of the ground matrix kept against kinks:",
+                "P_ucr in kPa with other parts of the ground matrix kept against microbuckling:",
                 ("case", "0.1", "0.2 (default)", "0.3", "margin"),
                 [row[0] for row in kept],
             ),
@@ -135,7 +135,7 @@ def case_of(
         sp.Stone(size_ratio=xi, friction=mu, shape=shape),
         sp.Ureter(wall_ratio=eta, material=material),
         load or sp.Load(),
-        sp.Method(model="direct"),
+        sp.PushThrough(),
     )
 
 
@@ -206,7 +206,7 @@ def convergence_row(material: str, eta: float, xi: float, mu: float):
                    LEVELS["reference"].resolution)  # fmt: skip
     meshes = [critical(case, resolution) for resolution in resolutions]
     longer = [
-        critical(replace(case, method=replace(case.method, half_length=L)), resolutions[2])
+        critical(replace(case, numerics=replace(case.numerics, half_length=L)), resolutions[2])
         for L in (20.0, 40.0)
     ]
     cells = [
@@ -223,9 +223,9 @@ def kept_row(material: str, eta: float, xi: float, mu: float):
         with patch("stonepass.model.states.loaded.relaxed", lambda law, k=kept: relaxed(law, k)):
             answer = sp.solve(case, LEVELS["fast"].resolution)
         assert answer.pressure is not None
-        assert answer.pushed is not None
+        assert answer.contact is not None
         found.append(answer.pressure)
-        margin = answer.pushed.stability.margin
+        margin = answer.contact.stability.margin
     cells = [
         f"{material}, η {eta:g}, ξ {xi:g}, μ {mu:g}",
         *(f"{value / 1e3:.4f}" for value in found),
@@ -244,14 +244,14 @@ def draw(case: sp.Case, referenced: bool) -> Drawn:
     started = time.perf_counter()
     answer = sp.solve(case)
     seconds = time.perf_counter() - started
-    state, error, errors = answer.pushed, answer.error, []
+    state, error, errors = answer.contact, answer.error, []
     if referenced and state is not None and error is not None and answer.pressure is not None:
         fine = sp.solve(case, LEVELS["reference"].resolution)
-        if fine.pushed is not None and fine.pressure is not None:
+        if fine.contact is not None and fine.pressure is not None:
             assert error.critical_pressure is not None
-            equator = fine.pushed.equator_contact_pressure
+            equator = fine.contact.equator_contact_pressure
             errors = [
-                (abs(state.contact_angle - fine.pushed.contact_angle), error.contact_angle),
+                (abs(state.contact_angle - fine.contact.contact_angle), error.contact_angle),
                 (abs(state.equator_contact_pressure - equator), error.equator_contact_pressure),
                 (abs(answer.pressure - fine.pressure), error.critical_pressure),
             ]
@@ -260,7 +260,7 @@ def draw(case: sp.Case, referenced: bool) -> Drawn:
         f"μ {case.stone.friction:.2f}",
         outcome=answer.outcome.name,
         cause=answer.message.partition(": ")[2],
-        kinked=state is not None and state.stability.margin <= 0.0,
+        microbuckled=state is not None and state.stability.margin <= 0.0,
         seconds=seconds,
         penetration=0.0 if state is None else state.solver.penetration,
         errors=tuple(errors),
@@ -271,7 +271,7 @@ def grid_rows(drawn: Sequence[Drawn]) -> list[list[str]]:
     seconds = sorted(each.seconds for each in drawn)
     rows = [[f"`{name}`", str(sum(each.outcome == name for each in drawn))]
             for name in ("MOVES", "LEAKS", "NO_SOLUTION")]  # fmt: skip
-    rows.append(["of them with kinks", str(sum(each.kinked for each in drawn))])
+    rows.append(["of them with microbuckling", str(sum(each.microbuckled for each in drawn))])
     passed = sum(each.penetration > 1e-6 for each in drawn)
     rows.append(["open wall passes through the stone by more than 1e-6 R_s", str(passed)])
     rows.append(

@@ -27,7 +27,7 @@ def section() -> Section:
     case = sp.Case(
         sp.Stone(size_ratio=1.2, friction=0.475),
         sp.Ureter(wall_ratio=1.5, material="latex"),
-        method=sp.Method(seating="frictionless"),
+        model=sp.SeatedBalance(seating="frictionless"),
     )
     states = [sp.seat(case, resolution) for _, resolution in LADDER]
     limit = states[-1]

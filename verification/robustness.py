@@ -16,7 +16,7 @@ from stonepass.errors import Outcome
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.states.stability_report import axisymmetric_buckling
+from stonepass.model.states.stability import axisymmetric_buckling
 
 SEED, FAMILIES, SIZES = 20244, 200, 3
 TOP = {"latex": 0.6, "ureter": 0.35}  # largest ξ − 1
@@ -47,7 +47,7 @@ class Row:
     cause: str
     unstable_tube: bool
     estimated: bool
-    slack: bool
+    uncertain_edge: bool
     flaws: tuple[str, ...]
     tube: str
     case: str
@@ -136,17 +136,17 @@ def run_case(number: int, case: sp.Case) -> Row:
     started = time.perf_counter()
     answer = sp.solve(case)
     seconds = time.perf_counter() - started
-    state, no_solution = answer.seated, answer.outcome is Outcome.NO_SOLUTION
+    state, no_solution = answer.contact, answer.outcome is Outcome.NO_SOLUTION
     return Row(
         family=number,
         law="latex" if case.ureter.material.name == "latex" else "ureter",
         outcome=answer.outcome.name,
         pressure=answer.pressure,
-        at_edge=any("as soon as the stone is seated" in text for text in answer.warnings),
+        at_edge=any(each.code == "moves_at_contact_angle" for each in answer.warnings),
         cause=answer.message.partition(": ")[2] if no_solution else "",
-        unstable_tube=no_solution and bool(axisymmetric_buckling(case)),
+        unstable_tube=no_solution and bool(axisymmetric_buckling(case, case.numerics.half_length)),
         estimated=answer.error is not None,
-        slack=state is not None and state.contact_angle_uncertainty > 0.0,
+        uncertain_edge=state is not None and state.contact_angle_uncertainty > 0.0,
         flaws=() if state is None else tuple(flaws(state)),
         tube=describe(case, size=False),
         case=describe(case),
@@ -172,7 +172,7 @@ def flaws(state: sp.SeatedState) -> list[str]:
     axial = wall.stress_rz[inner] * r + wall.stress_zz[inner] * z
     pressure = -(radial * r + axial * z)[closed]
     work = state.equator_contact_pressure * (case.size_ratio - lumen)
-    strict = case.method.seating == "pressed" and case.wall_ratio >= THIN
+    strict = case.model.seating == "pressed" and case.wall_ratio >= THIN
     balance = BALANCE_PRESSED if strict else BALANCE
     held = (
         gap.min() > -1e-6,
@@ -239,7 +239,8 @@ def families(seed: int, count: int) -> list[list[sp.Case]]:
                     sp.Stone(size_ratio=float(xi), friction=friction),
                     sp.Ureter(wall_ratio=eta, material=wall),
                     sp.Load(f"{outside} kPa", confinement),
-                    sp.Method(seating=seating, half_length=half_length),
+                    sp.SeatedBalance(seating=seating),
+                    sp.Numerics(half_length=half_length),
                 )
                 for xi in sizes
             ]
@@ -265,5 +266,5 @@ def describe(case: sp.Case, *, size: bool = True) -> str:
     return (
         f"{case.ureter.material.name}{ground}, η {case.wall_ratio:.3f}{ratio}, "
         f"μ {case.stone.friction:.2f}{outside if load.confining_pressure else ''}, "
-        f"L {case.method.half_length:.0f}, {case.method.seating}"
+        f"L {case.numerics.half_length:.0f}, {case.model.seating}"
     )

@@ -61,11 +61,11 @@ def section() -> Section:
 
 def draw(case: sp.Case) -> Drawn:
     answers = [
-        sp.solve(replace(case, method=method))
-        for method in (
-            sp.Method(seating="frictionless"),
-            sp.Method(),
-            sp.Method(model="direct"),
+        sp.solve(replace(case, model=model))
+        for model in (
+            sp.SeatedBalance(seating="frictionless"),
+            sp.SeatedBalance(),
+            sp.PushThrough(),
         )
     ]
     shape = case.stone.shape
@@ -82,7 +82,7 @@ def draw(case: sp.Case) -> Drawn:
 
 
 def identity(case: sp.Case) -> float | None:
-    bare = replace(case.with_friction(0.0), method=sp.Method(model="direct"))
+    bare = replace(case.with_friction(0.0), model=sp.PushThrough())
     pressure = Pressure(SHARE * opening_pressure(bare))
     state = sp.push_through(bare, pressure, LEVELS["reference"].resolution, tether=TETHER)
     gained = advance_force(bare, pressure)
@@ -93,10 +93,10 @@ def identity(case: sp.Case) -> float | None:
 
 def turned(case: sp.Case) -> float | None:
     """Largest difference of the edges, frictionless, in rad."""
-    method = sp.Method(seating="frictionless")
+    smooth = sp.SeatedBalance(seating="frictionless")
     mirrored = sp.Stone(size_ratio=case.size_ratio, shape=case.stone.shape.turned())
-    one = sp.seat(replace(case, method=method), Resolution())
-    other = sp.seat(replace(case, stone=mirrored, method=method), Resolution())
+    one = sp.seat(replace(case, model=smooth), Resolution())
+    other = sp.seat(replace(case, stone=mirrored, model=smooth), Resolution())
     if not isinstance(one, sp.SeatedState) or not isinstance(other, sp.SeatedState):
         return None
     return max(

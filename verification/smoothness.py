@@ -36,7 +36,7 @@ class Line:
     """Neighbouring solves along ξ or η: largest deviation of each slope from a smooth one.
 
     The steps are the same deviations over one interval, of P_ucr itself and of α₀ in degrees.
-    `kinked` where some state has no smooth contact edge, as at kinks of a wall that has lost its
+    `kinked` where some state has no smooth contact edge, as in a wall that has lost its
     stability; it then says so itself.
     """
 
@@ -110,9 +110,11 @@ def along(*lines: Line) -> list[tuple[str, str]]:
 def line(case: sp.Case, variable: str) -> Line:
     share = STEP * np.arange(-(POINTS // 2), POINTS // 2 + 1)
     answers = [sp.solve(moved(case, variable, each)) for each in share]
-    angle = np.array([a.seated.contact_angle for a in answers if a.seated is not None])
+    angle = np.array([a.contact.contact_angle for a in answers if a.contact is not None])
     pressure = np.array([a.pressure for a in answers if a.pressure is not None])
-    kinked = any(a.seated.contact_angle_uncertainty > 0.0 for a in answers if a.seated is not None)
+    kinked = any(
+        a.contact.contact_angle_uncertainty > 0.0 for a in answers if a.contact is not None
+    )
     if not len(angle) == len(pressure) == POINTS:
         return Line(case, variable, *([np.inf] * 4), kinked)
     open_angle = np.degrees(np.pi / 2 - angle)  # vanishes with the stretch, as P_ucr does
@@ -154,7 +156,7 @@ def cases() -> Sequence[sp.Case]:
         sp.Case(
             sp.Stone(size_ratio=xi, friction=mu),
             sp.Ureter(wall_ratio=eta, material=material),
-            method=sp.Method(seating=seating),
+            model=sp.SeatedBalance(seating=seating),
         )
         for material, eta, xi, mu, seating in NAMED
     ]

@@ -1,4 +1,4 @@
-"""Tables, cases, laws and persons from outside: damaged files are read or refused in a sentence."""
+"""Tables, cases, laws and patients in files: a damaged one is read or refused in a sentence."""
 
 from __future__ import annotations
 

@@ -174,7 +174,10 @@ def _bounded(declaration: Input, title: str, read: Any, value: Any) -> Any:
 def _number(declaration: Input, title: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, Real):
         raise BadInput(title, value, declaration.allowed)
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:  # a whole number of hundreds of digits
+        raise BadInput(title, value, declaration.allowed) from None
     return float(_bounded(declaration, title, number, number))
 
 

@@ -1,16 +1,13 @@
 """The friction coefficient that fits a series of critical pressures, and what the series can tell.
 
-A wall s times as stiff needs s times the pressure under s times the load,
-P_ucr(s w, P_out) = s P_ucr(w, P_out/s), so that stiffness needs no solve of its own where nothing
-confines the tube. Stiffness and friction both raise P_ucr; a series tells them apart only by how
-they do it, and the joint fit shows how well.
+Stiffness and friction both raise P_ucr; a series tells them apart only by how they do it, and the
+joint fit shows how well.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -28,19 +25,15 @@ from stonepass.bench.least_squares import (
     lmfit,
     profile_level,
 )
+from stonepass.bench.series_model import SeriesModel, series_curves
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.inputs.measured_pressures import Point
-from stonepass.model.answer import Answer
-from stonepass.model.case import Case
-from stonepass.model.load import CONFINING
 from stonepass.model.stone import FRICTION
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.units import Values
 
 __all__ = ["LARGEST", "SMALLEST", "STIFFNESS", "Estimate", "InVitro", "JointFit", "fit_friction"]
 
-NODES = (0.05, 0.2, 0.5, 1.0)  # of friction, solved first
-LOAD_FACTORS = (0.5, 1.0, 2.0)  # of confining pressures, where stiffness varies
 SMALLEST, LARGEST = 0.01, FRICTION[1]
 STIFFNESS = (1.0 / 3.0, 3.0)
 BOUNDS = {"friction": (SMALLEST, LARGEST), "stiffness": STIFFNESS}
@@ -147,12 +140,12 @@ def fit_friction(
     if not setting.model.NEEDS_ELEMENTS:
         raise BadInput("model", "beam", "paper or direct", "the beam holds for thin walls only")
     weights, weighted = _weights(points)
-    curves, told = _curves(points, setting, solver)
+    curves, warnings = series_curves(points, setting, solver)
     kept = [k for k, curve in enumerate(curves) if curve is not None]
     require(len(kept) > 1, "series", f"{len(kept)} points that the model answers with a held stone",
             "two at least")  # fmt: skip
     known = tuple(curve for curve in curves if curve is not None)
-    whole = _Model(known, [points[k] for k in kept], weights[kept], setting)
+    whole = SeriesModel(known, [points[k] for k in kept], weights[kept], setting)
     parameters = library.Parameters()
     parameters.add("friction", START[0], min=SMALLEST, max=LARGEST)
     parameters.add("stiffness", START[1], min=STIFFNESS[0], max=STIFFNESS[1], vary=False)
@@ -174,18 +167,18 @@ def fit_friction(
     answered = sum(fitted.answers[k].outcome is Outcome.MOVES for k in kept)
     if answered < 2 or any(abs(value - end) < 1e-3 * end for end in BOUNDS["friction"]):
         estimate = Estimate(value, None, None)
-        told.append(NO_FRICTION)
+        warnings.append(NO_FRICTION)
     else:
         bounds, more = intervals(minimizer, found, ["friction"])
         estimate = Estimate(value, *_ends(bounds, "friction"))
-        told += [*more, *([ENDED.format(chosen.count(False))] if False in chosen else [])]
+        warnings += [*more, *([ENDED.format(chosen.count(False))] if False in chosen else [])]
     joint, about_both = _joint(library, whole, parameters, solver)
     asked = fitted if friction is None else compare(points, friction, setting, solver)
-    told = list(dict.fromkeys([*told, *about_both]))
-    return InVitro(asked, fitted, estimate, joint, setting, weighted, tuple(told))
+    warnings = list(dict.fromkeys([*warnings, *about_both]))
+    return InVitro(asked, fitted, estimate, joint, setting, weighted, tuple(warnings))
 
 
-def _minimized(library: Any, series: _Model, parameters: Any) -> tuple[Any, Any]:
+def _minimized(library: Any, series: SeriesModel, parameters: Any) -> tuple[Any, Any]:
     minimizer = library.Minimizer(series.residuals, parameters)
     return minimizer, minimizer.minimize(method="least_squares")
 
@@ -201,174 +194,8 @@ def _weights(points: Sequence[Point]) -> tuple[Float[np.ndarray, " n"], bool]:
     return 1.0 / np.array(given), True
 
 
-@dataclass(frozen=True)
-class _OverFriction:
-    """P_ucr of one case in Pa over friction: ln(P/μ) by a polynomial in √μ through what was solved.
-
-    `end` is where the paper's closure ends, the most that such a model can say.
-    """
-
-    friction: tuple[float, ...]
-    pressure: tuple[float, ...]
-    end: float
-
-    @cached_property
-    def coefficients(self) -> Float[np.ndarray, " k"]:
-        """Of the polynomial, highest power first."""
-        mu = np.array(self.friction)
-        return np.polyfit(np.sqrt(mu), np.log(np.array(self.pressure) / mu), len(mu) - 1)
-
-    @cached_property
-    def rise(self) -> float:
-        """Slope d ln P/dμ at the largest friction solved."""
-        most = max(self.friction)
-        slope = np.polyval(np.polyder(self.coefficients), np.sqrt(most)) / (2.0 * np.sqrt(most))
-        return max(float(1.0 / most + slope), 0.0)
-
-    def __call__(self, mu: Values) -> Values:
-        """The pressure at friction μ; beyond the last one solved that one's tangent leads on."""
-        most = max(self.friction)
-        inside = np.minimum(mu, most)
-        value = inside * np.exp(np.polyval(self.coefficients, np.sqrt(inside)))
-        return np.minimum(value * (1.0 + self.rise * (mu - inside)), self.end)
-
-    def through(self, mu: float, pressure: float | None) -> _OverFriction:
-        """The same through one more solve, if it has a pressure; one that is close gives way."""
-        if not pressure:
-            return self
-        kept = [k for k, old in enumerate(self.friction) if abs(old - mu) > 0.1 * mu]
-        return replace(
-            self,
-            friction=(*(self.friction[k] for k in kept), mu),
-            pressure=(*(self.pressure[k] for k in kept), pressure),
-        )
-
-
-@dataclass(frozen=True)
-class _Curve:
-    """P_ucr of one point over friction and stiffness."""
-
-    factors: tuple[float, ...]
-    over: tuple[_OverFriction, ...]
-
-    def __call__(self, mu: Any, stiffness: Any) -> Any:
-        """s P_ucr(μ; P_out/s): between load factors by the polynomial through them."""
-        if len(self.factors) == 1:
-            return stiffness * self.over[0](mu)
-        factor = 1.0 / stiffness
-        total: Values = 0.0
-        for k, one in enumerate(self.factors):
-            share = 1.0
-            for other in (f for f in self.factors if f != one):
-                share = share * (factor - other) / (one - other)
-            total = total + share * self.over[k](mu)
-        return stiffness * total
-
-    def through(self, mu: float, answers: Mapping[float, Answer]) -> _Curve:
-        """The same through answers at one more friction, by load factor."""
-        found = [
-            over if answers.get(factor) is None else over.through(mu, answers[factor].pressure)
-            for factor, over in zip(self.factors, self.over, strict=True)
-        ]
-        return replace(self, over=tuple(found))
-
-
-@dataclass(frozen=True)
-class _Model:
-    """The series as a function of friction and stiffness."""
-
-    curves: tuple[_Curve, ...]
-    points: Sequence[Point]
-    weights: Float[np.ndarray, " n"]
-    setting: Setting
-
-    def residuals(self, parameters: Any) -> Float[np.ndarray, " n"]:
-        """Model less measured, weighted."""
-        values = parameters.valuesdict()
-        return self._residuals(values["friction"], values["stiffness"])
-
-    def misfit(self, mu: Any, stiffness: Any) -> Any:
-        """Sum of squares on a grid."""
-        return np.sum(np.square(self._residuals(mu, stiffness)), axis=-1)
-
-    def where(self, chosen: Sequence[bool]) -> _Model:
-        """Some of its points."""
-        return replace(
-            self,
-            curves=tuple(c for c, yes in zip(self.curves, chosen, strict=True) if yes),
-            points=[p for p, yes in zip(self.points, chosen, strict=True) if yes],
-            weights=self.weights[np.array(chosen)],
-        )
-
-    def ended(self, mu: float) -> list[bool]:
-        """Which points lie at the end of the closure, where nothing depends on friction."""
-        return [any(float(over(mu)) >= over.end for over in curve.over) for curve in self.curves]
-
-    def through(self, mu: float, answers: Sequence[Mapping[float, Answer]]) -> _Model:
-        """The same through answers at one more friction, of each point by load factor."""
-        pairs = zip(self.curves, answers, strict=True)
-        return replace(self, curves=tuple(curve.through(mu, found) for curve, found in pairs))
-
-    def solved_at(self, mu: float, solver: CaseSolver) -> _Model:
-        """The same, solved at one more friction for every load factor."""
-        asked = [
-            {factor: self.setting.case(point, mu, factor) for factor in curve.factors}
-            for curve, point in zip(self.curves, self.points, strict=True)
-        ]
-        flat = list(dict.fromkeys(case for each in asked for case in each.values()))
-        known = dict(zip(flat, solver.answers(flat, error=False), strict=True))
-        return self.through(mu, [{f: known[c] for f, c in each.items()} for each in asked])
-
-    def _residuals(self, mu: Any, stiffness: Any) -> Any:
-        measured = np.array([point.pressure for point in self.points])
-        found = np.stack([curve(mu, stiffness) for curve in self.curves], axis=-1)
-        return (found - measured) * self.weights
-
-
-def _curves(
-    points: Sequence[Point], setting: Setting, solver: CaseSolver
-) -> tuple[list[_Curve | None], list[str]]:
-    """Every point over friction, and over its load where it has one; None without two answers."""
-    asked = [_asked(point, setting) for point in points]
-    flat = list(dict.fromkeys(case for each in asked for case in each.values()))
-    known = dict(zip(flat, solver.answers(flat, error=False), strict=True))
-    curves = [_curve({key: known[case] for key, case in each.items()}) for each in asked]
-    loose = [
-        any(known[case].outcome is Outcome.LOOSE for (f, _), case in each.items() if f == 1.0)
-        for each in asked
-    ]
-    lost = sum(curve is None for curve in curves) - sum(loose)
-    told = []
-    if any(loose):
-        told.append(f"{sum(loose)} of {len(points)} stones are no larger than the lumen and say "
-                    "nothing of friction")  # fmt: skip
-    if lost:
-        told.append(f"{lost} of {len(points)} points have no answer and are left out")
-    return curves, told
-
-
-def _asked(point: Point, setting: Setting) -> dict[tuple[float, float], Case]:
-    outside = float(point.confining_pressure)
-    factors = tuple(f for f in LOAD_FACTORS if f * outside <= CONFINING[1]) if outside else (1.0,)
-    return {(f, mu): setting.case(point, mu, f) for f in factors for mu in NODES}
-
-
-def _curve(answers: dict[tuple[float, float], Answer]) -> _Curve | None:
-    found = {}
-    for factor in dict.fromkeys(f for f, _ in answers):
-        over = {mu: a.pressure for (f, mu), a in answers.items() if f == factor and a.pressure}
-        ends = [a.closure_end_pressure for (f, _), a in answers.items()
-                if f == factor and a.outcome is Outcome.BEYOND_CLOSURE]  # fmt: skip
-        end = min((each for each in ends if each is not None), default=np.inf)
-        if len(over) > 1:
-            found[factor] = _OverFriction(tuple(over), tuple(over.values()), end)
-    if 1.0 not in found:
-        return None
-    return _Curve(tuple(found), tuple(found.values()))
-
-
 def _joint(
-    library: Any, series: _Model, parameters: Any, solver: CaseSolver
+    library: Any, series: SeriesModel, parameters: Any, solver: CaseSolver
 ) -> tuple[JointFit | None, list[str]]:
     """Fit friction and stiffness together, and map the misfit around."""
     count = len(series.curves)
@@ -391,19 +218,19 @@ def _joint(
 
     best = {name: float(found.params[name].value) for name in BOUNDS}
     estimates = {name: Estimate(best[name], *_profiled(misfit, best, name, count)) for name in best}
-    told = [
+    warnings = [
         f"the series does not bound {name} {'' if end is None else 'on one side '}when stiffness "
         "is fitted too"
         for name, each in estimates.items()
         for end in [each.high if each.low is None else each.low]
         if each.low is None or each.high is None
     ]
-    share = 2.0 * float(f_distribution.ppf(LEVEL, 2, count - 2)) / (count - 2)
+    excess_level = 2.0 * float(f_distribution.ppf(LEVEL, 2, count - 2)) / (count - 2)
     correlation = correlations(found, list(both)).get(("friction", "stiffness"))
     joint = JointFit(
-        estimates["friction"], estimates["stiffness"], correlation, misfit, 1.0 + share
+        estimates["friction"], estimates["stiffness"], correlation, misfit, 1.0 + excess_level
     )
-    return joint, told
+    return joint, warnings
 
 
 def _profiled(

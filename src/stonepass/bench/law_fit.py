@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
@@ -34,6 +34,7 @@ SPAN = 1e6  # of moduli over the first guess
 IMPOSSIBLE = 1e3  # times the data, where a law has no stress
 
 
+@runtime_checkable
 class Data(Protocol):
     """What was measured, and what a law predicts for it."""
 
@@ -91,7 +92,7 @@ class FittedLaw:
     r_squared : float
         1 − Σ residual²/Σ (observed − mean)².
     correlations : dict
-        OpeningCurve of fitted constants and the correlation of their estimates.
+        Pairs of fitted constants and the correlation of their estimates.
     unstable : str
         Why the law describes no solid; empty where it does.
     warnings : tuple of str

@@ -94,10 +94,8 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
 
 def _lost(surface: ResponseSurface) -> str:
     """Why too few cases have an answer."""
-    sentence = Outcome.NO_SOLUTION.value[:-1]
     lost = f"{len(surface.lost.friction)} of {surface.tried} cases that the inputs span"
-    why = surface.reason.removeprefix(sentence).lstrip(": ")
-    return f"{sentence} for {lost}; mostly: {why}"
+    return f"{Outcome.NO_SOLUTION.value} for {lost}; mostly: {surface.reason}."
 
 
 def _critical(

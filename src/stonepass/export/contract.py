@@ -147,8 +147,9 @@ class Writer:
     limits : mapping of str to Limit
         What it can express, by kind (`KINDS`). A kind that is left out is not limited.
     ignores : tuple of str
-        Fields of `Method` that have no influence on the file. A case may have any values of them;
-        the command line refuses them as flags, since whoever gives one expects an effect.
+        Names of inputs of models and numerics that have no influence on the file. A case may have
+        any values of them; the command line refuses them as flags, since whoever gives one expects
+        an effect.
     """
 
     name: str

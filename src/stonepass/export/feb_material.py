@@ -5,22 +5,30 @@ FEBio writes an energy in C̃ = J^(−2/3) C and adds ½ k (ln J)², so at J = 1
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
 from stonepass.errors import BadInput, require
 from stonepass.export.seating import KPA, bulk_modulus
 from stonepass.materials.fung import Fung
-from stonepass.materials.known_laws import name_of_law
+from stonepass.materials.holzapfel import HolzapfelGasserOgden
+from stonepass.materials.known_laws import KNOWN_LAWS, name_of_law
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.ogden import Ogden
 from stonepass.materials.protocol import Law
 from stonepass.materials.yeoh import Yeoh
 
-__all__ = ["VANISHING", "add_wall_material", "fung_constants"]
+__all__ = ["FEBIO", "VANISHING", "add_wall_material", "fung_constants"]
 
 # Stiffness of a Fung law along r over that around, which FEBio wants above zero.
 VANISHING = 1e-6
+RADIAL, AROUND = "1,0,0", "0,1,0"
+
+Constants = dict[str, float]
+Attributes = Mapping[str, str]
 
 
 def fung_constants(law: Fung) -> dict[str, float]:
@@ -64,22 +72,63 @@ def add_wall_material(parent: Element, law: Law, **attributes: str) -> None:
     BadInput
         FEBio has no such law.
     """
-    k = {"k": bulk_modulus(law)}
-    if isinstance(law, NeoHookean):
-        _solid(parent, "Mooney-Rivlin", {"c1": law.C10, "c2": 0.0} | k, attributes)
-    elif isinstance(law, MooneyRivlin):
-        _solid(parent, "Mooney-Rivlin", {"c1": law.C10, "c2": law.C01} | k, attributes)
-    elif isinstance(law, Yeoh):
-        _solid(parent, "Yeoh", {"c1": law.C10, "c2": law.C20, "c3": law.C30} | k, attributes)
-    elif isinstance(law, Fung):  # without a ground matrix it is no solid, and no deck is made
-        # FEBio takes the bulk modulus of a mixture from the mixture alone.
-        mixture = _solid(parent, "uncoupled solid mixture", k, attributes)
-        _along_cylinder(_solid(mixture, "Fung orthotropic", fung_constants(law)))
-        _solid(mixture, "Mooney-Rivlin", {"c1": law.G / 2.0, "c2": 0.0})
-    else:
+    if type(law) not in FEBIO:
+        *others, last = (name for name, each in KNOWN_LAWS.items() if each in FEBIO)
         named = name_of_law(law) or "a law of one's own"
-        allowed = "neo-hookean, mooney-rivlin, yeoh or fung in a file for FEBio"
+        allowed = f"{', '.join(others)} or {last} in a file for FEBio"
         raise BadInput("law", named, allowed, "write its constants as one of these")
+    FEBIO[type(law)](parent, law, {"k": bulk_modulus(law)}, attributes)
+
+
+def _neo_hookean(parent: Element, law: NeoHookean, k: Constants, attributes: Attributes) -> None:
+    _solid(parent, "Mooney-Rivlin", {"c1": law.C10, "c2": 0.0} | k, attributes)
+
+
+def _mooney_rivlin(
+    parent: Element, law: MooneyRivlin, k: Constants, attributes: Attributes
+) -> None:
+    _solid(parent, "Mooney-Rivlin", {"c1": law.C10, "c2": law.C01} | k, attributes)
+
+
+def _yeoh(parent: Element, law: Yeoh, k: Constants, attributes: Attributes) -> None:
+    _solid(parent, "Yeoh", {"c1": law.C10, "c2": law.C20, "c3": law.C30} | k, attributes)
+
+
+def _ogden(parent: Element, law: Ogden, k: Constants, attributes: Attributes) -> None:
+    """FEBio has Σ c/m² (λ₁^m + λ₂^m + λ₃^m − 3), so that c = μ_p α_p and m = α_p."""
+    constants: Constants = {}
+    for number, (mu, alpha) in enumerate(law.terms, start=1):
+        constants |= {f"c{number}": mu * alpha, f"m{number}": alpha}
+    _solid(parent, "Ogden", constants | k, attributes)
+
+
+def _fung(parent: Element, law: Fung, k: Constants, attributes: Attributes) -> None:
+    # Without a ground matrix the law is no solid, and no deck is made. FEBio takes the bulk
+    # modulus of a mixture from the mixture alone.
+    mixture = _solid(parent, "uncoupled solid mixture", k, attributes)
+    _along_cylinder(_solid(mixture, "Fung orthotropic", fung_constants(law)))
+    _solid(mixture, "Mooney-Rivlin", {"c1": law.G / 2.0, "c2": 0.0})
+
+
+def _holzapfel(
+    parent: Element, law: HolzapfelGasserOgden, k: Constants, attributes: Attributes
+) -> None:
+    """FEBio's fibres lie at ±gamma, in degrees, to its axis 1 in its plane of 1 and 2."""
+    constants = {
+        "c": law.mu, "k1": law.k1, "k2": law.k2, "gamma": math.degrees(law.angle),
+        "kappa": law.kappa,
+    }  # fmt: skip
+    _along_cylinder(_solid(parent, "Holzapfel-Gasser-Ogden", constants | k, attributes), AROUND)
+
+
+FEBIO: Mapping[type[Any], Callable[..., None]] = {
+    NeoHookean: _neo_hookean,
+    MooneyRivlin: _mooney_rivlin,
+    Yeoh: _yeoh,
+    Fung: _fung,
+    Ogden: _ogden,
+    HolzapfelGasserOgden: _holzapfel,
+}
 
 
 def _solid(
@@ -91,14 +140,22 @@ def _solid(
     tag = "solid" if attributes is None else "material"
     solid = SubElement(parent, tag, {**(attributes or {}), "type": kind})
     for name, value in constants.items():
-        unit = 1.0 if name.startswith("v") else KPA
+        unit = KPA if _is_modulus(name) else 1.0
         SubElement(solid, name).text = f"{value / unit:.12g}"
     return solid
 
 
-def _along_cylinder(solid: Element) -> None:
-    """Turn the axes 1, 2, 3 to r, θ, z at each integration point."""
+def _is_modulus(name: str) -> bool:
+    """Whether FEBio takes the constant as a pressure: not Poisson's ratios, powers and angles."""
+    return name[0] not in "vmg" and name not in ("k2", "kappa")
+
+
+def _along_cylinder(solid: Element, first: str = RADIAL) -> None:
+    """Turn the axes 1, 2, 3 to r, θ, z at each integration point, or to θ, z, r from `AROUND`.
+
+    FEBio turns `vector` with the radius: it is the first axis as it stands where r is along x.
+    """
     axes = SubElement(solid, "mat_axis", type="cylindrical")
     SubElement(axes, "center").text = "0,0,0"
     SubElement(axes, "axis").text = "0,0,1"
-    SubElement(axes, "vector").text = "1,0,0"
+    SubElement(axes, "vector").text = first

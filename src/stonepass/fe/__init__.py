@@ -1,5 +1,6 @@
-"""Finite elements: an axisymmetric, incompressible tube wall round a rigid profile.
+"""Finite elements: an incompressible tube wall in contact with a rigid body, the stone.
 
-Mathematics only: this layer works without units (lengths in inner radii, stresses in a modulus
-of the law) and has never heard of a stone or a ureter.
+This package works without units: lengths are in undeformed inner radii of the tube, stresses in
+units of one modulus of the wall law (`model` chooses the hoop modulus w″(1)). It takes the law as
+an energy function and knows nothing of materials, patients or units.
 """

@@ -31,7 +31,7 @@ _TYPES: dict[Kind, tuple[tuple[type, ...], str]] = {
     Kind.LENGTH: ((str,), "text in quotes"),
     Kind.PRESSURE: ((str,), "text in quotes"),
     Kind.NUMBER: ((int, float), "a number"),
-    Kind.WHOLE: ((int,), "a number"),
+    Kind.WHOLE: ((int,), "a whole number"),
     Kind.FLAG: ((bool,), "true or false"),
     Kind.CHOICE: ((str,), "text in quotes"),
     Kind.MATERIAL: ((str, dict), "text in quotes or a table"),

@@ -17,7 +17,12 @@ from stonepass.errors import BadInput, refuse_unknown
 from stonepass.io.text_file import existing
 from stonepass.io.toml_file import parse_table, read_toml
 from stonepass.materials.catalogue import material as catalogued
-from stonepass.materials.constants import constants_of, format_constant, read_constant
+from stonepass.materials.constants import (
+    ConstantDeclaration,
+    constants_of,
+    format_constant,
+    read_constant,
+)
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, known_law, name_of_law
 from stonepass.materials.protocol import Law, Material, names_a_file
 from stonepass.materials.user_law import UserLaw
@@ -27,11 +32,10 @@ __all__ = ["find_material", "load_material", "material_table", "write_law"]
 
 # Stretches (circumferential, axial) on which a user's function is tried before any solve.
 _TRIAL = tuple((t, z) for t in (0.9, 1.0, 1.1, 1.3) for z in (0.95, 1.0, 1.05))
-_CONSTANTS = {each.name: each for law in KNOWN_LAWS.values() for each in constants_of(law)}
 
 
 class _LawFile(BaseModel):
-    """What every law file has; `_Constants` adds the constants of all known laws."""
+    """What every law file has; `_law_file` adds the constants of all known laws."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
     law: str
@@ -39,13 +43,6 @@ class _LawFile(BaseModel):
     strain_range: tuple[float, float] = Field(strict=False)
     name: str | None = None
     test: str = "not stated"
-
-
-_KEYS: dict[str, Any] = {
-    name: (float | None if each.unit == "1" else str | None, None)
-    for name, each in _CONSTANTS.items()
-}
-_Constants = create_model("_Constants", __base__=_LawFile, **_KEYS)
 
 
 def find_material(value: Any, folder: Path | None = None) -> Material:
@@ -56,7 +53,7 @@ def find_material(value: Any, folder: Path | None = None) -> Material:
     if isinstance(value, Material):
         return value
     if isinstance(value, dict):
-        return _of_table(parse_table(value, _Constants, "material, "))
+        return _of_table(parse_table(value, _law_file(), "material, "))
     if not isinstance(value, str):
         raise BadInput("material", value, "a name, a file, a table or a Material")
     return load_material(value, folder) if names_a_file(value) else catalogued(value)
@@ -152,7 +149,7 @@ def _try_out(law: UserLaw) -> None:
 
 
 def _from_toml(path: Path, text: str) -> Material:
-    constants = read_toml(path, _Constants)
+    constants = read_toml(path, _law_file())
     try:
         return _of_table(constants, text)
     except BadInput as problem:
@@ -171,10 +168,23 @@ def _of_table(constants: _LawFile, reference: str = "") -> Material:
     )
 
 
+def _all_constants() -> dict[str, ConstantDeclaration]:
+    return {each.name: each for law in KNOWN_LAWS.values() for each in constants_of(law)}
+
+
+def _law_file() -> type[_LawFile]:
+    """Model of a law file; it knows the constants of every law, to name the nearest one."""
+    keys: dict[str, Any] = {
+        name: (float | None if each.unit == "1" else str | None, None)
+        for name, each in _all_constants().items()
+    }
+    return create_model("_Constants", __base__=_LawFile, **keys)
+
+
 def _known_law(constants: _LawFile) -> Law:
     law = known_law(constants.law)
     declared = constants_by_name(constants.law)
-    given = {name: getattr(constants, name) for name in _CONSTANTS}
+    given = {name: getattr(constants, name) for name in _all_constants()}
     values: dict[str, float] = {}
     for name, each in declared.items():
         if given[name] is not None:

@@ -34,6 +34,8 @@ def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
         try:
             alpha, radius = (np.array(value[name], dtype=float) for name in BOUNDS)
             return OpeningCurve(tuple(np.radians(alpha).tolist()), tuple(radius.tolist()))
+        except BadInput:  # of the curve itself, which says more
+            raise
         except (KeyError, TypeError, ValueError) as problem:
             allowed = "a table of two lists of numbers, " + " and ".join(BOUNDS)
             raise BadInput("opening_curve", value, allowed) from problem

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.special import erfi
 
 from stonepass.materials.constants import check_constants, constant
 from stonepass.materials.neo_hookean import NeoHookean
@@ -96,6 +95,8 @@ class Fung:
         As printed the paper has the factor R_a²/R_b² outside the second erfi; integrating Eq. 12
         puts it inside, because E_tt at the outer wall is smaller by just that factor.
         """
+        from scipy.special import erfi  # half of SciPy comes with it
+
         q = 0.5 * np.sqrt(self.a1111) * (inner_ratio**2 - 1.0)
         fibres = 0.25 * self.C * np.sqrt(np.pi * self.a1111) * (erfi(q) - erfi(q / wall_ratio**2))
         if self.G == 0.0:

@@ -64,7 +64,7 @@ def rest_state(law: Law) -> RestState:
 
 @lru_cache(maxsize=32)
 def check(material: Material) -> RestState:
-    """Return the rest state of a sound law.
+    """Return the rest state of a sound law; one that depends on the place is checked at R = 1.
 
     Raises
     ------

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from contextlib import redirect_stdout
 from dataclasses import dataclass
-from inspect import signature
+from inspect import Parameter, signature
 from typing import Any
 
 from stonepass.errors import BadInput
@@ -34,10 +34,10 @@ class UserLaw:
 
     def __post_init__(self) -> None:
         try:
-            count = len(signature(self.function).parameters)
+            parameters = signature(self.function).parameters.values()
         except (TypeError, ValueError):  # a function that is not written in Python
             return
-        if count == OLD_PARAMETERS:
+        if sum(each.default is Parameter.empty for each in parameters) == OLD_PARAMETERS:
             raise BadInput(
                 f"law '{self.label}'",
                 "a function of five arguments, as in earlier versions",

@@ -7,7 +7,6 @@ divided by π R_s², so they are pressures in Pa.
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from stonepass.fe.core.roots import bracketed_root
 from stonepass.materials.protocol import Law
@@ -99,6 +98,8 @@ def _omega(case: Problem, pressure: float, axial: float) -> float:
         return stored - pressure * axial * lumen**2 + load.confining_pressure * outside
 
     bounds = (0.3, WIDEST) if pressure == 0.0 else (0.3, 2.0 * case.size_ratio)
+    from scipy.optimize import minimize_scalar  # most of SciPy, for loaded states alone
+
     found = minimize_scalar(potential, bounds=bounds, options={"xatol": 1e-11})
     return float(found.fun)
 

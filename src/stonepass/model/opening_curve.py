@@ -26,7 +26,9 @@ class OpeningCurve:
     reference: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
-        require(len(self.alpha) == len(self.radius) > 0, "pairs", len(self.alpha), "equally many")
+        angles, radii = len(self.alpha), len(self.radius)
+        given = f"{angles} angles and {radii} radii"
+        require(angles == radii > 0, "opening_curve", given, "one radius for each angle")
         low, high = RADIUS
         for k, (alpha, radius) in enumerate(zip(self.alpha, self.radius, strict=True), start=1):
             degrees = round(float(np.degrees(alpha)), 6)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Self
+from typing import TypeVar
 
 from stonepass.errors import BadInput, require
 from stonepass.model.load import Load
@@ -12,6 +12,8 @@ from stonepass.model.ureter import BY_RATIO, Ureter
 from stonepass.units import Length
 
 __all__ = ["Problem"]
+
+Kind = TypeVar("Kind", bound="Problem")
 
 
 @dataclass(frozen=True)
@@ -68,11 +70,11 @@ class Problem:
         """η = R_b/R_a."""
         return self.ureter.wall_ratio
 
-    def with_friction(self, friction: float) -> Self:
+    def with_friction(self: Kind, friction: float) -> Kind:
         """Return the same problem with another friction coefficient."""
         return replace(self, stone=replace(self.stone, friction=friction))
 
-    def with_size_ratio(self, size_ratio: float) -> Self:
+    def with_size_ratio(self: Kind, size_ratio: float) -> Kind:
         """Return the same problem with another stone of the same friction and shape."""
         stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, shape=self.stone.shape)
         return replace(self, stone=stone)

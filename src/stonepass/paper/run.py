@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from stonepass.errors import refuse_unknown
 from stonepass.io.folder import require_writable
@@ -25,6 +25,7 @@ from stonepass.studies.study import run_studies
 __all__ = ["PARTS", "Part", "PartStudy", "chosen", "reproduce"]
 
 
+@runtime_checkable
 class Part(Protocol):
     """A part of the paper; see `PartStudy`, which makes a study of it."""
 

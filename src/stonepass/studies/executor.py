@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from multiprocessing import get_context
 from typing import Any, TypeVar
 
-__all__ = ["CORES", "InProcessExecutor", "can_travel", "process_pool", "stream"]
+__all__ = ["CORES", "InProcessExecutor", "executor_for", "process_pool", "stream"]
 
 CORES = os.cpu_count() or 1
 BLOCK_SECONDS = 1.0  # a block of items stops after the item that ends beyond this time
@@ -57,13 +57,18 @@ def process_pool(workers: int) -> Iterator[Executor]:
         yield pool
 
 
-def can_travel(work: Any) -> bool:
-    """Return whether an object can be sent to another process; a user's own function cannot."""
+def executor_for(work: Any, executor: Executor | None) -> Executor:
+    """Return the executor, or one of this process for work that cannot be sent to another.
+
+    A user's own function cannot be sent. Without an executor the work runs in this process too.
+    """
+    if executor is None or isinstance(executor, InProcessExecutor):
+        return InProcessExecutor()
     try:
         pickle.dumps(work)
     except Exception:  # a user's law may hold anything, and pickle raises many kinds
-        return False
-    return True
+        return InProcessExecutor()
+    return executor
 
 
 def stream(

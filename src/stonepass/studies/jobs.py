@@ -19,7 +19,7 @@ from stonepass.model.critical import solve
 from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED
-from stonepass.studies.executor import InProcessExecutor, can_travel, stream
+from stonepass.studies.executor import executor_for, stream
 from stonepass.studies.solution_cache import SolutionCache
 from stonepass.units import Pressure
 
@@ -110,21 +110,21 @@ class SizeJob:
 class Results:
     """Results by their jobs."""
 
-    found: Mapping[Job[Any], Any]
+    by_job: Mapping[Job[Any], Any]
 
     def __getitem__(self, job: Job[Found]) -> Found:
         """Return the result of a job, or of one whose result says more."""
-        return self.found[self._serving(job)]
+        return self.by_job[self._serving(job)]
 
     @property
     def pressures(self) -> dict[PressureJob, Answer]:
         """The answers of all pressure jobs."""
-        return {job: each for job, each in self.found.items() if isinstance(job, PressureJob)}
+        return {job: each for job, each in self.by_job.items() if isinstance(job, PressureJob)}
 
     @property
     def sizes(self) -> dict[SizeJob, SizeAnswer]:
         """The answers of all size jobs."""
-        return {job: each for job, each in self.found.items() if isinstance(job, SizeJob)}
+        return {job: each for job, each in self.by_job.items() if isinstance(job, SizeJob)}
 
     def answer(self, case: Case, *, wall: bool = False, error: bool = True) -> Answer:
         """Return the critical pressure of a case; see `PressureJob`."""
@@ -137,10 +137,10 @@ class Results:
     def of(self, jobs: Iterable[Job[Any]]) -> Results:
         """Return the results of some jobs only."""
         serving = dict.fromkeys(map(self._serving, jobs))
-        return Results({job: self.found[job] for job in serving})
+        return Results({job: self.by_job[job] for job in serving})
 
     def _serving(self, job: Job[Any]) -> Job[Any]:
-        return next(each for each in (job, *_fuller(job)) if each in self.found)
+        return next(each for each in (job, *_fuller(job)) if each in self.by_job)
 
 
 def iterate_jobs(
@@ -172,9 +172,7 @@ def iterate_jobs(
         require_writable(cache_folder, "cache folder", "name another one, or none")
     # Other jobs take several solves each: they are started before the single ones.
     queue = sorted(_once(jobs), key=lambda job: isinstance(job, PressureJob))
-    if executor is None or not can_travel(queue):
-        executor = InProcessExecutor()
-    results = stream(executor, partial(_run, cache_folder=cache_folder), queue)
+    results = stream(executor_for(queue, executor), partial(_run, cache_folder=cache_folder), queue)
     for done, (index, found) in enumerate(results, start=1):
         if progress is not None:
             progress(done, len(queue))

@@ -181,7 +181,9 @@ def response_surface(case: Case, over: Conditions, solver: CaseSolver) -> Respon
     answers = solver.answers(cases, error=False)
     pressures = np.array([_pressure(answer) for answer in answers])
     known = np.isfinite(pressures) & (pressures > 0.0)
-    reasons = Counter(a.message for a, k in zip(answers, known, strict=True) if not k)
+    reasons = Counter(
+        a.reason or a.outcome.value for a, k in zip(answers, known, strict=True) if not k
+    )
     return ResponseSurface(
         case,
         design.where(known),

@@ -1,4 +1,7 @@
-"""The contract of a study: which jobs it needs, and what it makes of their results."""
+"""The contract of a study: which jobs it needs, and what it makes of their results.
+
+A new study is a frozen dataclass in a file of its own, and one line in `studies.registry`.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
-from stonepass.studies.executor import InProcessExecutor, can_travel
+from stonepass.studies.executor import executor_for
 from stonepass.studies.jobs import Job, Progress, Results, run_jobs
 
 __all__ = ["Study", "run_studies", "run_study"]
@@ -22,6 +25,29 @@ class Study(Protocol[Outcome_co]):
 
     A study solves nothing itself: it names jobs, which run in any order and anywhere, and reduces
     their results. Its outcome depends on the results alone, not on where they were computed.
+
+    Examples
+    --------
+    The largest of some stones that is not stuck:
+
+    >>> from dataclasses import dataclass
+    >>> import stonepass as sp
+    >>> from stonepass.studies.jobs import PressureJob
+    >>> @dataclass(frozen=True)
+    ... class LargestLoose:
+    ...     size_ratios: tuple[float, ...]
+    ...
+    ...     def jobs(self):
+    ...         ureter = sp.Ureter(wall_ratio=1.5)
+    ...         stones = [sp.Stone(size_ratio=each) for each in self.size_ratios]
+    ...         return [PressureJob(sp.Case(stone, ureter)) for stone in stones]
+    ...
+    ...     def reduce(self, results):
+    ...         answers = [results[job] for job in self.jobs()]
+    ...         loose = [each for each in answers if each.outcome is sp.Outcome.LOOSE]
+    ...         return max(each.case.size_ratio for each in loose)
+    >>> run_study(LargestLoose((0.7, 0.9, 0.8)))
+    0.9
     """
 
     def jobs(self) -> Sequence[Job[Any]]:
@@ -70,9 +96,6 @@ def run_studies(
     jobs = [list(study.jobs()) for study in studies]
     results = run_jobs((job for each in jobs for job in each), executor, cache_folder, progress)
     parts = [results.of(each) for each in jobs]
-    if executor is None or not can_travel((list(studies), parts)):
-        executor = InProcessExecutor()
-    futures = [
-        executor.submit(study.reduce, part) for study, part in zip(studies, parts, strict=True)
-    ]
+    pool = executor_for((list(studies), parts), executor)
+    futures = [pool.submit(study.reduce, part) for study, part in zip(studies, parts, strict=True)]
     return [future.result() for future in futures]

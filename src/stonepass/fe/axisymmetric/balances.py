@@ -72,7 +72,7 @@ def _section_force(solved: SolvedWall, Z: float) -> tuple[float, float]:
     """2π ∫ σ_zz r dr over a plane section, and the outer radius there."""
     d = solved.discretisation
     u, w, p, *_ = d.fields
-    stress_zz = cauchy_stress(d.tube.energy, u, w, p)[2]
+    stress_zz = cauchy_stress(d.tube.energy, u, w, p)[2].Compile()
     stretch_rr = strain(u, w).F_rr
     points, weights = np.polynomial.legendre.leggauss(d.order + 3)
     lines = solved.layout.radial

@@ -38,7 +38,8 @@ def buckling_half_wave(tube: Tube, lumen: float) -> float | None:
     """Shortest half-wave length found at which the loaded tube buckles axisymmetrically.
 
     One column of elements is half a wave long. The wave lowers the energy where the tangent has
-    more negative eigenvalues than pressure unknowns, each of which constrains the volume once.
+    more negative eigenvalues than pressure unknowns, each of which constrains the volume once. A
+    law that varies along the tube is taken as it is next to Z = 0.
 
     Parameters
     ----------

@@ -2,7 +2,8 @@
 
 The normal multiplier λ ≥ 0 is the contact force per *reference* area. It is collocated at the
 Gauss–Lobatto points of each edge, where the trace of the displacement has its nodes: contact
-holds, or pressure vanishes, exactly at each of them, and no penalty error remains.
+holds, or pressure vanishes, exactly at each of them, and no penalty error remains. See "Seated
+state" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -22,36 +23,39 @@ AUGMENTATION = 8.0  # factor of gap and slip in the augmented forms, in units of
 
 @dataclass(frozen=True)
 class Arc:
-    """The rigid meridian as symbols: a profile whose radius and offset are engine parameters.
+    """The meridian of the stone as symbols of the engine, which a loading path can move.
 
-    So a loading path moves the arc without a new set-up.
+    Attributes
+    ----------
+    profile : Profile
+        Its radius and offset are parameters of the engine, so a form with this arc is set up once.
     """
 
     profile: Profile
 
     @classmethod
     def at(cls, place: Profile) -> Arc:
-        """Make an arc at its first place."""
+        """Make an arc at a place given in numbers."""
         moved = {"radius": ng.Parameter(place.radius), "offset": ng.Parameter(place.offset)}
         return cls(replace(place, **moved))
 
     @property
     def place(self) -> Profile:
-        """Where it is now, in numbers."""
+        """The present place, in numbers."""
         radius, offset = self.profile.radius.Get(), self.profile.offset.Get()
         return replace(self.profile, radius=radius, offset=offset)
 
     def move(self, place: Profile) -> None:
-        """Go to another place of the path, of the same aspect and outline."""
+        """Move to another place of the same aspect and outline."""
         self.profile.radius.Set(place.radius)
         self.profile.offset.Set(place.offset)
 
     def gap(self, u: Any, w: Any) -> Any:
-        """Distance of the deformed wall point from the arc."""
+        """Distance of the deformed wall point from the arc, in inner radii, positive outside."""
         return self.profile.gap(ng.x + u, ng.y + w, SYMBOLS)
 
     def along(self, u: Any, w: Any) -> Any:
-        """Where the wall point lies on the arc: arc length from the equator over the radius."""
+        """Place of the wall point on the arc: arc length from the equator over the radius."""
         return self.profile.along(ng.x + u, ng.y + w, SYMBOLS)
 
     def virtual_gap(self, u: Any, w: Any, du: Any, dw: Any) -> Any:
@@ -68,7 +72,14 @@ class Arc:
 def unilateral(multiplier: Any, gap: Any, c: Any) -> Any:
     """Augmented Lagrangian of gap ≥ 0, λ ≥ 0, λ gap = 0, per reference length (2π left out).
 
-    (⟨λ − c gap⟩₊² − λ²)/2c; its semi-smooth derivative changes branch where λ = c gap.
+    The density is (⟨λ − c gap⟩₊² − λ²)/2c; its derivative changes branch where λ = c gap.
+
+    Parameters
+    ----------
+    multiplier, gap : symbols
+        Normal contact force per reference area λ, and the gap.
+    c : float or symbol
+        Factor of the gap, in units of the modulus, positive.
     """
     trial = multiplier - c * gap
     active = ng.IfPos(trial, trial, 0.0 * trial)

@@ -103,7 +103,9 @@ def wrap_round(d: Discretisation, wrap: Wrap) -> None:
     U = ng.CF(tube.energy(CauchyGreen(c_rr, hoop * hoop, axial, zero), PLACE, SYMBOLS))
     pressure = along(wrap.pressure)
     depth = (ng.x - 1.0) / (tube.wall_ratio - 1.0)
-    p.Set(2.0 * c_rr * U.Diff(c_rr) + pressure * (1.0 - depth) + tube.outside_pressure * depth)
+    # Compiled, a law that uses a term many times has it evaluated once.
+    wall_pressure = (2.0 * c_rr * U.Diff(c_rr)).Compile()
+    p.Set(wall_pressure + pressure * (1.0 - depth) + tube.outside_pressure * depth)
     first, last = wrap.contact
     force = pressure * inner * stretch
     normal.Set(

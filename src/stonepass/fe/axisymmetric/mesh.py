@@ -17,18 +17,26 @@ __all__ = [
     "structured_mesh",
 ]
 
-# Inner wall: wet upstream of the contact (also where there is no fluid), wetted the contact up to a
-# seal, closed the rest of the contact (all of it without a fluid), open beyond.
+# The inner wall is "wet" upstream of the contact (also without a fluid), "wetted" in the contact up
+# to the seal, "closed" in the rest of the contact (without a seal all of it), and "open" beyond.
 BOUNDARIES = ("wet", "wetted", "closed", "open", "outer", "middle", "end")
 INNER = "wet|wetted|closed|open"
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the grid lines lie: `radial` R/R_a, `axial` Z/R_a, and how many columns are what.
+    """Grid lines of a structured mesh, and the boundary to which each column of it belongs.
 
-    In axial order `wet`, `wetted` and `closed` ones, then open ones. Without wet columns Z = 0 is a
-    plane of symmetry, and the grid the half Z ≥ 0.
+    Attributes
+    ----------
+    radial : array (rows + 1,)
+        R in inner radii, from 1 to the outer radius.
+    axial : array (columns + 1,)
+        Z in inner radii, increasing.
+    closed, wet, wetted : int
+        Numbers of columns, see `BOUNDARIES`. Along the axis there are wet, wetted and closed
+        columns, then open ones. Without wet columns Z = 0 is a plane of symmetry, and the grid
+        covers the half Z ≥ 0.
     """
 
     radial: Float[np.ndarray, rows + 1]
@@ -60,7 +68,7 @@ class Layout:
 
 
 def structured_mesh(layout: Layout) -> ng.Mesh:
-    """Build quadrilaterals on `layout`, with the boundaries `BOUNDARIES`."""
+    """Build quadrilaterals on `layout`, with the boundaries named in `BOUNDARIES`."""
     mesh = nm.Mesh(dim=2)
     wall = mesh.AddRegion("wall", dim=2)
     side = {name: mesh.AddRegion(name, dim=1) for name in BOUNDARIES}
@@ -86,6 +94,6 @@ def structured_mesh(layout: Layout) -> ng.Mesh:
 
 
 def place(mesh: ng.Mesh, layout: Layout) -> None:
-    """Move the nodes of a mesh to another layout of the same rows and columns."""
+    """Move the nodes of a mesh to a layout with the same numbers of rows and columns."""
     radial, axial = np.meshgrid(layout.radial, layout.axial, indexing="ij")
     mesh.ngmesh.Coordinates()[:] = np.column_stack([radial.ravel(), axial.ravel()])

@@ -1,4 +1,4 @@
-"""What is asked of the finite elements, and what comes back."""
+"""The description of a problem for the finite elements: tube, loading path, mesh, first guess."""
 
 from __future__ import annotations
 
@@ -38,10 +38,19 @@ class Tube:
 
 @dataclass(frozen=True)
 class Wrap:
-    """First guess: inner radius and inner pressure along the tube, at reference stations Z/R_a.
+    """First guess of the deformed wall: a uniform tube at every station.
 
-    `contact` has the stations between which the wall is taken to touch the stone. Of a stone whose
-    halves are mirror images the stations are those of the half Z ≥ 0.
+    Attributes
+    ----------
+    station : array (n,)
+        Reference coordinates Z, in inner radii, increasing; for a stone whose halves are mirror
+        images those of the half Z ≥ 0.
+    inner_radius : array (n,)
+        Deformed inner radius there, in inner radii.
+    pressure : array (n,)
+        Inner pressure of a uniform tube of that radius, in units of the modulus.
+    contact : (float, float)
+        Stations between which the wall touches the stone.
     """
 
     station: Float[np.ndarray, " n"]
@@ -52,14 +61,15 @@ class Wrap:
 
 @dataclass(frozen=True)
 class LoadingPath:
-    """How the arc comes to its final place, with friction on the way.
+    """How the stone comes to its final place, with friction on the way.
 
     Attributes
     ----------
     friction : float
         Coulomb coefficient during the path.
     place : callable
-        ``place(t)`` gives the arc, t from 0, where it just touches the unloaded lumen, to 1.
+        ``place(t)`` gives the stone for t from 0, where it just touches the lumen of the tube
+        without a stone, to 1, its final place.
     """
 
     friction: float
@@ -107,7 +117,15 @@ class Resolution:
 
 @dataclass(frozen=True)
 class Failure:
-    """No equilibrium was found, and why."""
+    """No equilibrium was found.
+
+    Attributes
+    ----------
+    reason : str
+        Why, as a part of a sentence.
+    steps : int
+        Newton steps that were spent.
+    """
 
     reason: str
     steps: int

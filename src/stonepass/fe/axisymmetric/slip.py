@@ -7,7 +7,6 @@ from typing import Any
 import ngsolve as ng
 import numpy as np
 from jaxtyping import Float
-from scipy.interpolate import make_interp_spline
 
 from stonepass.fe.axisymmetric.discretisation import Discretisation
 from stonepass.fe.axisymmetric.inner_wall import InnerWall, inner_wall
@@ -64,4 +63,6 @@ def _origin_spline(start: Start) -> Any:
     if not start.discretisation.whole:
         station = np.concatenate([-station[:0:-1], station])
         place = np.concatenate([-place[:0:-1], place])
+    from scipy.interpolate import make_interp_spline  # most of SciPy, for friction alone
+
     return make_interp_spline(station, place, k=3)

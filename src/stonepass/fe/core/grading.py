@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import brentq
+
+from stonepass.fe.core.roots import bracketed_root
 
 __all__ = ["graded", "growing", "intervals"]
 
@@ -34,7 +35,7 @@ def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points
         return float(first * np.exp(log_ratio * np.arange(count)).sum() - total)
 
     # The last interval is at most `total`, which bounds the ratio.
-    log_ratio = brentq(excess, 0.0, np.log(total / first) / (count - 1), xtol=1e-14)
+    log_ratio = bracketed_root(excess, 0.0, np.log(total / first) / (count - 1), xtol=1e-14)
     points = np.concatenate([[0.0], np.cumsum(first * np.exp(log_ratio * np.arange(count)))])
     return points * (total / points[-1])
 

@@ -1,4 +1,4 @@
-"""Where Newton's method starts: the wall wrapped round the arc, a uniform tube at every station."""
+"""First guess for Newton's method: the wall wrapped round the stone, uniform at every station."""
 
 from __future__ import annotations
 
@@ -12,18 +12,35 @@ from stonepass.model.problem import Problem
 
 __all__ = ["wrap_round_arc"]
 
-REACH = 1.2  # of the place where the wall leaves the arc: so far the contact is guessed to go
+REACH = 1.2  # guessed contact edge, in units of the place where the wrapped wall leaves the arc
 MERIDIAN = 2001  # samples of the arc
 
 
 def wrap_round_arc(
     case: Problem, half_length: float, lumen: float, modulus: float, place: Profile
 ) -> Wrap:
-    """Inner radius and pressure along the tube round an arc at a place.
+    """Guess inner radius and inner pressure along the tube round a stone at a place.
 
-    The wall is taken to leave the arc where the axial coordinate is half that of the place at
-    which the arc has the radius of the lumen, with the slope it has there, and to return to the
-    lumen exponentially. The inner pressure is that of a uniform tube of the local radius.
+    The wall leaves the arc at half the axial coordinate at which the arc has the radius of the
+    lumen, with the slope of the arc, and returns to the lumen exponentially. The inner pressure is
+    that of a uniform tube of the local radius.
+
+    Parameters
+    ----------
+    case : Problem
+    half_length : float
+        L/R_a, half the length of the tube in inner radii.
+    lumen : float
+        Inner radius of the tube far from the stone, in undeformed inner radii; less than the
+        radius of the stone plus its offset.
+    modulus : float
+        w″(1) in Pa, the unit of pressure in the finite elements.
+    place : Profile
+        The stone, lengths in inner radii.
+
+    Returns
+    -------
+    Wrap
     """
     stretch, law = case.load.prestretch, case.ureter.material.law
     end = half_length * stretch
@@ -44,7 +61,7 @@ def wrap_round_arc(
 def _side(
     place: Profile, lumen: float, end: float
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], float]:
-    """Deformed z and inner radius downstream of the widest place, and where the wall leaves."""
+    """Deformed z and inner radius downstream of the widest place, and z where the wall leaves."""
     tau = np.pi / 2 * (1.0 + np.linspace(0.0, 1.0, MERIDIAN))
     rho, along = place.meridian(tau)
     arc, axial = place.offset + place.radius * rho, place.radius * along

@@ -1,9 +1,10 @@
-"""The push-through: the loaded problem itself, solved (`model: direct`; beyond the paper).
+"""The loaded state: wall and stone under urine pressure, for the direct model (beyond the paper).
 
 The stone is held at mid-length while urine of pressure P_u stands upstream. Up to the contact the
 wall carries P_u, and it slides on the stone with its friction fully mobilised. The net axial force
 on the stone, N(P_u), is negative while the stone is stuck; its root is the critical pressure. The
-largest contact pressure seals; at the *leak pressure* P_u reaches it, and urine passes.
+largest contact pressure seals; at the *leak pressure* P_u reaches it, and urine passes. See
+"The push-through, solved directly" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -55,13 +56,13 @@ from stonepass.units import Pressure, pressure
 
 __all__ = ["find_critical", "solve_loaded"]
 
-SAMPLES = 33  # of each column in contact
-# In units of the pressure that opens the tube to R_s: largest first guess, and a low start.
+SAMPLES = 33  # points in each column in contact
+# In units of the pressure that opens the tube to R_s: largest first guess, and a low pressure.
 HIGHEST_GUESS, LOW_START = 1.2, 0.3
-# Excess of the seal over P_u, relative: where the search for the leak begins and ends, its step.
-# From farther than the last no leak pressure is extrapolated.
+# Excess of the seal over P_u, relative to P_u: where the search for the leak begins and ends, its
+# factor from step to step, and the excess above which no leak pressure is extrapolated.
 HIGHEST_EXCESS, LEAK_EXCESS, LEAK_STEP, LEAK_FAR = 3.0, 0.06, 0.6, 0.4
-NO_PRESSURE = 1e-9  # in units of the modulus: rounding around none
+NO_PRESSURE = 1e-9  # in units of the modulus: a pressure that is zero but for rounding
 LEAKS = "urine passes the stone: no contact pressure is above that of the urine"
 UNSEALED = "the state that balances does not hold the urine back"
 
@@ -105,6 +106,10 @@ def solve_loaded(
         The material law is no solid.
     BadInput
         The stone is not larger than the lumen, or a number is out of range.
+
+    Notes
+    -----
+    See "The push-through, solved directly" in docs/theory.md.
     """
     bounds = [pressure(each, "urine pressure") for each in urine]
     for bound, each in zip(bounds, urine, strict=True):

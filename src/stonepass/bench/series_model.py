@@ -1,0 +1,234 @@
+"""A series of points as a smooth function of friction and stiffness, through a few solves.
+
+A wall s times as stiff needs s times the pressure under s times the load,
+P_ucr(s w, P_out) = s P_ucr(w, P_out/s), so that stiffness needs no solve of its own where nothing
+confines the tube.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from stonepass.bench.comparison import Setting
+from stonepass.errors import Outcome
+from stonepass.inputs.measured_pressures import Point
+from stonepass.model.answer import Answer
+from stonepass.model.case import Case
+from stonepass.model.load import CONFINING
+from stonepass.studies.case_solver import CaseSolver
+from stonepass.units import Values
+
+__all__ = ["OverFriction", "PressureCurve", "SeriesModel", "series_curves"]
+
+NODES = (0.05, 0.2, 0.5, 1.0)  # of friction, solved first
+LOAD_FACTORS = (0.5, 1.0, 2.0)  # of confining pressures, where stiffness varies
+
+
+@dataclass(frozen=True)
+class OverFriction:
+    """P_ucr of one case over friction: ln(P/μ) by a polynomial in √μ through what was solved.
+
+    Attributes
+    ----------
+    friction : tuple of float
+        μ that were solved.
+    pressure : tuple of float
+        P_ucr in Pa at each.
+    end : float
+        Pressure in Pa where the paper's closure ends, the most that the model can say.
+    """
+
+    friction: tuple[float, ...]
+    pressure: tuple[float, ...]
+    end: float
+
+    @cached_property
+    def coefficients(self) -> Float[np.ndarray, " k"]:
+        """Coefficients of the polynomial, highest power first."""
+        mu = np.array(self.friction)
+        return np.polyfit(np.sqrt(mu), np.log(np.array(self.pressure) / mu), len(mu) - 1)
+
+    @cached_property
+    def rise(self) -> float:
+        """Slope d ln P/dμ at the largest friction solved."""
+        most = max(self.friction)
+        slope = np.polyval(np.polyder(self.coefficients), np.sqrt(most)) / (2.0 * np.sqrt(most))
+        return max(float(1.0 / most + slope), 0.0)
+
+    def __call__(self, mu: Values) -> Values:
+        """Return P_ucr in Pa at friction μ; beyond the largest one solved by the tangent there."""
+        most = max(self.friction)
+        inside = np.minimum(mu, most)
+        value = inside * np.exp(np.polyval(self.coefficients, np.sqrt(inside)))
+        return np.minimum(value * (1.0 + self.rise * (mu - inside)), self.end)
+
+    def through(self, mu: float, pressure: float | None) -> OverFriction:
+        """Return the curve through one more solve, in place of one whose friction is close to it.
+
+        Without a pressure nothing changes.
+        """
+        if not pressure:
+            return self
+        kept = [k for k, old in enumerate(self.friction) if abs(old - mu) > 0.1 * mu]
+        return replace(
+            self,
+            friction=(*(self.friction[k] for k in kept), mu),
+            pressure=(*(self.pressure[k] for k in kept), pressure),
+        )
+
+
+@dataclass(frozen=True)
+class PressureCurve:
+    """P_ucr of one point over friction and stiffness.
+
+    Attributes
+    ----------
+    factors : tuple of float
+        Factors on the confining pressure; 1 alone where nothing confines the tube.
+    over : tuple of OverFriction
+        One for each factor.
+    """
+
+    factors: tuple[float, ...]
+    over: tuple[OverFriction, ...]
+
+    def __call__(self, mu: Any, stiffness: Any) -> Any:
+        """Return s P_ucr(μ; P_out/s) in Pa, by the polynomial through the load factors."""
+        if len(self.factors) == 1:
+            return stiffness * self.over[0](mu)
+        factor = 1.0 / stiffness
+        total: Values = 0.0
+        for k, one in enumerate(self.factors):
+            weight = 1.0
+            for other in (f for f in self.factors if f != one):
+                weight = weight * (factor - other) / (one - other)
+            total = total + weight * self.over[k](mu)
+        return stiffness * total
+
+    def through(self, mu: float, answers: Mapping[float, Answer]) -> PressureCurve:
+        """Return the curve through answers at one more friction, given by load factor."""
+        found = [
+            over if answers.get(factor) is None else over.through(mu, answers[factor].pressure)
+            for factor, over in zip(self.factors, self.over, strict=True)
+        ]
+        return replace(self, over=tuple(found))
+
+
+@dataclass(frozen=True)
+class SeriesModel:
+    """A series of points as a function of friction and stiffness.
+
+    Attributes
+    ----------
+    curves : tuple of PressureCurve
+    points : sequence of Point
+        One for each curve.
+    weights : array (n)
+        Of the residuals, in 1/Pa.
+    setting : Setting
+    """
+
+    curves: tuple[PressureCurve, ...]
+    points: Sequence[Point]
+    weights: Float[np.ndarray, " n"]
+    setting: Setting
+
+    def residuals(self, parameters: Any) -> Float[np.ndarray, " n"]:
+        """Return model less measured, weighted, for parameters of lmfit."""
+        values = parameters.valuesdict()
+        return self._residuals(values["friction"], values["stiffness"])
+
+    def misfit(self, mu: Any, stiffness: Any) -> Any:
+        """Return the sum of squares of the residuals on a grid of frictions and stiffnesses."""
+        return np.sum(np.square(self._residuals(mu, stiffness)), axis=-1)
+
+    def where(self, chosen: Sequence[bool]) -> SeriesModel:
+        """Return the model of the points for which `chosen` is true."""
+        return replace(
+            self,
+            curves=tuple(c for c, yes in zip(self.curves, chosen, strict=True) if yes),
+            points=[p for p, yes in zip(self.points, chosen, strict=True) if yes],
+            weights=self.weights[np.array(chosen)],
+        )
+
+    def ended(self, mu: float) -> list[bool]:
+        """Return which points lie at the end of the closure, where nothing depends on friction."""
+        return [any(float(over(mu)) >= over.end for over in curve.over) for curve in self.curves]
+
+    def through(self, mu: float, answers: Sequence[Mapping[float, Answer]]) -> SeriesModel:
+        """Return the model through answers at one more friction, for each point by load factor."""
+        pairs = zip(self.curves, answers, strict=True)
+        return replace(self, curves=tuple(curve.through(mu, found) for curve, found in pairs))
+
+    def solved_at(self, mu: float, solver: CaseSolver) -> SeriesModel:
+        """Return the model, solved at one more friction for every load factor."""
+        asked = [
+            {factor: self.setting.case(point, mu, factor) for factor in curve.factors}
+            for curve, point in zip(self.curves, self.points, strict=True)
+        ]
+        flat = list(dict.fromkeys(case for each in asked for case in each.values()))
+        known = dict(zip(flat, solver.answers(flat, error=False), strict=True))
+        return self.through(mu, [{f: known[c] for f, c in each.items()} for each in asked])
+
+    def _residuals(self, mu: Any, stiffness: Any) -> Any:
+        measured = np.array([point.pressure for point in self.points])
+        found = np.stack([curve(mu, stiffness) for curve in self.curves], axis=-1)
+        return (found - measured) * self.weights
+
+
+def series_curves(
+    points: Sequence[Point], setting: Setting, solver: CaseSolver
+) -> tuple[list[PressureCurve | None], list[str]]:
+    """Solve every point at a few frictions, and at a few factors on its confining pressure.
+
+    Returns
+    -------
+    curves : list of PressureCurve or None
+        None for a point with fewer than two answers.
+    warnings : list of str
+        Which points say nothing, and why.
+    """
+    asked = [_asked(point, setting) for point in points]
+    flat = list(dict.fromkeys(case for each in asked for case in each.values()))
+    known = dict(zip(flat, solver.answers(flat, error=False), strict=True))
+    curves = [_curve({key: known[case] for key, case in each.items()}) for each in asked]
+    loose = [
+        any(known[case].outcome is Outcome.LOOSE for (f, _), case in each.items() if f == 1.0)
+        for each in asked
+    ]
+    lost = sum(curve is None for curve in curves) - sum(loose)
+    warnings = []
+    if any(loose):
+        warnings.append(
+            f"{sum(loose)} of {len(points)} stones are no larger than the lumen and say "
+            "nothing of friction"
+        )
+    if lost:
+        warnings.append(f"{lost} of {len(points)} points have no answer and are left out")
+    return curves, warnings
+
+
+def _asked(point: Point, setting: Setting) -> dict[tuple[float, float], Case]:
+    outside = float(point.confining_pressure)
+    factors = tuple(f for f in LOAD_FACTORS if f * outside <= CONFINING[1]) if outside else (1.0,)
+    return {(f, mu): setting.case(point, mu, f) for f in factors for mu in NODES}
+
+
+def _curve(answers: dict[tuple[float, float], Answer]) -> PressureCurve | None:
+    found = {}
+    for factor in dict.fromkeys(f for f, _ in answers):
+        over = {mu: a.pressure for (f, mu), a in answers.items() if f == factor and a.pressure}
+        ends = [a.closure_end_pressure for (f, _), a in answers.items()
+                if f == factor and a.outcome is Outcome.BEYOND_CLOSURE]  # fmt: skip
+        end = min((each for each in ends if each is not None), default=np.inf)
+        if len(over) > 1:
+            found[factor] = OverFriction(tuple(over), tuple(over.values()), end)
+    if 1.0 not in found:
+        return None
+    return PressureCurve(tuple(found), tuple(found.values()))

@@ -96,30 +96,3 @@ def shared_solutions(request, monkeypatch, solutions_of_this_session):
         return answered
 
     wrap_solver(monkeypatch, once)
-
-
-@pytest.fixture
-def undocumented():
-    """A function that lists the keys of a record which the glossary does not name."""
-    glossary = Path(__file__).parents[1] / "docs" / "glossary.md"
-    text = glossary.read_text(encoding="utf-8")
-
-    def missing(record):
-        found = []
-        if isinstance(record, list):
-            return [key for each in record for key in missing(each)]
-        if isinstance(record, dict):
-            for key, value in record.items():
-                found += [] if f"`{key}`" in text else [key]
-                # Their keys are names of inputs, constants, outcomes, parts of a sentence.
-                named = ("sensitivity", "without_answer", "correlations", "values")
-                of_a_law = key == "constants" and isinstance(value, dict)
-                if key not in named and not of_a_law:
-                    found += missing(
-                        list(value.values())
-                        if key == "measured" and isinstance(value, dict)
-                        else value
-                    )
-        return found
-
-    return missing

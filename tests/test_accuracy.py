@@ -53,20 +53,20 @@ def test_a_mesh_of_ones_own_is_solved_alone():
     answer = sp.solve(sp.Case(sp.Stone(size_ratio=1.2), LATEX, **FRICTIONLESS), Resolution())
     assert answer.error is None
     assert answer.contact.coarse is None
-    assert "the error is not estimated" in answer.warnings[-1]
+    assert "the error is not estimated" in str(answer.warnings[-1])
 
 
 def test_an_answer_whose_second_solve_fails_says_so(monkeypatch):
     usual = seated._solve
 
-    def without_companion(case, lumen, wanted):
-        return [Failure("made up", 7), *usual(case, lumen, wanted)[1:]]
+    def without_companion(*arguments):
+        return [Failure("made up", 7), *usual(*arguments)[1:]]
 
     monkeypatch.setattr(seated, "_solve", without_companion)
     answer = sp.solve(sp.Case(sp.Stone(size_ratio=1.2), LATEX, **FRICTIONLESS))
     assert answer.outcome is sp.Outcome.MOVES
     assert answer.error is None
-    assert "the error is not estimated" in answer.warnings[-1]
+    assert "the error is not estimated" in str(answer.warnings[-1])
     assert answer.newton_steps > 7
 
 
@@ -98,7 +98,7 @@ def test_an_outcome_within_the_solver_error_says_so(tmp_path):
             break
         low, high = (friction, high) if answer.outcome is sp.Outcome.MOVES else (low, friction)
     assert undecided
-    assert "within the solver error" in answer.warnings[-1]
+    assert "within the solver error" in str(answer.warnings[-1])
     assert not any("within the solver error" in str(w) for w in sp.solve(case).warnings)
 
 

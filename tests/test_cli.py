@@ -256,7 +256,9 @@ def test_every_kind_of_warning_of_a_curve_is_told(cli):
         "--seating", "frictionless", *FAST, "--json",
     )  # fmt: skip
     assert code == 0
-    kinds = {word for row in json.loads(out) for w in row["warnings"] for word in w.split()}
+    kinds = {
+        word for row in json.loads(out) for w in row["warnings"] for word in w["sentence"].split()
+    }
     assert {"narrowed", "stretches"} <= kinds
     out, err = cli(
         "curve", "--eta", 1.3, "--friction", 0.02, "--confining", "4kPa", "--xi", "1.2:1.35:0.15",

@@ -18,8 +18,8 @@ from stonepass.materials.catalogue import material
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Material
 from stonepass.model.answer import Answer
+from stonepass.records.invitro import InVitroRecord, invitro_record
 from stonepass.report.invitro_figure import invitro_figure
-from stonepass.report.invitro_report import invitro_record
 from stonepass.studies.case_solver import JobSolver
 from stonepass.units import Pressure
 
@@ -96,7 +96,7 @@ def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
     assert found.joint.correlation < -0.8
     assert found.friction.value > 0.4  # alone, friction has to make up for the stiffness
     record = invitro_record(found, "a.csv")
-    assert record["joint"]["stiffness"]["value"] == found.joint.stiffness.value
+    assert record.joint.stiffness.value == found.joint.stiffness.value
     exact = compare(blank, 0.35, QUICK, solver).predicted
     own = fit_friction(series(exact, tubes), QUICK, solver=solver)
     assert own.friction.value == pytest.approx(0.35, rel=1e-3)
@@ -173,12 +173,12 @@ def test_no_friction_meets_a_series_far_above_the_wall():
     assert found.friction.high is None
 
 
-def test_json_keys_are_in_the_glossary(undocumented):
+def test_the_record_is_whole():
     record = invitro_record(
         fit_friction(made_up(DRY, 0.3, noise=0.02), QUICK, solver=MadeUp()), "a.csv"
     )
-    assert record["joint"] is not None
-    assert undocumented(record) == []
+    assert record.joint is not None
+    assert InVitroRecord.model_validate(json.loads(json.dumps(record.to_dict()))) == record
 
 
 def test_command(tmp_path, capsys):

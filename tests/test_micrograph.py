@@ -670,7 +670,7 @@ def test_the_result_is_handed_on(tmp_path, capsys):
     case = ["--xi", "1.1", "--eta", "1.5", "--material", "latex", "--accuracy", "fast", "--json"]
     assert run(["pressure", *case, "--friction-from", str(path)]) == 0
     handed = json.loads(capsys.readouterr().out)
-    assert handed["inputs"]["friction"] == 0.4375
+    assert handed["case"]["stone"]["friction"] == 0.4375
     assert run(["pressure", *case, "--friction-from", str(path), "--friction", "0.3"]) == 2
     assert "combination of --friction and --friction-from" in capsys.readouterr().err
     for content, sentence in (

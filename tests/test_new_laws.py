@@ -169,14 +169,15 @@ def test_a_law_of_the_volume_preserving_invariant_is_not_refused():
 
 def seated(law):
     stone, ureter = sp.Stone(size_ratio=1.15), sp.Ureter(wall_ratio=1.4, material=law)
-    method = sp.Method(accuracy="fast", seating="frictionless")
-    return sp.seat(sp.Case(stone, ureter, method=method))
+    numerics = sp.Numerics("fast")
+    model = sp.SeatedBalance("frictionless")
+    return sp.seat(sp.Case(stone, ureter, model=model, numerics=numerics))
 
 
 def fast(law, friction=0.3):
     stone, ureter = sp.Stone(size_ratio=1.15, friction=friction), sp.Ureter(wall_ratio=1.4,
                                                                           material=law)  # fmt: skip
-    return sp.critical_pressure(stone, ureter, method=sp.Method(accuracy="fast"))
+    return sp.critical_pressure(stone, ureter, numerics=sp.Numerics("fast"))
 
 
 @pytest.mark.parametrize(
@@ -377,7 +378,7 @@ def test_calculix_takes_ogdens_constants_as_we_do(tmp_path):
         case = sp.Case(
             sp.Stone(size_ratio=1.05),
             sp.Ureter(wall_ratio=1.5, material=made_of(law)),
-            method=sp.Method(seating="frictionless"),
+            model=sp.SeatedBalance("frictionless"),
         )
         s = seating(case, 0.1)
         folder = tmp_path / name

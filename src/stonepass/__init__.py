@@ -46,6 +46,14 @@ if TYPE_CHECKING:
     from stonepass.model.stone import Stone
     from stonepass.model.ureter import Ureter
     from stonepass.records.answer import AnswerRecord, answer_record
+    from stonepass.records.assess import AssessRecord, assess_record
+    from stonepass.records.closures import ClosuresRecord, closures_record
+    from stonepass.records.compare import CompareRecord, compare_record
+    from stonepass.records.curve import CurvePointRecord, curve_records
+    from stonepass.records.fit import FitRecord, fit_record
+    from stonepass.records.friction import FrictionRecord, friction_record
+    from stonepass.records.invitro import InVitroRecord, invitro_record
+    from stonepass.records.rising import RisingRecord, rising_record
     from stonepass.records.size import SizeRecord, size_record
     from stonepass.surface.friction import SurfaceFriction, surface_friction
     from stonepass.surface.paths import StraightPath
@@ -59,11 +67,18 @@ __version__ = VERSION
 _HOME = {
     "Answer": "model.answer",
     "AnswerRecord": "records.answer",
+    "AssessRecord": "records.assess",
     "Assessment": "clinic.assessment",
     "BadInput": "errors",
     "Case": "model.case",
     "Caution": "model.caution",
+    "ClosuresRecord": "records.closures",
+    "CompareRecord": "records.compare",
+    "CurvePointRecord": "records.curve",
     "ElasticFoundation": "model.models.elastic_foundation",
+    "FitRecord": "records.fit",
+    "FrictionRecord": "records.friction",
+    "InVitroRecord": "records.invitro",
     "Load": "model.load",
     "Material": "materials.protocol",
     "Model": "model.answer",
@@ -72,6 +87,7 @@ _HOME = {
     "Outcome": "errors",
     "PushThrough": "model.models.push_through",
     "PushedState": "model.states.loaded_state",
+    "RisingRecord": "records.rising",
     "SeatedBalance": "model.models.seated_balance",
     "SeatedState": "model.states.seated_state",
     "Setting": "bench.comparison",
@@ -85,12 +101,19 @@ _HOME = {
     "SurfaceImage": "surface.surface_image",
     "Ureter": "model.ureter",
     "answer_record": "records.answer",
-    "assess": "clinic.assessment",
+    "assess": "clinic.assess",
+    "assess_record": "records.assess",
     "case_schema": "inputs.schema",
+    "closures_record": "records.closures",
+    "compare_record": "records.compare",
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
+    "curve_records": "records.curve",
     "fit_friction": "bench.invitro",
     "fit_law": "bench.law_fit",
+    "fit_record": "records.fit",
+    "friction_record": "records.friction",
+    "invitro_record": "records.invitro",
     "load_material": "inputs.material_file",
     "push_through": "model.case_states",
     "read_case": "inputs.case_file",
@@ -102,6 +125,7 @@ _HOME = {
     "read_surface_image": "surface.readers",
     "read_tension": "bench.test_data",
     "read_untrusted": "surface.untrusted",
+    "rising_record": "records.rising",
     "seat": "model.case_states",
     "shape_through": "model.shape_fit",
     "size_record": "records.size",
@@ -113,11 +137,18 @@ _HOME = {
 __all__ = [
     "Answer",
     "AnswerRecord",
+    "AssessRecord",
     "Assessment",
     "BadInput",
     "Case",
     "Caution",
+    "ClosuresRecord",
+    "CompareRecord",
+    "CurvePointRecord",
     "ElasticFoundation",
+    "FitRecord",
+    "FrictionRecord",
+    "InVitroRecord",
     "Load",
     "Material",
     "Model",
@@ -126,6 +157,7 @@ __all__ = [
     "Outcome",
     "PushThrough",
     "PushedState",
+    "RisingRecord",
     "SeatedBalance",
     "SeatedState",
     "Setting",
@@ -140,11 +172,18 @@ __all__ = [
     "Ureter",
     "answer_record",
     "assess",
+    "assess_record",
     "case_schema",
+    "closures_record",
+    "compare_record",
     "critical_pressure",
     "critical_size",
+    "curve_records",
     "fit_friction",
     "fit_law",
+    "fit_record",
+    "friction_record",
+    "invitro_record",
     "load_material",
     "push_through",
     "read_case",
@@ -156,6 +195,7 @@ __all__ = [
     "read_surface_image",
     "read_tension",
     "read_untrusted",
+    "rising_record",
     "seat",
     "shape_through",
     "size_record",

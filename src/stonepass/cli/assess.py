@@ -43,7 +43,8 @@ def command(
     writable(html, (".html", ".htm"))
     from stonepass.clinic.assess import assess
     from stonepass.clinic.patient import read_patient
-    from stonepass.report.assess_report import CAUTION, assess_record, assess_tables
+    from stonepass.records.assess import CAUTION, assess_record
+    from stonepass.report.assess_report import assess_tables
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
 
@@ -58,7 +59,7 @@ def command(
 
         write_assessment(found, html)
     if json:
-        print_json(assess_record(found, patient_file.name))
+        print_json(assess_record(found, patient_file.name).to_dict())
     else:
         show(*assess_tables(found), f"{found.message} {CAUTION}", DISCLAIMER)
         warn(found.warnings)

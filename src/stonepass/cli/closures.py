@@ -98,12 +98,8 @@ def command(
         study = ClosureMap(_cases(settings, *grid), order, settings.wetted)
         compared = _compared(study, cache_folder(cache, no_cache), workers)
         return _show_map(compared, out, figure, json)
-    from stonepass.report.closures_report import (
-        closures_figure,
-        closures_record,
-        closures_table,
-        write_map,
-    )
+    from stonepass.records.closures import closures_record, write_map
+    from stonepass.report.closures_report import closures_figure, closures_table
     from stonepass.studies.study import run_study
 
     one = ClosureMap([settings.case(method__model="paper")], order, settings.wetted)
@@ -114,7 +110,7 @@ def command(
     if figure is not None:
         save(closures_figure(found), figure)
     if json:
-        print_json(closures_record(found))
+        print_json(closures_record(found).to_dict())
     else:
         show(closures_table(found))
     warn([*found.warnings, *([] if found.outcome.answered else [found.message])])
@@ -161,7 +157,8 @@ def _show_map(
     found: list[ClosureComparison], out: Path | None, figure: Path | None, json: bool
 ) -> int:
     from stonepass.cli.terminal import print_json, show
-    from stonepass.report.closures_report import closures_record, map_figure, write_map
+    from stonepass.records.closures import closures_record, write_map
+    from stonepass.report.closures_report import map_figure
     from stonepass.report.style import save
     from stonepass.studies.closures import CLOSURES
 
@@ -170,7 +167,7 @@ def _show_map(
     if figure is not None:
         save(map_figure(found), figure)
     if json:
-        print_json([closures_record(each) for each in found])
+        print_json([closures_record(each).to_dict() for each in found])
         return 0
     for name, text in CLOSURES.items():
         errors = [error for each in found if (error := each.error(name)) is not None]

@@ -48,14 +48,15 @@ def command(
     if not isinstance(found, Comparison):
         show(f"{found.outcome.name}: {found.message}")
         return 1
-    from stonepass.report.compare_report import compare_figure, compare_record, compare_table
+    from stonepass.records.compare import compare_record
+    from stonepass.report.compare_report import compare_figure, compare_table
 
     if figure is not None:
         from stonepass.report.style import save
 
         save(compare_figure(found), figure)
     if json:
-        print_json(compare_record(found))
+        print_json(compare_record(found).to_dict())
     else:
         show(compare_table(found))
         warn(found.answer.warnings)

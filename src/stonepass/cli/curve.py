@@ -53,7 +53,7 @@ def command(
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
-    from stonepass.records.curve import curve_rows, write_curve
+    from stonepass.records.curve import curve_records, write_curve
     from stonepass.studies.curve import Curve
     from stonepass.studies.executor import CORES, process_pool
     from stonepass.studies.study import run_study
@@ -72,7 +72,7 @@ def command(
 
         save(curve_figure(answers), figure)
     if json:
-        print_json(curve_rows(answers))
+        print_json([each.to_dict() for each in curve_records(answers)])
     else:
         from stonepass.report.table import curve_table, grouped_warnings
 

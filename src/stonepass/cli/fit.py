@@ -117,7 +117,8 @@ def _fit(
 ) -> int:
     from stonepass.bench.law_fit import fit_law
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
-    from stonepass.report.fit_report import fit_record, fit_table
+    from stonepass.records.fit import fit_record
+    from stonepass.report.fit_report import fit_table
 
     writable(out, (".toml",))
     writable(figure, FIGURES)
@@ -130,7 +131,7 @@ def _fit(
 
         save(fit_figure(found), figure)
     if json:
-        print_json(fit_record(found, inputs | {"relative": relative}))
+        print_json(fit_record(found, inputs | {"relative": relative}).to_dict())
     else:
         show(fit_table(found), DISCLAIMER)
         warn(found.warnings)

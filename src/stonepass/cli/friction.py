@@ -90,7 +90,8 @@ def command(
         if part is not None:
             picture = picture.with_area(*part)
         found = surface_friction(picture, scale, lines, baseline_order, deviation_order)
-    from stonepass.report.friction_report import friction_record, friction_table
+    from stonepass.records.friction import friction_record
+    from stonepass.report.friction_report import friction_table
 
     if figure is not None:
         from stonepass.report.friction_figure import friction_figure
@@ -99,7 +100,7 @@ def command(
         save(friction_figure(found), figure)
     name = image.name.encode(errors="replace").decode()
     if json:
-        print_json(friction_record(found, name))
+        print_json(friction_record(found, name).to_dict())
     else:
         show(friction_table(found, name), DISCLAIMER)
         warn(found.warnings)

@@ -65,12 +65,8 @@ def command(
     from stonepass.inputs.measured_pressures import read_points
     from stonepass.model.load import Load
     from stonepass.model.stone import Stone
-    from stonepass.report.invitro_report import (
-        answers_warnings,
-        invitro_record,
-        invitro_table,
-        write_invitro,
-    )
+    from stonepass.records.invitro import invitro_record, series_warnings, write_invitro
+    from stonepass.report.invitro_report import invitro_table
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
 
@@ -94,8 +90,8 @@ def command(
 
         save(invitro_figure(found, curves), figure)
     if json:
-        print_json(invitro_record(found, data.name))
+        print_json(invitro_record(found, data.name).to_dict())
     else:
         show(*invitro_table(found), DISCLAIMER)
-        warn([*found.warnings, *answers_warnings(found.comparison)])
+        warn(series_warnings(found))
     return 0 if all(answer.outcome.answered for answer in found.comparison.answers) else 1

@@ -52,13 +52,8 @@ def command(
     writable(out, (".csv",))
     writable(figure, FIGURES)
     writable(animation, (".gif",))
-    from stonepass.report.rising_report import (
-        rising_figure,
-        rising_record,
-        rising_table,
-        save_animation,
-        write_rising,
-    )
+    from stonepass.records.rising import rising_record, write_rising
+    from stonepass.report.rising_report import rising_figure, rising_table, save_animation
     from stonepass.report.style import save
     from stonepass.studies.rising import RisingPressure
     from stonepass.studies.study import run_study
@@ -77,7 +72,7 @@ def command(
             if animation is not None:
                 save_animation(rising, animation)
     if json:
-        print_json(rising_record(rising))
+        print_json(rising_record(rising).to_dict())
     else:
         show(rising_table(rising), f"{rising.critical.outcome.name}: {rising.critical.message}")
     unwritten = not rising.states and any((out, figure, animation))

@@ -1,13 +1,15 @@
-"""Exact derivatives of any law, by algorithmic differentiation of its one formula."""
+"""Exact derivatives of any law, by algorithmic differentiation of its one formula.
+
+Autograd is loaded with the first derivative that is asked for: to check a request, or to show the
+help of a command, none is needed.
+"""
 
 from __future__ import annotations
 
 from functools import lru_cache
 from typing import Any
 
-import autograd.numpy as anp
 import numpy as np
-from autograd import elementwise_grad, grad, hessian
 from jaxtyping import Float
 
 from stonepass.materials.protocol import Law
@@ -33,6 +35,9 @@ def hoop_energy_slope(
     w(λ) is the energy at circumferential stretch λ and axial stretch `axial`; the radial stretch
     follows from incompressibility, 1/(λ λ_z). For a neo-Hookean law 2 C₁₀ (λ − 1/(λ³ λ_z²)).
     """
+
+    import autograd.numpy as anp
+    from autograd import elementwise_grad
 
     def w(t: Any) -> Any:
         one = t / t
@@ -66,6 +71,9 @@ def energy_derivatives(
     numbers that hold for all points. The energy at a point depends on that point alone, so that six
     copies of the points give all rows of second derivatives in one pass, one row for each copy.
     """
+    import autograd.numpy as anp
+    from autograd import grad
+
     count = len(C.rr)
     components = np.tile(np.stack(C), 6)
     everywhere = Place(*(np.tile(np.broadcast_to(x, count), 6) for x in place))
@@ -92,6 +100,9 @@ def rest_moduli(law: Law) -> tuple[Float[np.ndarray, "2 2"], float]:
     The matrix is the Hessian of the energy in the logarithmic strains (e_tt, e_zz) with
     e_rr = −e_tt − e_zz; the shear modulus that of simple shear, C_rz = γ, C_zz = 1 + γ².
     """
+
+    import autograd.numpy as anp
+    from autograd import hessian
 
     def stretched(e: Any) -> Any:
         radial = anp.exp(-2.0 * (e[0] + e[1]))

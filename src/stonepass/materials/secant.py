@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import autograd.numpy as anp
 import numpy as np
-from autograd import elementwise_grad
 
 from stonepass.errors import require
 from stonepass.materials.derivatives import hoop_energy_slope
@@ -31,6 +29,9 @@ def secant_moduli(law: Law, stretch: float) -> tuple[float, float]:
     """
     low, high = STRETCH
     require(low <= stretch <= high, "secant stretch", stretch, f"a number from {low:g} to {high:g}")
+
+    import autograd.numpy as anp
+    from autograd import elementwise_grad
 
     def lengthened(t: Any) -> Any:
         one = t / t

@@ -135,7 +135,7 @@ def _size_of(found: Results, eta: float, limit: Pressure) -> tuple[Outcome, floa
         return Outcome.BELOW_RANGE, None
     if limit > pressures[-1]:
         return Outcome.BEYOND_RANGE if len(sizes) == len(row) else Outcome.NO_SOLUTION, None
-    return Outcome.MOVES, float(PchipInterpolator(pressures, sizes)(limit))
+    return Outcome.SOLVED, float(PchipInterpolator(pressures, sizes)(limit))
 
 
 def _curves(axes: Axes, found: Results, asked: Asked) -> None:

@@ -4,25 +4,30 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-from stonepass.inputs.case_record import describe
 from stonepass.model.answer import Answer
 from stonepass.model.contact_state import SolvedState
-from stonepass.records.base import CautionRecord, Record, degrees, kilo
+from stonepass.records.base import CautionRecord, PartRecord, Record, degrees, kilo
+from stonepass.records.case import CaseRecord, case_record
 
 __all__ = ["AnswerRecord", "SolverRecord", "answer_record"]
 
 
-class SolverRecord(BaseModel):
+class SolverRecord(PartRecord):
     """What the finite elements did; null in a model without any."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
     dofs: int | None = Field(description="unknowns of the last mesh")
-    newton_steps: int | None = Field(description="Newton steps with a tangent of their own")
+    newton_steps: int | None = Field(
+        description=(
+            "Newton steps with a tangent of their own, those of failed attempts and of the "
+            "coarser solve included"
+        )
+    )
     seconds: float | None = Field(description="wall-clock time of all that was solved")
-    residual: float | None = Field(description="residual relative to the contact force")
+    residual: float | None = Field(
+        description="residual of the last solve, relative to the contact force"
+    )
 
 
 class AnswerRecord(Record):
@@ -32,12 +37,16 @@ class AnswerRecord(Record):
     message: str = Field(description="the outcome as a sentence")
     critical_pressure_kPa: float | None = Field(description="critical urine pressure P_ucr")
     critical_pressure_error_kPa: float | None = Field(
-        description="estimated discretisation error of it"
+        description="estimated discretisation error of it, as ±"
     )
     critical_angle_deg: float | None = Field(
-        description="contact angle at which the stone starts to move"
+        description="α_cr, up to where the wall has opened when the stone starts to move"
     )
-    contact_angle_deg: float | None = Field(description="angle at which the contact begins")
+    contact_angle_deg: float | None = Field(
+        description=(
+            "where the contact begins: α₀ seated, α of the loaded state in the direct model"
+        )
+    )
     contact_angle_error_deg: float | None = Field(
         description="estimated discretisation error of it"
     )
@@ -46,20 +55,37 @@ class AnswerRecord(Record):
         description="estimated discretisation error of it"
     )
     peak_contact_pressure_kPa: float | None = Field(description="largest contact pressure")
-    downstream_angle_deg: float | None = Field(description="angle at which the contact ends")
+    downstream_angle_deg: float | None = Field(
+        description=(
+            "where the contact ends: π − α₀ seated, if the stone's halves are mirror images"
+        )
+    )
     stability_margin: float | None = Field(
-        description="stiffness of the weakest shear band of the wall: 1 unloaded, 0 unstable"
+        description=(
+            "stiffness of the weakest shear band in the solved wall, in units of its shear "
+            "modulus at rest (G for a Fung wall): 1 unloaded, 0 where strong ellipticity is "
+            "lost"
+        )
     )
     detail: dict[str, float | list[float] | None] = Field(
-        description="what only this model knows, by names that carry their unit"
+        description=(
+            "what only this model knows. `paper`: `closure_end_pressure_kPa`, P_u at which the "
+            "closure ends (r_a = R_s), no physical bound; `series_coefficients` c₁, c₂, … of the "
+            "series closure in t = (ρ_α − ρ₀)/(R_s − ρ₀); `printed_series_coefficients` a₀, a₁, "
+            "… of Eq. 14 in inner radii. `direct`: `leak_pressure_kPa`, P_u at which urine passes "
+            "the held stone, from the coarser solve; `seal_angle_deg`, where the contact pressure "
+            "of the loaded state is largest. `beam`: `closure_end_pressure_kPa`; "
+            "`circumferential_modulus_Pa` and `longitudinal_modulus_Pa`, E₁ and E₂; "
+            "`foundation_Pa`, k R_a; `decay`, β R_a; `half_contact_length`, a/R_a"
+        )
     )
     size_ratio: float | None = Field(description="ξ, stone diameter over inner diameter")
     wall_ratio: float = Field(description="η, outer diameter over inner diameter")
-    model: str = Field(description="name of the model")
-    material: str = Field(description="name of the material")
-    case: dict[str, Any] = Field(
-        description="canonical record of the case: all that the answer depends on, in SI units"
+    model: str = Field(
+        description="name of the model: `paper`, `direct`, `beam`, or one of your own"
     )
+    material: str = Field(description="name of the material")
+    case: CaseRecord = Field(description="all that the answer depends on, in SI units")
     solver: SolverRecord = Field(description="what the finite elements did")
     warnings: list[CautionRecord] = Field(description="where the answer must be read with care")
 
@@ -97,7 +123,7 @@ def answer_fields(answer: Answer) -> dict[str, Any]:
         "wall_ratio": case.wall_ratio,
         "model": answer.model.NAME,
         "material": case.ureter.material.name,
-        "case": describe(case, answer.model, answer.numerics),
+        "case": case_record(case, answer.model, answer.numerics),
         "solver": SolverRecord(
             dofs=solved.solver.dofs if solved else None,
             newton_steps=answer.newton_steps or None,

@@ -1,8 +1,9 @@
-"""What every record shares: version, disclaimer, cautions; numbers that do not exist are None."""
+"""What every record shares: version, disclaimer, warnings; numbers that do not exist are None."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -10,23 +11,27 @@ from pydantic import BaseModel, ConfigDict, Field
 from stonepass.about import DISCLAIMER, VERSION
 from stonepass.model.caution import Caution
 
-__all__ = ["CautionRecord", "Record", "degrees", "kilo"]
+__all__ = ["CautionRecord", "PartRecord", "Record", "degrees", "kilo", "warning_records"]
 
 RECORD_VERSION = 1  # raised when a key of any record changes its name or its meaning
 
 
-class Record(BaseModel):
-    """A result as every door shows it: typed, closed, without numbers that are not finite."""
+class PartRecord(BaseModel):
+    """A part of a record: typed, closed, without numbers that are not finite."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
-    record_version: int = Field(RECORD_VERSION, description="version of these keys")
-    version: str = Field(VERSION, description="version of stonepass")
-    disclaimer: str = Field(DISCLAIMER, description="what the numbers are not for")
-
     def to_dict(self) -> dict[str, Any]:
-        """The record as a JSON-ready dictionary."""
+        """Return a JSON-ready dictionary with all keys."""
         return self.model_dump(mode="json")
+
+
+class Record(PartRecord):
+    """A result as every door shows it; `record_version` tells programs which keys to expect."""
+
+    record_version: int = Field(default=RECORD_VERSION, description="version of these keys")
+    version: str = Field(default=VERSION, description="version of stonepass")
+    disclaimer: str = Field(default=DISCLAIMER, description="what the numbers are not for")
 
 
 class CautionRecord(BaseModel):
@@ -40,8 +45,13 @@ class CautionRecord(BaseModel):
 
     @classmethod
     def of(cls, caution: Caution) -> CautionRecord:
-        """The record of a caution."""
+        """Make the record of a caution."""
         return cls(code=caution.code, sentence=str(caution), values=dict(caution.values))
+
+
+def warning_records(warnings: Iterable[Caution | str]) -> list[CautionRecord | str]:
+    """Return cautions as records; a warning that is a plain sentence stays one."""
+    return [CautionRecord.of(each) if isinstance(each, Caution) else each for each in warnings]
 
 
 def kilo(value: float | None) -> float | None:

@@ -2,51 +2,135 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Iterator
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin
+
 from pydantic import BaseModel
 
 from stonepass.inputs.schema import case_schema
-from stonepass.records.answer import AnswerRecord, SolverRecord
-from stonepass.records.base import CautionRecord
+from stonepass.records.answer import AnswerRecord
+from stonepass.records.assess import AssessRecord
+from stonepass.records.closures import ClosuresRecord
+from stonepass.records.compare import CompareRecord
+from stonepass.records.curve import CurvePointRecord
+from stonepass.records.fit import FitRecord
+from stonepass.records.friction import FrictionRecord
+from stonepass.records.invitro import InVitroRecord
+from stonepass.records.rising import RisingRecord
 from stonepass.records.size import SizeRecord
 
-__all__ = ["RECORDS", "reference"]
+__all__ = ["RECORDS", "parts", "reference"]
 
-# Records by the title under which the reference has them.
+# Record of each command that has --json. `curve` and a map of `closures` print a list of them.
 RECORDS: dict[str, type[BaseModel]] = {
-    "Answer (`stonepass pressure --json`)": AnswerRecord,
-    "Critical size (`stonepass size --json`)": SizeRecord,
-    "Warning": CautionRecord,
-    "Solver": SolverRecord,
+    "pressure": AnswerRecord,
+    "size": SizeRecord,
+    "curve": CurvePointRecord,
+    "closures": ClosuresRecord,
+    "push": RisingRecord,
+    "friction": FrictionRecord,
+    "fit": FitRecord,
+    "invitro": InVitroRecord,
+    "assess": AssessRecord,
+    "compare": CompareRecord,
 }
+LISTS = ("curve",)
+PREFACE = """# Keys of JSON records and of case files
+
+This page is generated from the records (`stonepass.records`) and from the declared inputs
+(`stonepass.declaration`); a test keeps it in step with them. The command `stonepass NAME --json`
+prints the record of that name. A number that does not exist is null; the last part of a key is
+its unit. `record_version` is raised when a key changes its name or its meaning. The
+[glossary](glossary.md) explains the words, the symbols and the outcomes.
+"""
 
 
 def reference() -> str:
-    """The reference as Markdown: keys of JSON records, then keys of case files."""
-    parts = [
-        "# Keys of JSON records and of case files",
-        "",
-        "This page is generated from the records (`stonepass.records`) and from the declared",
-        "inputs (`stonepass.declaration`); a test keeps it in step with them.",
-        "",
+    """Return the reference as Markdown: keys of records, of their parts, and of case files."""
+    lines = [PREFACE, "## Records", ""]
+    for command, record in RECORDS.items():
+        lines += [f"### `stonepass {command}`", "", *_introduction(command, record), ""]
+        lines += _table(record, _inherited(record))
+    lines += ["## Parts of records", ""]
+    for part in parts():
+        lines += [f"### {part.__name__}", "", _meaning(part), "", *_table(part, ())]
+    lines += ["## Case file", "", *_case_file()]
+    return "\n".join(lines) + "\n"
+
+
+def parts() -> list[type[BaseModel]]:
+    """Return the models that stand inside records, those of the first record first."""
+    found: dict[type[BaseModel], None] = {}
+    waiting = list(RECORDS.values())
+    while waiting:
+        for field in waiting.pop(0).model_fields.values():
+            for kind in _models_in(field.annotation):
+                if kind not in found and kind not in RECORDS.values():
+                    found[kind] = None
+                    waiting.append(kind)
+    return list(found)
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for inner in get_args(annotation):
+        yield from _models_in(inner)
+
+
+def _inherited(record: type[BaseModel]) -> tuple[str, ...]:
+    """Return the keys that a record shares with the answer, which stand there."""
+    known = AnswerRecord.model_fields
+    extends = issubclass(record, AnswerRecord) and record is not AnswerRecord
+    return tuple(known) if extends else ()
+
+
+def _introduction(command: str, record: type[BaseModel]) -> list[str]:
+    what = _meaning(record)
+    if command in LISTS:
+        what += " The command prints a list of them."
+    if _inherited(record):
+        what += " It has all keys of the record of `stonepass pressure`, and:"
+    return [what]
+
+
+def _meaning(record: type[BaseModel]) -> str:
+    return " ".join((inspect.getdoc(record) or "").split())
+
+
+def _table(record: type[BaseModel], left_out: tuple[str, ...]) -> list[str]:
+    rows = [
+        f"| `{name}` | {_kind(field.annotation)} | {_cell(field.description or '')} |"
+        for name, field in record.model_fields.items()
+        if name not in left_out
     ]
-    for title, record in RECORDS.items():
-        known = AnswerRecord.model_fields if record is SizeRecord else {}
-        parts += [f"## {title}", ""]
-        if known:
-            parts += [
-                "All keys of an answer, which describe the state at the critical size, and:",
-                "",
-            ]
-        parts += ["| key | type | meaning |", "| --- | --- | --- |"]
-        for name, each in record.model_fields.items():
-            if name in known:
-                continue
-            kind = str(each.annotation).replace("typing.", "").replace("|", "or")
-            if isinstance(each.annotation, type):
-                kind = each.annotation.__name__
-            parts.append(f"| `{name}` | {_plain(kind)} | {each.description or ''} |")
-        parts.append("")
-    parts += ["## Case file", "", "| key | type | default | meaning |", "| --- | --- | --- | --- |"]
+    return ["| key | type | meaning |", "| --- | --- | --- |", *rows, ""]
+
+
+def _kind(annotation: Any) -> str:
+    """Return a type in the words of JSON, with a link to a part or a record."""
+    if annotation is Any:
+        return "number or other value"
+    origin, inner = get_origin(annotation), get_args(annotation)
+    if origin in (UnionType, Union):
+        return " or ".join(map(_kind, inner))
+    if origin is list:
+        return f"list of {_kind(inner[0])}"
+    if origin is dict:
+        return f"object of {_kind(inner[1])}"
+    if issubclass(annotation, BaseModel):
+        for command, record in RECORDS.items():
+            if annotation is record:
+                return f"[record](#stonepass-{command})"
+        return f"[{annotation.__name__}](#{annotation.__name__.lower()})"
+    words = {float: "number", int: "whole number", str: "text", bool: "true or false"}
+    return "null" if annotation is NoneType else words[annotation]
+
+
+def _case_file() -> list[str]:
+    rows = ["| key | type | default | meaning |", "| --- | --- | --- | --- |"]
     for section, keys in case_schema()["properties"].items():
         for name, each in keys["properties"].items():
             kinds = each["type"]
@@ -58,10 +142,10 @@ def reference() -> str:
             if "minimum" in each:
                 allowed = f" From {each['minimum']:g} to {each['maximum']:g}."
             meaning = each["description"] + allowed
-            parts.append(f"| `{section}.{name}` | {kind} | {default} | {meaning} |")
-    return "\n".join(parts) + "\n"
+            rows.append(f"| `{section}.{name}` | {kind} | {default} | {_cell(meaning)} |")
+    return rows
 
 
-def _plain(kind: str) -> str:
-    kind = kind.replace("stonepass.records.base.", "").replace("stonepass.records.answer.", "")
-    return kind.replace("None", "null").replace("<class '", "").replace("'>", "")
+def _cell(text: str) -> str:
+    """Return a text for a cell of a table, where a bar would end it."""
+    return text.replace("|", "\\|")

@@ -17,7 +17,7 @@ class SizeRecord(AnswerRecord):
 
     critical_size_ratio: float | None = Field(description="ξ of the critical size")
     critical_size_ratio_error: float | None = Field(
-        description="estimated discretisation error of it"
+        description="estimated discretisation error of it: that of P_ucr over its slope"
     )
     critical_diameter_mm: float | None = Field(
         description="critical stone diameter, where the ureter has lengths"
@@ -34,8 +34,9 @@ def size_record(answer: SizeAnswer) -> SizeRecord:
         state = answer.at_size
     fields = answer_fields(state)
     if not found:
-        fields["size_ratio"] = None
-        fields["case"]["stone"] |= {"size_ratio": None, "diameter_m": None}
+        stone = fields["case"].stone.model_copy(update={"size_ratio": None, "diameter_m": None})
+        described = fields["case"].model_copy(update={"stone": stone})
+        fields |= {"size_ratio": None, "case": described}
     diameter = answer.diameter
     limit = kilo(answer.limit)
     assert limit is not None

@@ -11,8 +11,9 @@ from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import Cohort, Row
 from stonepass.clinic.fractions import FEWER, MORE, contradiction
 from stonepass.clinic.pressure_limits import LIMITS, describe_limit
+from stonepass.records.assess import CAUTION
 from stonepass.report.assess_figure import cohorts_figure, pressures_figure, sensitivity_figure
-from stonepass.report.assess_report import CAUTION, describe_inputs, describe_range
+from stonepass.report.assess_report import describe_inputs, describe_range
 from stonepass.report.html import inline_svg, write_html
 
 __all__ = ["write_assessment"]

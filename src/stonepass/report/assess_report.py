@@ -1,93 +1,19 @@
-"""An assessment: JSON record and tables for a terminal."""
+"""An assessment as tables for a terminal."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from rich import box
 from rich.table import Table
 
-from stonepass.about import DISCLAIMER, VERSION
 from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.fractions import Fraction, Range, contradiction
 from stonepass.clinic.patient import INPUTS
-from stonepass.clinic.pressure_limits import describe_limit
-from stonepass.records.answer import answer_record
+from stonepass.records.assess import LENGTHS
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
-__all__ = ["CAUTION", "assess_record", "assess_tables", "describe_inputs", "describe_range"]
-
-CAUTION = (
-    "The fractions speak of the inputs' uncertainty in a model of a passive tube. They are no "
-    "chance of passing: peristalsis, muscle tone, time and swelling are not in it."
-)
-LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
-
-
-def assess_record(found: Assessment, file: str) -> dict[str, Any]:
-    """Return the assessment as a JSON-ready record; `file` names the patient's file."""
-    patient = found.patient
-    return {
-        "outcome": found.outcome.name,
-        "message": found.message,
-        "critical_pressure_kPa": _range(found.critical),
-        "critical_pressure_at_values_kPa": None if found.central is None else found.central / 1e3,
-        "at_values": answer_record(found.at_values).to_dict(),
-        "present_pressure_kPa": _range(found.present),
-        "critical_below_limit": _fraction(found.below_limit),
-        "critical_below_present": _fraction(found.below_present),
-        "no_larger_than_lumen": found.loose,
-        "sensitivity": {each.name: each.total for each in found.sensitivity},
-        "by_size": [
-            {"diameter_mm": size, **(_fraction(each) or {})} for size, each in found.by_size
-        ],
-        "cohorts": [
-            {
-                "cohort": row.cohort.name,
-                "source": row.cohort.source,
-                "read": row.cohort.read,
-                "about": row.cohort.about,
-                "group": row.group,
-                "passed": row.passed,
-                "days": row.days,
-                "model": _fraction(found.beside(row)),
-                "comparison": ""
-                if row.passed is None
-                else contradiction(row.passed, found.beside(row)),
-            }
-            for row in found.cohorts
-        ],
-        "inputs": {
-            "file": file,
-            "measured": {
-                name: {
-                    "value": each.value,
-                    "sd": each.sd,
-                    "low": None if each.sd is not None else each.low,
-                    "high": None if each.sd is not None else each.high,
-                    "unit": "m" if name in LENGTHS else "",
-                }
-                for name, each in patient.measured.items()
-            },
-            "material": patient.material.name,
-            "place": patient.place,
-            "limit_kPa": patient.limit / 1e3,
-            "limit_source": describe_limit(patient.limit),
-            "samples": patient.samples,
-            "seed": patient.seed,
-        },
-        "accuracy": {
-            "possible": found.possible,
-            "solves": found.solves,
-            "surface_error": found.surface_error,
-        },
-        "level": 0.90,
-        "warnings": list(found.warnings),
-        "caution": CAUTION,
-        "version": VERSION,
-        "disclaimer": DISCLAIMER,
-    }
+__all__ = ["assess_tables", "describe_inputs", "describe_range"]
 
 
 def assess_tables(found: Assessment) -> list[Table]:
@@ -198,21 +124,3 @@ def _cohorts(found: Assessment) -> Table:
 
 def _words(fraction: Fraction | None) -> str:
     return "" if fraction is None else fraction.describe()
-
-
-def _range(found: Range | None) -> dict[str, float | None] | None:
-    if found is None:
-        return None
-    return {
-        name: None if value is None else value / 1e3
-        for name, value in (
-            ("low", found.low),
-            ("median", found.median),
-            ("high", found.high),
-            ("at_least", found.at_least),
-        )
-    }
-
-
-def _fraction(fraction: Fraction | None) -> dict[str, float] | None:
-    return None if fraction is None else {"low": fraction.low, "high": fraction.high}

@@ -1,29 +1,19 @@
-"""Closures side by side: a table, records, and the map of their errors."""
+"""Closures side by side: a table, a figure, and the map of their errors."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from rich import box
 from rich.table import Table
 
-from stonepass.about import DISCLAIMER, VERSION
-from stonepass.io.csv_file import write_csv
 from stonepass.model.closure import linear_closure
 from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 
-__all__ = ["closures_figure", "closures_record", "closures_table", "map_figure", "write_map"]
-
-_MAP_COLUMNS = (
-    "size_ratio", "wall_ratio", "friction", "aspect", "material", "outcome",
-    *(f"{name}_pressure_kPa" for name in CLOSURES),
-    *(f"{name}_error" for name in CLOSURES if name != "direct"),
-)  # fmt: skip
+__all__ = ["closures_figure", "closures_table", "map_figure"]
 
 
 def closures_table(found: ClosureComparison) -> Table:
@@ -42,25 +32,6 @@ def closures_table(found: ClosureComparison) -> Table:
         shown = "–" if error is None or name == "direct" else f"{error:+.1%}"
         table.add_row(text, "–" if pressure is None else f"{pressure / 1e3:.4g}", shown)
     return table
-
-
-def closures_record(found: ClosureComparison) -> dict[str, Any]:
-    """One comparison as a JSON-ready record."""
-    series = found.series
-    return {
-        **_row(found),
-        "message": found.message,
-        "warnings": [str(each) for each in found.warnings],
-        "series_coefficients": None if series is None else list(series.coefficients),
-        "version": VERSION,
-        "disclaimer": DISCLAIMER,
-    }
-
-
-def write_map(found: Sequence[ClosureComparison], path: Path) -> None:
-    """Write many comparisons as CSV."""
-    rows = [_row(each) for each in found]
-    write_csv(path, _MAP_COLUMNS, [[row[name] for name in _MAP_COLUMNS] for row in rows])
 
 
 @in_style
@@ -136,19 +107,3 @@ def map_figure(found: Sequence[ClosureComparison]) -> Figure:
         f"Critical pressure against the direct model: {found[0].case.ureter.material.name}"
     )
     return figure
-
-
-def _row(found: ClosureComparison) -> dict[str, Any]:
-    case = found.case
-    pressures = {f"{n}_pressure_kPa": None if p is None else p / 1e3
-                 for n, p in found.pressures.items()}  # fmt: skip
-    return {
-        "outcome": found.outcome.name,
-        "size_ratio": case.size_ratio,
-        "wall_ratio": case.wall_ratio,
-        "friction": case.stone.friction,
-        "aspect": case.stone.aspect,
-        "material": case.ureter.material.name,
-        **pressures,
-        **{f"{name}_error": found.error(name) for name in CLOSURES if name != "direct"},
-    }

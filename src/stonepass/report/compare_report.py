@@ -1,8 +1,6 @@
-"""The results of CalculiX beside our own: table, record and figure."""
+"""The results of CalculiX beside our own: table and figure."""
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,11 +8,10 @@ from rich import box
 from rich.table import Table
 
 from stonepass.export.comparison import Comparison
-from stonepass.records.answer import answer_record
 from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.report.table import case_title, significant
 
-__all__ = ["compare_figure", "compare_record", "compare_table"]
+__all__ = ["compare_figure", "compare_table"]
 
 KPA = 1e3
 
@@ -59,20 +56,6 @@ def compare_table(found: Comparison) -> Table:
 
 def _kpa(pressure: float | None) -> str:
     return "–" if pressure is None else f"{significant(pressure / KPA)} kPa"
-
-
-def compare_record(found: Comparison) -> dict[str, Any]:
-    """Return the record of our answer with the numbers of CalculiX under ``calculix``."""
-    theirs = found.contact
-    return {
-        **answer_record(found.answer).to_dict(),
-        "calculix": {
-            "contact_angle_deg": float(np.degrees(theirs.contact_angle)),
-            "equator_contact_pressure_kPa": theirs.equator_contact_pressure / KPA,
-            "peak_contact_pressure_kPa": theirs.peak_contact_pressure / KPA,
-            "critical_pressure_kPa": None if found.pressure is None else found.pressure / KPA,
-        },
-    }
 
 
 @in_style

@@ -1,57 +1,16 @@
-"""The friction coefficient of a surface: JSON record and table."""
+"""The friction coefficient of a surface as a table."""
 
 from __future__ import annotations
-
-from typing import Any
 
 from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from stonepass.about import DISCLAIMER, VERSION
 from stonepass.surface.friction import SurfaceFriction
 
-__all__ = ["friction_record", "friction_table"]
+__all__ = ["friction_table"]
 
 MICRO = 1e6  # µm per m
-
-
-def friction_record(found: SurfaceFriction, image: str) -> dict[str, Any]:
-    """All of it as a JSON-ready record; `image` is the name of the file."""
-    assert found.picture.pixel is not None
-    across, down = (each * MICRO for each in found.picture.pixel)
-    roughness, spread = found.roughness, found.spread
-    return {
-        "friction_coefficient": found.friction,
-        "friction_sd": spread.sd,
-        "k0": found.k0,
-        "k1": found.k1,
-        "baseline_order": found.baseline.order,
-        "deviation_order": found.deviation_baseline.order,
-        "baseline_wavelength_um": found.baseline.wavelength * MICRO,
-        "deviation_wavelength_um": found.deviation_baseline.wavelength * MICRO,
-        "height_range_um": None if found.height_range is None else found.height_range * MICRO,
-        "pixel_um": across if across == down else [across, down],
-        "paths": [[path.x0, path.y0, path.x1, path.y1] for path in found.paths],
-        "path_length_um": float(found.distance[-1]) * MICRO,
-        "roughness": {
-            "Ra_um": roughness.Ra * MICRO,
-            "Rq_um": roughness.Rq * MICRO,
-            "RdeltaQ": roughness.RdeltaQ,
-        },
-        "friction_from_rms_slope": roughness.RdeltaQ,
-        "spread": {
-            "without_one_path": [_number(mu) for mu in spread.paths],
-            "baseline_order": {str(order): _number(mu) for order, mu in spread.orders},
-            "height_range_scaling": {how: _number(mu) for how, mu in spread.height_range},
-        },
-        "image": image,
-        "pixel_source": found.picture.pixel_source,
-        "notes": list(found.picture.notes),
-        "warnings": list(found.warnings),
-        "version": VERSION,
-        "disclaimer": DISCLAIMER,
-    }
 
 
 def friction_table(found: SurfaceFriction, image: str) -> Table:
@@ -103,10 +62,6 @@ def _between(values: list[float] | tuple[float, ...]) -> str:
 
 def _shown(value: float) -> str:
     return f"{value:.3f}" if value == value else "too steep"
-
-
-def _number(value: float) -> float | None:
-    return value if value == value else None
 
 
 def _height_range(found: SurfaceFriction) -> str:

@@ -1,4 +1,4 @@
-"""A held stone under rising pressure: rows, a picture, an animation."""
+"""A held stone under rising pressure: a table, a picture, an animation."""
 
 from __future__ import annotations
 
@@ -14,9 +14,7 @@ from PIL import Image
 from rich import box
 from rich.table import Table
 
-from stonepass.about import DISCLAIMER, VERSION
 from stonepass.errors import BadInput
-from stonepass.io.csv_file import write_csv
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.push_figure import draw_pressure, draw_wall
@@ -24,20 +22,8 @@ from stonepass.report.style import COLOURS, in_style, new_figure, tidy
 from stonepass.report.table import case_title, significant
 from stonepass.studies.rising import Rising
 
-__all__ = [
-    "rising_figure",
-    "rising_record",
-    "rising_rows",
-    "rising_table",
-    "save_animation",
-    "write_rising",
-]
+__all__ = ["rising_figure", "rising_table", "save_animation"]
 
-COLUMNS = (
-    "urine_pressure_kPa", "net_force_kPa", "friction_work_kPa", "contact_angle_deg",
-    "downstream_angle_deg", "seal_angle_deg", "peak_contact_pressure_kPa",
-    "equator_contact_pressure_kPa", "upstream_radius_ratio", "contact_deviation",
-)  # fmt: skip
 NO_FORCE = 1e-2  # Pa; less than the solver tells from none
 CURVES = 5  # contact pressures drawn
 FRAME, LAST_FRAME = 170, 1500  # milliseconds
@@ -60,49 +46,6 @@ def rising_table(rising: Rising) -> Table:
             "–" if math.isnan(deviation) else f"{deviation:.0%}",
         )
     return table
-
-
-def rising_rows(rising: Rising) -> list[dict[str, Any]]:
-    """One row for each state."""
-    rows = []
-    for state, deviation in zip(rising.states, rising.deviation, strict=True):
-        values = (
-            state.urine_pressure / 1e3,
-            state.net_force / 1e3,
-            state.friction_work / 1e3,
-            np.degrees(state.contact_angle),
-            np.degrees(state.downstream_angle),
-            np.degrees(state.seal_angle),
-            state.peak_contact_pressure / 1e3,
-            state.equator_contact_pressure / 1e3,
-            state.upstream_radius,
-            None if np.isnan(deviation) else deviation,
-        )
-        known = (None if value is None else float(value) for value in values)
-        rows.append(dict(zip(COLUMNS, known, strict=True)))
-    return rows
-
-
-def rising_record(rising: Rising) -> dict[str, Any]:
-    """The states as a JSON-ready record."""
-    critical = rising.critical
-    leak = getattr(critical.detail, "leak_pressure", None)
-    return {
-        "outcome": critical.outcome.name,
-        "message": critical.message,
-        "critical_pressure_kPa": None if critical.pressure is None else critical.pressure / 1e3,
-        "leak_pressure_kPa": None if leak is None else leak / 1e3,
-        "states": rising_rows(rising),
-        "reason": rising.reason,
-        "warnings": [str(each) for each in critical.warnings],
-        "version": VERSION,
-        "disclaimer": DISCLAIMER,
-    }
-
-
-def write_rising(rising: Rising, path: Path) -> None:
-    """Write the states as CSV."""
-    write_csv(path, COLUMNS, [[row[name] for name in COLUMNS] for row in rising_rows(rising)])
 
 
 @in_style

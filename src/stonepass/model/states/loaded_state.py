@@ -137,10 +137,10 @@ class PushedState:
 
     def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
         """Pressure on the stone in Pa at any θ in [0, π]: P_u before the contact, 0 behind it."""
-        inside: Float[np.ndarray, "*m"] = np.interp(
+        inside = np.interp(
             theta, self.theta, self.contact_pressure, left=self.urine_pressure, right=0.0
         )
-        return inside
+        return np.asarray(inside)  # NumPy makes a number of an array without dimensions
 
 
 @dataclass(frozen=True)

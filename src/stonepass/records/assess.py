@@ -1,0 +1,237 @@
+"""The assessment of one patient as a record."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from stonepass.clinic.assessment import Assessment
+from stonepass.clinic.cohorts import Row
+from stonepass.clinic.fractions import Fraction, Range, contradiction
+from stonepass.clinic.patient import INPUTS
+from stonepass.clinic.pressure_limits import describe_limit
+from stonepass.records.answer import AnswerRecord, answer_record
+from stonepass.records.base import CautionRecord, PartRecord, Record, kilo, warning_records
+from stonepass.studies.uncertain_quantity import UncertainQuantity
+
+__all__ = [
+    "CAUTION",
+    "LENGTHS",
+    "AssessInputsRecord",
+    "AssessRecord",
+    "CohortRecord",
+    "FractionRecord",
+    "MeasuredRecord",
+    "PressureRangeRecord",
+    "SizeFractionRecord",
+    "SurfaceAccuracyRecord",
+    "assess_record",
+]
+
+CAUTION = (
+    "The fractions speak of the inputs' uncertainty in a model of a passive tube. They are no "
+    "chance of passing: peristalsis, muscle tone, time and swelling are not in it."
+)
+LEVEL = 0.90  # of the intervals
+LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
+
+
+class PressureRangeRecord(PartRecord):
+    """Median and 90 % interval of a pressure in kPa."""
+
+    low: float | None = Field(description="lower end; null where the model cannot tell it")
+    median: float | None = Field(description="median; null where the model cannot tell it")
+    high: float | None = Field(description="upper end; null where the model cannot tell it")
+    at_least: float | None = Field(
+        description="what the first number that is null exceeds; null where all are known"
+    )
+
+
+class FractionRecord(PartRecord):
+    """A fraction of the samples; its ends differ where some samples are not decided."""
+
+    low: float = Field(description="at least this fraction")
+    high: float = Field(description="at most this fraction")
+
+
+class SizeFractionRecord(FractionRecord):
+    """The fraction of samples below the pressure limit if the stone had another size."""
+
+    diameter_mm: float = Field(description="that stone diameter")
+
+
+class CohortRecord(PartRecord):
+    """One number of a published cohort, beside the model."""
+
+    cohort: str = Field(description="name of the cohort")
+    source: str = Field(description="where it was published")
+    read: str = Field(description="`itself` where the source was read, `quoted` by another source")
+    about: str = Field(description="whom the cohort watched, and for how long")
+    group: str = Field(description="size class or place, as printed")
+    passed: float | None = Field(description="fraction of these stones that passed")
+    days: float | None = Field(description="mean time to pass in days")
+    model: FractionRecord | None = Field(
+        description="fraction of samples below the pressure limit, for such stones"
+    )
+    comparison: str = Field(description="how far both fractions are apart, in words")
+
+
+class MeasuredRecord(PartRecord):
+    """A measured number with its uncertainty."""
+
+    value: float = Field(description="what was measured, in its unit")
+    sd: float | None = Field(description="standard deviation; null where a range was given")
+    low: float | None = Field(description="lower end of the range; null with `sd`")
+    high: float | None = Field(description="upper end of the range; null with `sd`")
+    unit: str = Field(description="`m`, or empty for a plain number")
+
+
+class AssessInputsRecord(PartRecord):
+    """What was said of the patient."""
+
+    file: str = Field(description="name of the patient's file")
+    measured: dict[str, MeasuredRecord] = Field(
+        description="measured numbers, by their names in the file"
+    )
+    material: str = Field(description="name of the material of the wall")
+    place: str | None = Field(description="where in the ureter the stone is, where known")
+    limit_kPa: float = Field(description="pressure limit")
+    limit_source: str = Field(description="what the limit stands for, and who says so")
+    samples: int = Field(description="number of Monte Carlo samples")
+    seed: int = Field(description="seed of the samples")
+
+
+class SurfaceAccuracyRecord(PartRecord):
+    """How well the samples are known."""
+
+    possible: float = Field(description="fraction of the draws that describe a possible wall")
+    solves: int = Field(description="number of solved cases behind the response surface")
+    surface_error: float = Field(
+        description="95th percentile of the response surface's relative error"
+    )
+
+
+class AssessRecord(Record):
+    """The assessment of one patient: pressures as intervals, beside what cohorts saw."""
+
+    outcome: str = Field(
+        description="`MOVES`, or `NO_SOLUTION` where the model answers too few possible cases"
+    )
+    message: str = Field(description="the outcome as a sentence")
+    critical_pressure_kPa: PressureRangeRecord | None = Field(description="P_ucr of the samples")
+    critical_pressure_at_values_kPa: float | None = Field(
+        description="P_ucr at the measured values themselves"
+    )
+    at_values: AnswerRecord = Field(
+        description=(
+            "whole answer at the measured values, for the material's own stiffness under P_out "
+            "over the stiffness that was given"
+        )
+    )
+    present_pressure_kPa: PressureRangeRecord | None = Field(
+        description="present urine pressure P_u; null where no dilated segment was measured"
+    )
+    critical_below_limit: FractionRecord | None = Field(
+        description="fraction of samples whose P_ucr is below the pressure limit"
+    )
+    critical_below_present: FractionRecord | None = Field(
+        description="fraction of samples whose P_ucr is below the present pressure"
+    )
+    no_larger_than_lumen: float = Field(
+        description="fraction of samples in which the stone is not held; P_ucr is 0 in them"
+    )
+    sensitivity: dict[str, float] = Field(
+        description="Sobol's total index of each input, for the rank of P_ucr; the largest first"
+    )
+    by_size: list[SizeFractionRecord] = Field(
+        description="fraction below the limit if the stone had another size"
+    )
+    cohorts: list[CohortRecord] = Field(description="what published cohorts say of such stones")
+    inputs: AssessInputsRecord = Field(description="what was said of the patient")
+    accuracy: SurfaceAccuracyRecord = Field(description="how well the samples are known")
+    level: float = Field(description="level of the intervals")
+    warnings: list[CautionRecord | str] = Field(
+        description="what was assumed, extrapolated or left open"
+    )
+    caution: str = Field(description="what the fractions are not")
+
+
+def assess_record(found: Assessment, file: str) -> AssessRecord:
+    """Make the record of an assessment; `file` is the name of the patient's file."""
+    return AssessRecord(
+        outcome=found.outcome.name,
+        message=found.message,
+        critical_pressure_kPa=_range(found.critical),
+        critical_pressure_at_values_kPa=kilo(found.central),
+        at_values=answer_record(found.at_values),
+        present_pressure_kPa=_range(found.present),
+        critical_below_limit=_fraction(found.below_limit),
+        critical_below_present=_fraction(found.below_present),
+        no_larger_than_lumen=found.loose,
+        sensitivity={each.name: each.total for each in found.sensitivity},
+        by_size=[
+            SizeFractionRecord(diameter_mm=size, low=each.low, high=each.high)
+            for size, each in found.by_size
+        ],
+        cohorts=[_cohort(row, found.beside(row)) for row in found.cohorts],
+        inputs=_inputs(found, file),
+        accuracy=SurfaceAccuracyRecord(
+            possible=found.possible, solves=found.solves, surface_error=found.surface_error
+        ),
+        level=LEVEL,
+        warnings=warning_records(found.warnings),
+        caution=CAUTION,
+    )
+
+
+def _inputs(found: Assessment, file: str) -> AssessInputsRecord:
+    patient = found.patient
+    return AssessInputsRecord(
+        file=file,
+        measured={name: _measured(name, each) for name, each in patient.measured.items()},
+        material=patient.material.name,
+        place=patient.place,
+        limit_kPa=patient.limit / 1e3,
+        limit_source=describe_limit(patient.limit),
+        samples=patient.samples,
+        seed=patient.seed,
+    )
+
+
+def _measured(name: str, quantity: UncertainQuantity) -> MeasuredRecord:
+    ranged = quantity.sd is None
+    return MeasuredRecord(
+        value=quantity.value,
+        sd=quantity.sd,
+        low=quantity.low if ranged else None,
+        high=quantity.high if ranged else None,
+        unit="m" if name in LENGTHS else "",
+    )
+
+
+def _cohort(row: Row, beside: Fraction | None) -> CohortRecord:
+    return CohortRecord(
+        cohort=row.cohort.name,
+        source=row.cohort.source,
+        read=row.cohort.read,
+        about=row.cohort.about,
+        group=row.group,
+        passed=row.passed,
+        days=row.days,
+        model=_fraction(beside),
+        comparison="" if row.passed is None else contradiction(row.passed, beside),
+    )
+
+
+def _range(found: Range | None) -> PressureRangeRecord | None:
+    if found is None:
+        return None
+    return PressureRangeRecord(
+        low=kilo(found.low),
+        median=kilo(found.median),
+        high=kilo(found.high),
+        at_least=kilo(found.at_least),
+    )
+
+
+def _fraction(fraction: Fraction | None) -> FractionRecord | None:
+    return None if fraction is None else FractionRecord(low=fraction.low, high=fraction.high)

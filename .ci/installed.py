@@ -37,9 +37,9 @@ def main() -> None:
         getattr(sp, name)
     loose = sp.critical_pressure(sp.Stone(size_ratio=0.9), sp.Ureter(wall_ratio=1.5))
     assert loose.outcome is sp.Outcome.LOOSE
-    method = sp.Method(seating="frictionless", accuracy="fast")
+    model, numerics = sp.SeatedBalance(seating="frictionless"), sp.Numerics("fast")
     latex = sp.Ureter(wall_ratio=1.5, material="latex")
-    held = sp.critical_pressure(sp.Stone(size_ratio=1.2), latex, method=method)
+    held = sp.critical_pressure(sp.Stone(size_ratio=1.2), latex, model=model, numerics=numerics)
     assert held.pressure is not None
     assert 40e3 < held.pressure < 43e3, held.pressure
     print(f"The installed wheel has {found} modules and answers.")

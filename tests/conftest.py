@@ -6,6 +6,7 @@ The doors are left out: they refuse wrong types themselves with a sentence, whic
 
 from pathlib import Path
 
+import first_call
 import pytest
 from jaxtyping import install_import_hook
 
@@ -38,6 +39,7 @@ def numerical_modules():
     return [name for name in names if not name.endswith(".__init__")]
 
 
+first_call.install()
 install_import_hook([m for m in numerical_modules() if m not in DOORS], "first_call.checked")
 
 

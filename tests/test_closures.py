@@ -64,7 +64,7 @@ def test_a_series_is_recovered_from_its_own_pairs():
     np.testing.assert_allclose(found.coefficients, wanted.coefficients, atol=1e-10)
     with pytest.raises(BadInput, match="order is 0, but must be 1 to 8"):
         fit_series(width, radius, EDGE, XI, 0)
-    with pytest.raises(BadInput, match="at least as many as coefficients, 5"):
+    with pytest.raises(BadInput, match="number of opened states is 4, but must be at least 5"):
         fit_series(width[:4], radius[:4], EDGE, XI, 5)
 
 

@@ -77,8 +77,8 @@ def test_the_seated_contact_pressure_converges_with_the_mesh():
     """Frictionless; three meshes, each twice as fine as the one before; displacements of order 3."""
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"))
     law = case.ureter.material.law
-    tube = tube_of(law, case.wall_ratio, case.load, case.method.half_length)
-    guess = partial(wrap_round_arc, case, 1.0, hoop_modulus(law))
+    tube = tube_of(law, case.wall_ratio, case.load, case.numerics.half_length)
+    guess = partial(wrap_round_arc, case, case.numerics.half_length, 1.0, hoop_modulus(law))
     mesh = Resolution(order=3, closed=4, edge=0.2, growth=2.0)
     meshes = [mesh.refined(factor) for factor in (1.0, 2.0, 4.0)]
     profiles = map(contact_profile, seat_on_stone(tube, profile_of(case), guess, meshes))

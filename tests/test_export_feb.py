@@ -489,7 +489,7 @@ def test_contact_is_the_penalty_and_the_friction_of_the_case(deck):
     s = deck.seating
     penalty = float(contact.find("penalty").text)
     assert penalty * 1e3 * 1.5 == pytest.approx(s.penalty)  # kPa/mm to Pa per R_a
-    assert float(contact.find("fric_coeff").text) == s.case.seating_friction
+    assert float(contact.find("fric_coeff").text) == s.case.model.seating_of(s.case).friction
     assert contact.find("auto_penalty").text == "0"
     assert contact.find("laugon").text == "PENALTY"
 

@@ -84,10 +84,7 @@ def test_a_model_answers_through_every_door(plug, tmp_path, capsys):
 def gent(monkeypatch):
     module = load("gent_law")
     monkeypatch.setitem(KNOWN_LAWS, "gent", module.Gent)
-    importlib.reload(material_file)  # whose schema follows from the registered laws
-    yield module
-    monkeypatch.undo()
-    importlib.reload(material_file)
+    return module
 
 
 def test_a_law_is_read_checked_and_solved(gent, tmp_path, capsys):
@@ -108,8 +105,8 @@ def test_a_law_is_read_checked_and_solved(gent, tmp_path, capsys):
     assert pressures[1] == pytest.approx(pressures[0], rel=1e-3)
     assert run(["material", "show", str(path)]) == 0
     shown = capsys.readouterr().out
-    assert "293 kPa" in shown
-    assert "limit of I1 - 3" in shown or "J_m" in shown
+    assert "0.293 MPa" in shown
+    assert "Jm" in shown
     path.write_text(path.read_text().replace("9e3", "0.01"))
     with pytest.raises(sp.BadInput, match=r"Jm is 0\.01, but must be"):
         material_file.load_material(str(path))

@@ -297,6 +297,7 @@ def test_what_is_in_the_figure():
     np.testing.assert_allclose(np.sort(drawn), np.sort(found.residuals / 1e3))
 
 
+@pytest.mark.slow
 def test_errors_in_proportion_have_intervals_of_their_own():
     """Noise of 3 % of each stress: taken as equal the intervals hold too seldom, and that is told.
 

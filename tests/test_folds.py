@@ -59,9 +59,8 @@ def solved():
     law = CATALOGUE["latex"].law
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"))
     tube = tube_of(law, 1.5, case.load, 10.0)
-    return seat_on_stone(tube, Profile(1.2), partial(wrap_round_arc, case, 1.0, hoop_modulus(law)))[
-        0
-    ]
+    wrap_at = partial(wrap_round_arc, case, 10.0, 1.0, hoop_modulus(law))
+    return seat_on_stone(tube, Profile(1.2), wrap_at)[0]
 
 
 @pytest.mark.parametrize(
@@ -90,13 +89,13 @@ def test_a_real_wall_that_meets_itself_is_found(solved, component, change, where
 def test_a_real_wall_that_folds_over_is_found(solved):
     """An S: the wall comes back over itself with the radius changed on the way."""
     u, w, *_ = solved.discretisation.fields
-    kept = solved.discretisation.contact.vec.CreateVector()
-    kept.data = solved.discretisation.contact.vec
+    kept = solved.discretisation.state.vec.CreateVector()
+    kept.data = solved.discretisation.state.vec
     turn = ng.IfPos(ng.y - 4.0, ng.IfPos(7.0 - ng.y, ng.y - 4.0, 3.0), 0.0) * 2.0 * np.pi / 3.0
     w.Set(w - 1.5 * ng.sin(turn))
     u.Set(u + 0.5 * (1.0 - ng.cos(turn)) + 0.3 * ng.sin(2.0 * turn))
     try:
         assert self_contact(solved) is not None
     finally:
-        solved.discretisation.contact.vec.data = kept
+        solved.discretisation.state.vec.data = kept
     assert self_contact(solved) is None

@@ -91,7 +91,7 @@ def test_much_friction_is_full_stick(latex):
 
 def test_pressed_and_growing_differ_but_little_in_the_critical_pressure():
     # Friction has a path: the pressures near the equator differ, P_ucr by about 1 %.
-    quick = with_method(LATEX, accuracy="fast")
+    quick = replace(LATEX, numerics=sp.Numerics("fast"))
     pressures = [sp.solve(with_method(quick, seating=s)).pressure for s in ("pressed", "growing")]
     assert pressures[0] == pytest.approx(pressures[1], rel=0.02)
     assert pressures[0] != pytest.approx(pressures[1], rel=1e-4)

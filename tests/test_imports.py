@@ -49,6 +49,11 @@ def door(arguments):
         ("import stonepass.model.far_field", (*HEAVY, "scipy")),
         ("import stonepass.model.models.elastic_foundation", (*HEAVY, "scipy")),
         ("import stonepass.records.answer", (*HEAVY, "scipy")),
+        ("from stonepass.records import closures, compare, friction, rising", (*HEAVY, "scipy")),
+        (
+            "import stonepass.records.reference, stonepass.records.profile",  # all of them
+            (*ELEMENTS, *DRAWING, "pandas", "lmfit", "pint", "rich", "typer"),
+        ),
     ],
 )
 def test_heavy_libraries_stay_behind_their_door(statement, absent):

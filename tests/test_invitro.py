@@ -103,6 +103,7 @@ def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
     assert own.fitted.rmse < 2e-3 * float(np.mean(own.fitted.measured))
 
 
+@pytest.mark.slow
 def test_friction_intervals_cover_as_often_as_they_say():
     tubes = [*DRY, *DRY, *WET]
     covered = 0

@@ -10,15 +10,16 @@ import autograd.numpy as anp
 import ngsolve as ng
 import numpy as np
 import pytest
-from stonepass.fe.axisymmetric.discrete import discretise, free_unknowns, wall_form
 
 import stonepass as sp
 from stonepass.fe.axisymmetric.contact import Arc
+from stonepass.fe.axisymmetric.discretisation import discretise, free_unknowns, wall_form
 from stonepass.fe.axisymmetric.mesh import Layout
 from stonepass.fe.axisymmetric.problem import Tube
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.fe.axisymmetric.wall import SYMBOLS
-from stonepass.fe.core.newton import Plain, newton
+from stonepass.fe.core.newton import newton
+from stonepass.fe.core.systems import FormSystem
 from stonepass.inputs.material_file import load_material, write_law
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.composition import Composed, HasGroundMatrix, fibres_of
@@ -320,10 +321,10 @@ def test_finite_elements_of_an_inflated_tube_converge(law):
 def lumen_by_elements(tube, guess, rows):
     layout = Layout(np.linspace(1.0, tube.wall_ratio, rows + 1), np.array([0.0, 0.5]), 1)
     wall = discretise(tube, Arc.at(Profile(guess)), layout, 2)
-    u = wall.state.components[0]
+    u = wall.fields.u
     u.Set(ng.sqrt(ng.x * ng.x - 1.0 + guess * guess) - ng.x)
     free = free_unknowns(wall, "")
-    assert newton(Plain(wall_form(wall), wall.state, free), 1e-12).converged
+    assert newton(FormSystem(wall_form(wall), wall.state, free), 1e-12).converged
     return 1.0 + float(u(wall.mesh(1.0 + 1e-12, 0.2)))
 
 

@@ -672,7 +672,7 @@ def test_the_result_is_handed_on(tmp_path, capsys):
     handed = json.loads(capsys.readouterr().out)
     assert handed["case"]["stone"]["friction"] == 0.4375
     assert run(["pressure", *case, "--friction-from", str(path), "--friction", "0.3"]) == 2
-    assert "combination of --friction and --friction-from" in capsys.readouterr().err
+    assert "--friction-from cannot be used with --friction" in capsys.readouterr().err
     for content, sentence in (
         ("{", "friction file is"),
         ("[1]", "'friction_coefficient' is missing"),

@@ -217,7 +217,7 @@ def test_walls_of_the_new_laws_are_solved(law):
     """Stiffer fibres need more pressure; the state is in balance and stable."""
     found = fast(made_of(law))
     assert found.outcome is sp.Outcome.MOVES
-    assert found.seated.stability.margin > 0.0
+    assert found.contact.stability.margin > 0.0
     softer = fast(made_of(NeoHookean(law.mu / 2))) if hasattr(law, "k1") else None
     assert softer is None or found.pressure > softer.pressure
 

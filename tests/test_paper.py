@@ -313,7 +313,7 @@ def test_a_wall_beyond_its_stability_is_told_of():
     assert fig8._beyond(found, 1.3, 1.22) == ""
     for pressure, margin in ((4e3, 0.2), (8e3, -0.3)):
         job = PressureJob(fig8.ureter_case(1.3, 1.22, sp.Load(Pressure(pressure))))
-        found.found[job] = replace(found.found[job], contact=solved_with(margin))
+        found.by_job[job] = replace(found[job], contact=solved_with(margin))
     assert "(margin -0.30 at 8 kPa;" in fig8._beyond(found, 1.3, 1.22)
 
 
@@ -339,7 +339,7 @@ def test_what_is_in_fig_6(drawn, tmp_path):
     asked = Asked(inputs.LIMIT, points)
     found = made_up_results(fig6.Fig6(), asked)
     lost = PressureJob(inputs.latex_case(2.0, fig6.SIZES[-1]))
-    found.found[lost] = sp.Answer(
+    found.by_job[lost] = sp.Answer(
         lost.case, lost.case.model, lost.case.numerics, sp.Outcome.BEYOND_CLOSURE
     )
     fig6.Fig6().write(found, asked, tmp_path)

@@ -1,8 +1,6 @@
 """Records: what a command prints with --json is its record, and every key is in the reference."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -120,18 +118,6 @@ def test_a_comparison_adds_what_the_other_contact_gives():
     assert record.calculix.critical_pressure_kPa == record.critical_pressure_kPa
     assert record.calculix.contact_angle_deg == record.contact_angle_deg
     assert CompareRecord.model_validate(json.loads(json.dumps(record.to_dict()))) == record
-
-
-def test_records_load_neither_elements_nor_drawing():
-    """All of them in one fresh interpreter; pandas is slow to load as well."""
-    statement = "import stonepass.records.reference, stonepass.records.profile, sys"
-    absent = {"ngsolve", "netgen", "matplotlib", "PIL", "pandas", "lmfit", "rich", "typer"}
-    probe = f"{statement}; print(*sys.modules)"
-    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
-    loaded = set(done.stdout.split())
-    assert {f"stonepass.records.{name}" for name in ("answer", "assess", "fit")} <= loaded
-    assert loaded.isdisjoint(absent)
-    assert not [name for name in loaded if name.startswith("stonepass.report")]
 
 
 def test_every_public_name_is_there():

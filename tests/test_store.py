@@ -69,7 +69,7 @@ def assert_same(one, other):
     [
         FAST,
         asking(accuracy="fast", model="direct"),
-        asking(accuracy="fast", closure="series"),
+        pytest.param(asking(accuracy="fast", closure="series"), marks=pytest.mark.slow),
     ],
     ids=["paper", "direct", "series"],
 )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from stonepass.fe.axisymmetric.postprocessing import STRESSES, Field
+from stonepass.fe.axisymmetric.wall_values import STRESSES, Field
 
 __all__ = ["SEGMENTS", "Meridian", "meridian"]
 

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from stonepass.export.meridian import SEGMENTS, meridian
-from stonepass.fe.axisymmetric.postprocessing import Field
+from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.io.text_file import write_file
 
 __all__ = ["vtu_file", "write_vtu"]

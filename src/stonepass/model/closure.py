@@ -69,7 +69,12 @@ def fit_series(
     """The series nearest to pairs (ρ_α/R_s, r_a/R_a), α ≤ π/2, by least squares."""
     low, high = ORDER
     require(low <= order <= high, "order", order, f"{low} to {high}")
-    require(len(width) >= order, "pairs", len(width), f"at least as many as coefficients, {order}")
+    require(
+        len(width) >= order,
+        "number of opened states",
+        len(width),
+        f"at least {order}, the order of the series",
+    )
     t = _opening(width, first_width)
     powers = np.stack([t**k for k in range(1, order + 1)], axis=-1)
     found = np.linalg.lstsq(powers, (radius - start) / (size_ratio - start), rcond=None)[0]

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 if TYPE_CHECKING:  # loads the finite elements
-    from stonepass.fe.axisymmetric.postprocessing import Field
+    from stonepass.fe.axisymmetric.wall_values import Field
 
 __all__ = ["ContactState", "SolvedState"]
 

@@ -32,8 +32,8 @@ _SMOOTHER = "smooth the points, or leave out those of a dent"
 
 
 def shape_through(
-    z: Float[np.ndarray, " points"],
-    rho: Float[np.ndarray, " points"],
+    z: Float[np.ndarray, "..."],
+    rho: Float[np.ndarray, "..."],
     place: Callable[[int, str], str] | None = None,
 ) -> Shape:
     """Put a smooth convex shape through points of a meridian, in any one unit of length.
@@ -75,8 +75,8 @@ def _through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"])
 
 
 def _meridian(
-    z: Float[np.ndarray, " points"],
-    rho: Float[np.ndarray, " points"],
+    z: Float[np.ndarray, "..."],
+    rho: Float[np.ndarray, "..."],
     place: Callable[[int, str], str],
 ) -> Points:
     """Refuse what is no meridian from pole to pole; `place` says where a number stands."""

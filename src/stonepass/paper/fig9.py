@@ -174,7 +174,9 @@ def _agree(elements: Float[np.ndarray, " n"], beam: Float[np.ndarray, " n"]) -> 
 
 
 def _trends(
-    stiffness: Float[np.ndarray, " n"], friction: Float[np.ndarray, " n"], limit: Pressure
+    stiffness: Float[np.ndarray, " factors"],
+    friction: Float[np.ndarray, " frictions"],
+    limit: Pressure,
 ) -> list[Claim]:
     """Both fall, ever less; and doubling stiffness matters more than doubling friction."""
     if limit != LIMIT:

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc as Curve
 
 from stonepass.export.vtu import write_vtu
-from stonepass.fe.axisymmetric.postprocessing import Field
+from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.case import Case
 from stonepass.model.states.seated_state import SeatedState
 from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_case

@@ -33,6 +33,12 @@ class Record(PartRecord):
     version: str = Field(default=VERSION, description="version of stonepass")
     disclaimer: str = Field(default=DISCLAIMER, description="what the numbers are not for")
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return a JSON-ready dictionary: the result first, then what it says of itself."""
+        document = super().to_dict()
+        last = {name: document.pop(name) for name in Record.model_fields}
+        return document | last
+
 
 class CautionRecord(BaseModel):
     """A warning: its code for programs, its sentence for people."""

@@ -41,8 +41,8 @@ PREFACE = """# Keys of JSON records and of case files
 
 This page is generated from the records (`stonepass.records`) and from the declared inputs
 (`stonepass.declaration`); a test keeps it in step with them. The command `stonepass NAME --json`
-prints the record of that name. A number that does not exist is null; the last part of a key is
-its unit. `record_version` is raised when a key changes its name or its meaning. The
+prints the record of that name. A number that does not exist is null. A key of a number that has a
+unit ends with the unit. `record_version` is raised when a key changes its name or its meaning. The
 [glossary](glossary.md) explains the words, the symbols and the outcomes.
 """
 
@@ -112,14 +112,14 @@ def _table(record: type[BaseModel], left_out: tuple[str, ...]) -> list[str]:
 def _kind(annotation: Any) -> str:
     """Return a type in the words of JSON, with a link to a part or a record."""
     if annotation is Any:
-        return "number or other value"
+        return "any value"
     origin, inner = get_origin(annotation), get_args(annotation)
     if origin in (UnionType, Union):
         return " or ".join(map(_kind, inner))
-    if origin is list:
-        return f"list of {_kind(inner[0])}"
-    if origin is dict:
-        return f"object of {_kind(inner[1])}"
+    if origin in (list, dict):
+        kind = _kind(inner[-1])
+        kind = f"({kind})" if " or " in kind else kind
+        return f"{'list' if origin is list else 'object'} of {kind}"
     if issubclass(annotation, BaseModel):
         for command, record in RECORDS.items():
             if annotation is record:

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput
-from stonepass.fe.axisymmetric.postprocessing import Field
+from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.answer import Answer
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.models.seated_balance import SeatedBalance, SeatedBalanceDetail

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput, Outcome
-from stonepass.fe.axisymmetric.postprocessing import Field
+from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.answer import Answer
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.section import draw_section

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from stonepass.export.meridian import SEGMENTS, meridian
-from stonepass.fe.axisymmetric.postprocessing import Field
+from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.problem import Problem
 from stonepass.report.style import COLOURS, in_style, new_figure
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.tri import Triangulation
 
-from stonepass.fe.axisymmetric.postprocessing import Field
+from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.problem import Problem
 from stonepass.report.stone import draw_stone
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from stonepass.fe.axisymmetric.postprocessing import Field, Volume
+from stonepass.fe.axisymmetric.wall_values import Field, Volume
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem

@@ -33,7 +33,8 @@ FEB = Writer(
     limits={
         **SEATED_LIMITS,
         "law": Limit(
-            ("neo-hookean", "mooney-rivlin", "yeoh", "fung"), "write its constants as one of these"
+            ("neo-hookean", "mooney-rivlin", "yeoh", "ogden", "holzapfel-gasser-ogden", "fung"),
+            "write its constants as one of these",
         ),
     },
     ignores=SEATED_IGNORES,

@@ -39,9 +39,12 @@ INP = Writer(
     limits={
         **SEATED_LIMITS,
         "law": Limit(
-            ("neo-hookean", "mooney-rivlin", "yeoh", "fung"),
+            ("neo-hookean", "mooney-rivlin", "yeoh", "ogden", "holzapfel-gasser-ogden", "fung"),
             "write its constants as one of these",
-            needs={"fung": {"flavour": "abaqus"}},
+            needs={
+                "holzapfel-gasser-ogden": {"flavour": "abaqus"},
+                "fung": {"flavour": "abaqus"},
+            },
         ),
     },
     ignores=SEATED_IGNORES,

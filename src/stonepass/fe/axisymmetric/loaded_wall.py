@@ -10,16 +10,10 @@ from stonepass.fe.axisymmetric.balances import loaded_balance
 from stonepass.fe.axisymmetric.discretisation import Discretisation
 from stonepass.fe.axisymmetric.inner_wall import inner_wall
 from stonepass.fe.axisymmetric.mesh import Layout
-from stonepass.fe.axisymmetric.postprocessing import (
-    Deformation,
-    Field,
-    Volume,
-    deformation,
-    field,
-    volume,
-)
+from stonepass.fe.axisymmetric.postprocessing import deformation, field, volume
 from stonepass.fe.axisymmetric.sliding_state import SlidingState
 from stonepass.fe.axisymmetric.sliding_workspace import Workspace, load
+from stonepass.fe.axisymmetric.wall_values import Deformation, Field, Volume
 
 __all__ = ["FarField", "LoadedWall", "loaded_wall"]
 

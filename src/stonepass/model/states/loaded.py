@@ -20,7 +20,6 @@ from stonepass.errors import require
 from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
 from stonepass.fe.axisymmetric.inner_wall import inner_wall
 from stonepass.fe.axisymmetric.loaded_wall import loaded_wall
-from stonepass.fe.axisymmetric.postprocessing import Deformation
 from stonepass.fe.axisymmetric.problem import Failure, Resolution
 from stonepass.fe.axisymmetric.seating import seat_on_stone
 from stonepass.fe.axisymmetric.sliding_contact import (
@@ -34,6 +33,7 @@ from stonepass.fe.axisymmetric.sliding_workspace import (
     seated_configuration,
     workspace_for,
 )
+from stonepass.fe.axisymmetric.wall_values import Deformation
 from stonepass.fe.core.lobatto import joined, resampling
 from stonepass.fe.core.threads import one_thread
 from stonepass.materials.derivatives import hoop_modulus

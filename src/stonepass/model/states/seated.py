@@ -11,15 +11,10 @@ import numpy as np
 
 from stonepass.fe.axisymmetric.balances import axial_balance, cone_excess
 from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
-from stonepass.fe.axisymmetric.postprocessing import (
-    ContactProfile,
-    contact_profile,
-    deformation,
-    field,
-    volume,
-)
+from stonepass.fe.axisymmetric.postprocessing import contact_profile, deformation, field, volume
 from stonepass.fe.axisymmetric.problem import Failure, LoadingPath, Resolution
 from stonepass.fe.axisymmetric.seating import seat_on_stone
+from stonepass.fe.axisymmetric.wall_values import ContactProfile
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
 from stonepass.model.accuracy import ErrorEstimate, Level

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Int
 
 from stonepass.fe.axisymmetric.buckling import buckling_half_wave
-from stonepass.fe.axisymmetric.postprocessing import Deformation, Field
+from stonepass.fe.axisymmetric.wall_values import Deformation, Field
 from stonepass.materials.derivatives import rest_moduli
 from stonepass.materials.ellipticity import weakest
 from stonepass.materials.protocol import Law

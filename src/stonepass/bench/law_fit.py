@@ -42,11 +42,11 @@ class Data(Protocol):
 
     @property
     def observed(self) -> Float[np.ndarray, " n"]:
-        """What was measured, in Pa."""
+        """The measured quantity, in Pa."""
 
     @property
     def abscissa(self) -> Float[np.ndarray, " n"]:
-        """What it is drawn over."""
+        """The quantity on the horizontal axis of a drawing."""
 
     @property
     def groups(self) -> tuple[str, ...]:
@@ -57,7 +57,7 @@ class Data(Protocol):
         """Smallest and largest stretch."""
 
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
-        """The same by a law, in Pa."""
+        """The measured quantity as a law predicts it, in Pa."""
 
 
 @dataclass(frozen=True)

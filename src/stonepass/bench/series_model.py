@@ -130,7 +130,7 @@ class SeriesModel:
     points : sequence of Point
         One for each curve.
     weights : array (n)
-        Of the residuals, in 1/Pa.
+        Weights of the residuals, in 1/Pa.
     setting : Setting
     """
 

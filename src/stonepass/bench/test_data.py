@@ -41,12 +41,12 @@ class Tension:
 
     @property
     def observed(self) -> Float[np.ndarray, " n"]:
-        """What was measured, in Pa."""
+        """The measured quantity, in Pa."""
         return self.stress
 
     @property
     def abscissa(self) -> Float[np.ndarray, " n"]:
-        """What it is drawn over."""
+        """The quantity on the horizontal axis of a drawing."""
         return self.stretch
 
     @property
@@ -60,7 +60,7 @@ class Tension:
         return float(self.stretch.min()), float(self.stretch.max())
 
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
-        """The same by a law, in Pa."""
+        """The measured quantity as a law predicts it, in Pa."""
         found = np.empty_like(self.stress)
         names = np.array(self.axis)
         for axis in AXES:
@@ -94,12 +94,12 @@ class Inflation:
 
     @property
     def observed(self) -> Float[np.ndarray, " n"]:
-        """What was measured, in Pa."""
+        """The measured quantity, in Pa."""
         return self.pressure
 
     @property
     def abscissa(self) -> Float[np.ndarray, " n"]:
-        """What it is drawn over."""
+        """The quantity on the horizontal axis of a drawing."""
         return self.radius_ratio
 
     @property
@@ -113,7 +113,7 @@ class Inflation:
         return float(self.radius_ratio.min()), float(self.radius_ratio.max())
 
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
-        """The same by a law, in Pa."""
+        """The measured quantity as a law predicts it, in Pa."""
         found = np.empty_like(self.pressure)
         for stretch in np.unique(self.axial_stretch):
             chosen = self.axial_stretch == stretch

@@ -36,7 +36,7 @@ CLOSURE_CHOICES = (
     "method.series_order",
     "method.opening_curve",
 )
-# What a map varies, or has as ratios only.
+# Inputs that a map varies, or takes as ratios only.
 VARIED = (
     "stone.diameter",
     "ureter.inner_diameter",

@@ -38,12 +38,12 @@ class Assessment:
     critical, present : Range or None
         P_ucr, and the present urine pressure where the dilated segment was measured.
     below_limit, below_present : Fraction or None
-        Of samples whose P_ucr is below the pressure limit, below the present pressure.
+        Fractions of samples with P_ucr below the pressure limit, and below the present pressure.
     loose : float
         Fraction of samples in which the stone is no larger than the lumen; they count with
         P_ucr = 0.
     sensitivity : tuple of SensitivityIndex
-        Of the rank of P_ucr, by the names in `patient.INPUTS`; the largest first.
+        Sensitivity indices of the rank of P_ucr, by the names in `patient.INPUTS`; largest first.
     by_size : tuple of (float, Fraction)
         Stone diameters in mm, and the fraction below the limit if the stone had that size.
     samples : Samples or None

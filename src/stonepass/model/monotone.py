@@ -27,7 +27,7 @@ class MonotoneIntegral:
     x : array
         The points, rising.
     coefficients : array
-        Of the powers 0 to 4 of x − x_k, in each interval.
+        Coefficients of the powers 0 to 4 of x − x_k, in each interval.
     """
 
     x: Points

@@ -15,7 +15,7 @@ __all__ = ["AnswerRecord", "SolverRecord", "answer_record"]
 
 
 class SolverRecord(PartRecord):
-    """What the finite elements did; null in a model without any."""
+    """Effort and residuals of the finite-element solve; null in a model without finite elements."""
 
     dofs: int | None = Field(description="unknowns of the last mesh")
     newton_steps: int | None = Field(

@@ -86,7 +86,7 @@ class MeasuredRecord(PartRecord):
 
 
 class AssessInputsRecord(PartRecord):
-    """What was said of the patient."""
+    """The inputs of the assessment, as the patient file gave them."""
 
     file: str = Field(description="name of the patient's file")
     measured: dict[str, MeasuredRecord] = Field(

@@ -14,7 +14,7 @@ __all__ = ["CalculixRecord", "CompareRecord", "compare_record"]
 
 
 class CalculixRecord(PartRecord):
-    """What follows from the contact that CalculiX found."""
+    """The numbers that the force balance gives with the contact that CalculiX found."""
 
     contact_angle_deg: float = Field(description="angle at which the contact begins")
     equator_contact_pressure_kPa: float = Field(description="contact pressure at θ = 90°")

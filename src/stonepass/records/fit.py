@@ -47,7 +47,7 @@ class FitPointRecord(PartRecord):
 
 
 class FitInputsRecord(PartRecord):
-    """What was asked of a fit."""
+    """The settings of a fit."""
 
     file: str = Field(description="name of the data file")
     relative: bool = Field(
@@ -57,7 +57,7 @@ class FitInputsRecord(PartRecord):
 
 
 class TensileInputsRecord(FitInputsRecord):
-    """What was asked of a fit to strips in tension."""
+    """The settings of a fit to strips in tension."""
 
     width_m: float | None = Field(
         default=None, description="width of the strip at rest, where given"
@@ -68,7 +68,7 @@ class TensileInputsRecord(FitInputsRecord):
 
 
 class InflationInputsRecord(FitInputsRecord):
-    """What was asked of a fit to a tube under pressure."""
+    """The settings of a fit to a tube under pressure."""
 
     inner_diameter_m: float = Field(description="inner diameter of the tube at rest")
     outer_diameter_m: float = Field(description="outer diameter of the tube at rest")

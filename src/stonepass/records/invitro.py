@@ -75,7 +75,7 @@ class InVitroPointRecord(PartRecord):
 
 
 class InVitroInputsRecord(PartRecord):
-    """What was asked of a series."""
+    """The settings of the comparison with a measured series."""
 
     file: str = Field(description="name of the file of the points")
     material: str = Field(description="name of the material")

@@ -30,7 +30,7 @@ def draw(
     count : int
         Number of draws wanted, at least 1.
     seed : int
-        Of the scrambling, 0 to 2³² − 1.
+        Seed of the scrambling, 0 to 2³² − 1.
     keep : callable
         Takes the draws and, for each, a number that is uniform between 0 and 1 and independent of
         them; returns which draws are kept. With the number a draw can be kept with a probability.

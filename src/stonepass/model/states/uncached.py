@@ -27,6 +27,7 @@ class _Uncached:
         numerics: Numerics,
         resolution: Resolution | None = None,
     ) -> SeatedState | NoSeat:
+        """See `StateSolver.seat`."""
         from stonepass.model.states.seated import solve_seated
 
         return solve_seated(case, seating, numerics, resolution)
@@ -40,6 +41,7 @@ class _Uncached:
         wetted: bool,
         leak: bool,
     ) -> list[Critical | NoPush]:
+        """See `StateSolver.push`."""
         from stonepass.model.states.loaded import find_critical
 
         return find_critical(case, numerics, resolutions, wetted=wetted, leak=leak)
@@ -53,11 +55,13 @@ class _Uncached:
         *,
         wetted: bool,
     ) -> list[PushedState | NoPush]:
+        """See `StateSolver.hold`."""
         from stonepass.model.states.loaded import solve_loaded
 
         return solve_loaded(case, numerics, pressures, resolution, wetted=wetted)
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
+        """See `StateSolver.opening_curve`."""
         from stonepass.model.states.opening import solve_opening_curve
 
         return solve_opening_curve(case, numerics)

@@ -3,6 +3,7 @@
 An export format by the same recipe is tested in `test_writers`.
 """
 
+import importlib
 import importlib.util
 import json
 import sys
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 
 import stonepass as sp
+import stonepass.cli
 from stonepass.cli import run
 from stonepass.inputs import material_file
 from stonepass.inputs.catalogue import all_inputs
@@ -37,6 +39,10 @@ def load(name):
 @pytest.fixture
 def plug(monkeypatch):
     module = load("plug_model")
+    # The options of a command are made when its file is loaded: load it anew, and restore it after.
+    before = importlib.import_module("stonepass.cli.pressure")
+    monkeypatch.setattr(stonepass.cli, "pressure", before)
+    monkeypatch.delitem(sys.modules, "stonepass.cli.pressure")
     monkeypatch.setitem(MODELS, "plug", module.Plug)
     all_inputs.cache_clear()
     yield module

@@ -49,7 +49,7 @@ def known_profile(distance, k0=0.38, k1=0.12, orders=(8, 16)):
 def cubic_crystals(rows=400, columns=512, pixel=0.5, edge=20.0, count=900):
     """Heights in µm of a heap of cubes that stand on a corner, each turned about its diagonal."""
     generator = np.random.default_rng(SEED)
-    y, x = np.mgrid[0:rows, 0:columns] * pixel
+    grid = np.mgrid[0:rows, 0:columns] * pixel
     surface = np.full((rows, columns), -np.inf)
     span = np.array([columns, rows]) * pixel
     for _ in range(count):
@@ -57,14 +57,20 @@ def cubic_crystals(rows=400, columns=512, pixel=0.5, edge=20.0, count=900):
         top = generator.uniform(0.55, 1.0) * np.sqrt(3.0) * edge
         turn = generator.uniform(0.0, 2.0 * np.pi / 3.0)
         tilt = generator.normal(0.0, 0.12, 2)
+        radius = size * np.sqrt(2.0 / 3.0)
+        first = np.maximum(np.floor((centre - radius) / pixel), 0.0).astype(int)
+        last = np.ceil((centre + radius) / pixel).astype(int) + 1
+        window = slice(first[1], last[1]), slice(first[0], last[0])
+        y, x = grid[:, *window]
         faces = []
         for k in range(3):
             angle = turn + 2.0 * np.pi * k / 3.0
             along = (x - centre[0]) * np.cos(angle) + (y - centre[1]) * np.sin(angle)
             faces.append(top - np.sqrt(2.0) * along)  # a face falls by √2 away from the corner
         cube = np.minimum.reduce(faces) + tilt[0] * (x - centre[0]) + tilt[1] * (y - centre[1])
-        near = np.hypot(x - centre[0], y - centre[1]) < size * np.sqrt(2.0 / 3.0)
-        surface = np.where(near, np.maximum(surface, cube), surface)
+        near = np.hypot(x - centre[0], y - centre[1]) < radius
+        below = surface[window]
+        surface[window] = np.where(near, np.maximum(below, cube), below)
     return surface - surface.min()
 
 

@@ -29,6 +29,7 @@ PRESSURE_KEYS = [
 ]  # fmt: skip
 LATEX = ["--xi", "1.2", "--eta", "1.5", "--material", "latex", "--seating", "frictionless"]
 FAST = ["--accuracy", "fast"]  # where a test is about the door, not about the number
+SMOOTH = [*FAST, "--seating", "frictionless"]
 
 
 PROGRESS = "solving for the wall …\n"  # where a slow machine takes over a second
@@ -404,7 +405,7 @@ def test_size_takes_the_direct_model(cli):
 
 def test_size_json(cli):
     code, out, _ = cli(
-        "size", "--inner", "3.5mm", "--outer", "4.55mm", "--limit", "90mmHg", *FAST, "--json"
+        "size", "--inner", "3.5mm", "--outer", "4.55mm", "--limit", "90mmHg", *SMOOTH, "--json"
     )
     record = json.loads(out)
     assert code == 0
@@ -415,7 +416,7 @@ def test_size_json(cli):
     assert record["critical_diameter_mm"] == pytest.approx(3.5 * record["critical_size_ratio"])
     assert record["critical_pressure_kPa"] == pytest.approx(record["limit_kPa"], rel=1e-4)
     assert 0.0 < record["critical_size_ratio_error"] < 5e-3
-    no_lengths = json.loads(cli("size", "--eta", 1.3, "--limit", "12kPa", *FAST, "--json")[1])
+    no_lengths = json.loads(cli("size", "--eta", 1.3, "--limit", "12kPa", *SMOOTH, "--json")[1])
     assert no_lengths["critical_diameter_mm"] is None
     assert no_lengths["critical_size_ratio"] > 1.2
 

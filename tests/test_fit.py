@@ -82,7 +82,7 @@ def test_new_laws_in_the_far_field_and_the_wall():
             rtol=1e-10,
         )
         alike = sp.Material("alike", law, "s", "t", "v", (1.0, 1.5))
-        method = asking(accuracy="fast")
+        method = asking(accuracy="fast", seating="frictionless")
         stone = sp.Stone(size_ratio=1.2, friction=0.4)
         one, other = (
             sp.critical_pressure(stone, sp.Ureter(wall_ratio=1.5, material=each), **method)

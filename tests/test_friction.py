@@ -11,10 +11,14 @@ from stonepass.model.case_states import seat
 from stonepass.model.seating import Seating
 from stonepass.model.states.seated_state import SeatedState
 
+FAST = sp.Numerics("fast")
+STANDARD = sp.Numerics()
 LATEX = sp.Case(
-    sp.Stone(size_ratio=1.2, friction=0.475), sp.Ureter(wall_ratio=1.5, material="latex")
+    sp.Stone(size_ratio=1.2, friction=0.475),
+    sp.Ureter(wall_ratio=1.5, material="latex"),
+    numerics=FAST,
 )
-THIN = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3))
+THIN = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3), numerics=FAST)
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +63,8 @@ def test_each_half_is_in_axial_balance(case):
     bath = replace(case, load=sp.Load("3 kPa", "hydrostatic"))
     for seating, bound in (("frictionless", 1e-4), ("pressed", 2e-3)):
         for loaded in (case, bath):
-            assert seat(with_method(loaded, seating=seating)).solver.axial_balance < bound
+            state = seat(with_method(loaded, seating=seating), STANDARD.resolution)
+            assert state.solver.axial_balance < bound
 
 
 def test_no_friction_is_the_frictionless_state():
@@ -117,7 +122,7 @@ def test_an_increment_that_fails_is_halved(monkeypatch, latex):
         return replace(report, reason="made to fail") if calls["count"] == 2 else report
 
     monkeypatch.setattr(module, "newton_or_homotopy", flaky)
-    state = seat(LATEX)
+    state = seat(LATEX, STANDARD.resolution)
     assert isinstance(state, SeatedState)
     assert calls["count"] >= 10  # eight increments, one halved, one tried twice
     assert state.contact_angle == pytest.approx(latex.contact_angle, abs=1e-3)
@@ -138,9 +143,10 @@ def test_where_no_smooth_edge_is_found_the_state_says_so(monkeypatch):
     import stonepass.fe.axisymmetric.seating as module
     from stonepass.fe.axisymmetric.problem import Failure
 
-    good = sp.solve(LATEX)
+    case = replace(LATEX, numerics=STANDARD)
+    good = sp.solve(case)
     monkeypatch.setattr(module, "solve_fitted_contact", lambda *_: Failure("made to fail", 1))
-    answer = sp.solve(LATEX)
+    answer = sp.solve(case)
     assert answer.outcome is sp.Outcome.MOVES
     assert any("contact angle is known to" in str(warning) for warning in answer.warnings)
     uncertainty = answer.contact.contact_angle_uncertainty

@@ -370,6 +370,7 @@ def test_the_programs_have_the_energy_of_the_law():
     assert 1e3 * found == pytest.approx(hgo.energy(C, INNER_WALL, np), rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
 def test_calculix_takes_ogdens_constants_as_we_do(tmp_path):
     """The Ogden law with powers 2 and −2 is the Mooney–Rivlin law, in CalculiX too."""

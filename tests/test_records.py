@@ -19,6 +19,7 @@ from stonepass.records.reference import LISTS, RECORDS, parts, reference
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 LOOSE = "--xi 0.9 --eta 1.3 --json"
+TUBE_OF_LATEX = "--xi 1.2 --eta 1.5 --material latex --accuracy fast"
 BEAM = "--model beam --E1 0.465MPa --E2 0.02MPa --eta 1.3"
 STRIPS = f"{EXAMPLES}/latex_tensile.csv --law neo-hookean --width 10mm --thickness 1.2mm"
 TUBE = f"{EXAMPLES}/ureter_inflation.csv --law neo-hookean --inner 3mm --outer 4mm"
@@ -28,9 +29,9 @@ DOORS = {
     "size": f"size {BEAM} --limit 4kPa --json",
     "curve": f"curve {BEAM} --xi 0.9:1.35:0.15 --no-cache --json",
     "closures of a loose stone": f"closures {LOOSE} --no-cache",
-    "closures": "closures --xi 1.2 --eta 1.3 --accuracy fast --no-cache --json",
+    "closures": f"closures {TUBE_OF_LATEX} --no-cache --json",
     "push of a loose stone": f"push {LOOSE} --no-cache",
-    "push": "push --xi 1.2 --eta 1.3 --accuracy fast --steps 2 --no-cache --json",
+    "push": f"push {TUBE_OF_LATEX} --steps 2 --no-cache --json",
     "friction": f"friction {EXAMPLES}/known_slopes.png --pixel 0.5um --height-range 24.8um --json",
     "fit of strips": f"fit tensile {STRIPS} --json",
     "fit of a tube": f"fit inflation {TUBE} --json",

@@ -4,6 +4,7 @@ The doors are left out: they refuse wrong types themselves with a sentence, whic
 `test_annotations.py` counts the modules.
 """
 
+import os
 from pathlib import Path
 
 import first_call
@@ -69,14 +70,19 @@ def solved(monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def solutions_of_this_session():
-    """What `shared_solutions` has solved so far, by the function and its arguments."""
-    return {}
+def solutions_of_this_run(tmp_path_factory):
+    """Solution cache of all processes of this run, and what this process has asked it for."""
+    from stonepass.studies.solution_cache import SolutionCache
+
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent  # that of the run; each worker's own is below it
+    return SolutionCache(folder / "solutions", walls=True), {}
 
 
 @pytest.fixture
-def shared_solutions(request, monkeypatch, solutions_of_this_session):
-    """A question that the finite elements have answered in this session is not solved again.
+def shared_solutions(request, monkeypatch, solutions_of_this_run):
+    """A question that the finite elements have answered in this run is not solved again.
 
     For tests of the doors and of what is made of states, many of which ask for the same state.
     Tests of the solver and of the solution cache do without, so that they do solve; so does a
@@ -84,14 +90,21 @@ def shared_solutions(request, monkeypatch, solutions_of_this_session):
     """
     if request.node.get_closest_marker("afresh"):
         return
-    known = solutions_of_this_session
+    cache, known = solutions_of_this_run
+    asking_cache = []
 
     def once(name, function):
         def answered(*arguments, **keywords):
+            if asking_cache:  # which solves what it does not hold
+                return function(*arguments, **keywords)
             words = sorted(keywords.items())
             key = (name, *(tuple(a) if isinstance(a, list) else a for a in arguments), *words)
             if key not in known:
-                known[key] = function(*arguments, **keywords)
+                asking_cache.append(name)
+                try:
+                    known[key] = getattr(cache, name)(*arguments, **keywords)
+                finally:
+                    asking_cache.clear()
             found = known[key]
             return list(found) if isinstance(found, list) else found
 

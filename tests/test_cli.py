@@ -342,7 +342,7 @@ def test_the_direct_model_answers_draws_and_writes(cli, tmp_path):
 def test_a_long_stone_needs_more_pressure_and_its_case_file_keeps_the_aspect(cli, tmp_path):
     for model in ("paper", "direct"):
         saved = tmp_path / f"long-{model}.toml"
-        common = (*LATEX[:6], "--model", model, "--accuracy", "fast")
+        common = (*(LATEX if model == "paper" else LATEX[:6]), "--model", model, *FAST)
         sphere = json.loads(cli("pressure", *common, "--json")[1])
         record = json.loads(cli("pressure", *common, "--aspect", 1.4, "--save", saved, "--json")[1])
         assert record["case"]["stone"]["shape"]["aspect"] == 1.4
@@ -357,11 +357,20 @@ def test_a_long_stone_needs_more_pressure_and_its_case_file_keeps_the_aspect(cli
 def test_a_stone_by_its_meridian(cli, tmp_path):
     """The example's egg: both models, its pictures, its case file; and what is refused."""
     egg = Path(__file__).parents[1] / "examples" / "egg.csv"
-    common = (*LATEX[:6], "--shape", egg, "--accuracy", "fast")
-    for model in ("paper", "direct"):
+    common = (*LATEX[:6], "--shape", egg, *FAST)
+    for model, options in (("paper", LATEX[6:]), ("direct", ())):
         saved, figure = tmp_path / f"{model}.toml", tmp_path / f"{model}.svg"
         code, out, _ = cli(
-            "pressure", *common, "--model", model, "--save", saved, "--figure", figure, "--json"
+            "pressure",
+            *common,
+            *options,
+            "--model",
+            model,
+            "--save",
+            saved,
+            "--figure",
+            figure,
+            "--json",
         )
         assert code == 0
         record = json.loads(out)
@@ -372,7 +381,7 @@ def test_a_stone_by_its_meridian(cli, tmp_path):
         assert figure.stat().st_size > 10_000
         again = json.loads(cli("pressure", saved, "--json")[1])
         assert again["critical_pressure_kPa"] == record["critical_pressure_kPa"]
-    table = cli("pressure", *common)[1]
+    table = cli("pressure", *common, *LATEX[6:])[1]
     assert "shape egg.csv" in table
     assert "contact ends" in table
     code, _, err = cli("pressure", *common, "--aspect", 1.2)

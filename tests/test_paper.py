@@ -42,6 +42,12 @@ def fast():
             return replace(plain(eta, xi, load, model or default), numerics=Numerics("fast"))
 
         patch.setattr(module, "ureter_case", quick)
+    tube = inputs.latex_case
+    patch.setattr(
+        seated_figures,
+        "latex_case",
+        lambda *given: replace(tube(*given), numerics=Numerics("fast")),
+    )
     patch.setattr(fig9, "SIZES", (1.0, *(round(1.03 + 0.03 * k, 2) for k in range(10))))
     patch.setattr(fig6, "SIZES", (1.0, 1.2, 1.4))
     yield

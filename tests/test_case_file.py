@@ -92,6 +92,7 @@ def test_a_missing_or_binary_file_is_refused(tmp_path):
         read_case(tmp_path / "b.toml")
 
 
+@pytest.mark.slow
 @given(st.text(max_size=200))
 @settings(max_examples=200, deadline=None)
 def test_any_text_is_read_or_refused(text):

@@ -119,7 +119,8 @@ def test_rising_pressure_ends_where_the_stone_moves_and_the_seat_is_measured_aga
 
 
 def test_closures_and_push_at_the_door(tmp_path, capsys):
-    stone = ["--xi", "1.2", "--eta", "1.5", "--material", "latex", "--accuracy", "fast"]
+    stone = ["--xi", "1.2", "--eta", "1.5", "--material", "latex", "--friction", "0.475",
+             "--accuracy", "fast"]  # fmt: skip
     assert run(["closures", *stone, "--figure", str(tmp_path / "c.svg"), "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
     assert set(record) >= {"direct_pressure_kPa", "energy_error", "series_coefficients"}

@@ -80,13 +80,12 @@ def test_no_friction_is_the_frictionless_state():
     assert changes[2] < 2e-4
 
 
+STICKING = [with_method(LATEX, seating_friction=mu) for mu in (1.0, 2.0)]
+
+
 def test_much_friction_is_full_stick(latex):
     """Beyond some friction nothing slips but the very edge, and more friction changes nothing."""
-    cases = [with_method(LATEX, seating_friction=mu) for mu in (1.0, 2.0)]
-    # The slip of the last increment, next to the edge, is what is left: none of it at 32.
-    finely = [seat(case, Resolution(increments=32)).contact_angle for case in cases]
-    assert finely[0] == pytest.approx(finely[1], abs=3e-6)
-    one, two = (seat(case) for case in cases)
+    one, two = (seat(case) for case in STICKING)
     assert abs(one.contact_angle - two.contact_angle) < one.error.contact_angle
     middle = np.abs(one.theta - np.pi / 2) < np.pi / 2 - one.contact_angle - 0.05
     slipping = np.abs(two.friction_traction) >= 1.999 * two.contact_pressure
@@ -100,6 +99,13 @@ def test_pressed_and_growing_differ_but_little_in_the_critical_pressure():
     pressures = [sp.solve(with_method(quick, seating=s)).pressure for s in ("pressed", "growing")]
     assert pressures[0] == pytest.approx(pressures[1], rel=0.02)
     assert pressures[0] != pytest.approx(pressures[1], rel=1e-4)
+
+
+@pytest.mark.slow
+def test_much_friction_with_many_increments_does_not_slip_at_all():
+    """The slip of the last increment, next to the edge, is what is left: none of it at 32."""
+    finely = [seat(case, Resolution(increments=32)).contact_angle for case in STICKING]
+    assert finely[0] == pytest.approx(finely[1], abs=3e-6)
 
 
 @pytest.mark.parametrize("case", [LATEX, THIN], ids=["latex", "ureter"])

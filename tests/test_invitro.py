@@ -86,7 +86,7 @@ def test_a_point_without_an_answer_is_counted_not_averaged():
 def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
     """A wall of 1.3 times the modulus, dry and under water, against the material's own stiffness."""
     stiff = Material("stiff", NeoHookean(1.3 * 0.1465e6), "", "", "", (1.0, 1.5))
-    tubes, solver = [*DRY, WET[0]], JobSolver(cache_folder=tmp_path)
+    tubes, solver = [*DRY[:3], WET[0]], JobSolver(cache_folder=tmp_path)
     blank = series([1.0] * len(tubes), tubes)
     measured = compare(blank, 0.35, replace(QUICK, material=stiff), solver).predicted
     found = fit_friction(series(measured, tubes), QUICK, solver=solver)

@@ -201,7 +201,7 @@ def _solve_in(folder):
 
 def test_processes_share_a_folder(tmp_path):
     with get_context("spawn").Pool(2) as pool:
-        pressures = pool.map(_solve_in, [tmp_path] * 4)
+        pressures = pool.map(_solve_in, [tmp_path] * 3)
     assert len(set(pressures)) == 1
     assert len(files(SolutionCache(tmp_path))) == 1
     assert SolutionCache(tmp_path).set_aside() == 0

@@ -9,7 +9,7 @@ from stonepass.inputs.material_file import load_material
 from stonepass.materials.derivatives import hoop_energy_slope
 from stonepass.strain import INNER_WALL, CauchyGreen
 
-FAST = asking(accuracy="fast")
+FAST = asking(accuracy="fast", seating="frictionless")
 RUBBER = """
 source = "a bench"
 strain_range = (1.0, 1.6)

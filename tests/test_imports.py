@@ -40,8 +40,8 @@ def door(arguments):
         (door("--help"), (*HEAVY, "numpy", "scipy", "pint", "pydantic", "autograd", "rich")),
         (door("pressure --help"), (*HEAVY, "scipy", "pint", "autograd")),
         (door("material show ureter"), (*HEAVY, "scipy")),
-        (door("pressure --xi 0.9 --eta 1.3 --json"), (*HEAVY, "pint", "scipy")),
-        (door(f"pressure {BEAM} --json"), (*HEAVY, "pint", "scipy")),
+        (door("pressure --xi 0.9 --eta 1.3 --json"), (*HEAVY, "pint", "scipy", "rich")),
+        (door(f"pressure {BEAM} --json"), (*HEAVY, "pint", "scipy", "jaxtyping", "rich")),
         (door(f"size {BEAM[9:]} --limit 4kPa"), (*HEAVY, "pint", "scipy")),
         (door(f"pressure {FRICTIONLESS} --json"), (*DRAWING, *TABLES, "pint", "scipy.optimize")),
         ("import stonepass; stonepass.Ureter(wall_ratio=1.3)", (*HEAVY, "scipy")),
@@ -116,7 +116,7 @@ LATE_LIBRARIES = {
     "resource": ("sandbox.worker",),
     "scipy.optimize": ("model.energy_balance", "model.shape_fit"),
     "autograd": ("materials.derivatives", "materials.secant"),
-    "autograd.numpy": ("materials.derivatives", "materials.secant"),
+    "autograd.numpy": ("inputs.material_file", "materials.derivatives", "materials.secant"),
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
     "scipy.ndimage": ("surface.friction", "surface.paths"),
@@ -126,6 +126,7 @@ LATE_LIBRARIES = {
 # Modules of this package that load the finite elements, or NumPy for what is only declared, and
 # who asks for them late.
 LATE_OWN = {
+    "materials.principal_stretches": ("materials.spectral_power",),
     "model.states.uncached": ("model.states.",),
     "studies.solution_cache": ("studies.serialisation",),
     "export.api": ("model.critical",),

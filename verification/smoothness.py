@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from cores import on_all_cores
-from jaxtyping import Float
 from page import Check, Section
 from robustness import describe, families
 
 import stonepass as sp
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.far_field import lumen_ratio
 

@@ -13,8 +13,8 @@ from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput
 
 __all__ = ["Length", "Pressure", "Values", "format_length", "format_pressure", "length", "pressure"]

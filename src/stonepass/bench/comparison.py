@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.protocol import Material

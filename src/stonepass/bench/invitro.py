@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 from scipy.optimize import minimize_scalar
 from scipy.stats import f as f_distribution
 
+from stonepass.array_types import Float
 from stonepass.bench.comparison import Comparison, Setting, compare
 from stonepass.bench.least_squares import (
     LEVEL,

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float
 from scipy.stats import spearmanr
 
+from stonepass.array_types import Float
 from stonepass.bench.least_squares import correlations, intervals, lmfit
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, Unit

@@ -13,8 +13,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.bench.comparison import Setting
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point

@@ -16,6 +16,8 @@ EXIT_NO_ANSWER, EXIT_BAD_REQUEST, EXIT_FAULT = 1, 2, 3
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit."""
+    # Looking for plug-ins of pydantic reads the metadata of every installed package.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
 

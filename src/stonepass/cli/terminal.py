@@ -8,19 +8,31 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
-from typing import Any
-
-from rich.console import Console
+from typing import TYPE_CHECKING, Any
 
 from stonepass.io.text_file import check_writable
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 __all__ = ["FIGURES", "counting", "print_json", "show", "warn", "working", "writable"]
 
 FIGURES = (".svg", ".png", ".pdf")
-_OUT = Console(highlight=False, soft_wrap=False)
-_ERR = Console(stderr=True, highlight=False)
 PLAIN_INTERVAL = 2.0  # seconds between lines where stderr is not a terminal
+
+
+@lru_cache
+def _console(*, stderr: bool = False) -> Console:
+    """Return the console of stdout or stderr; a command that prints JSON alone needs none."""
+    from rich.console import Console
+
+    return Console(stderr=stderr, highlight=False, soft_wrap=False)
+
+
+def _on_terminal() -> bool:
+    return sys.stderr.isatty()
 
 
 def print_json(record: Any) -> None:
@@ -32,20 +44,24 @@ def show(*parts: Any) -> None:
     """Print tables and sentences for a person."""
     for part in parts:
         sentence = isinstance(part, str)
-        _OUT.print(part, soft_wrap=sentence, markup=not sentence)
+        _console().print(part, soft_wrap=sentence, markup=not sentence)
 
 
 def warn(warnings: Iterable[object]) -> None:
     """Print warnings on stderr: sentences, or cautions that have one."""
     for sentence in map(str, warnings):
-        _ERR.print(f"warning: {sentence}", style="yellow", soft_wrap=True, markup=False)
+        if _on_terminal():
+            line = f"warning: {sentence}"
+            _console(stderr=True).print(line, style="yellow", soft_wrap=True, markup=False)
+        else:
+            print(f"warning: {sentence}", file=sys.stderr)
 
 
 @contextmanager
 def working(what: str) -> Iterator[None]:
     """Say what is being done: a spinner on a terminal, else one line after a second."""
-    if _ERR.is_terminal:
-        with _ERR.status(what):
+    if _on_terminal():
+        with _console(stderr=True).status(what):
             yield
         return
     line = threading.Timer(1.0, print, (f"{what} …",), {"file": sys.stderr, "flush": True})
@@ -65,11 +81,11 @@ def writable(path: Path | None, endings: tuple[str, ...]) -> None:
 @contextmanager
 def counting(what: str) -> Iterator[Callable[[int, int], None]]:
     """Yield a function that is told (done, all): a bar on a terminal, else a line now and then."""
-    if _ERR.is_terminal:
+    if _on_terminal():
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
-        with Progress(*columns, console=_ERR, transient=True) as bar:
+        with Progress(*columns, console=_console(stderr=True), transient=True) as bar:
             task = bar.add_task(what, total=None)
             yield lambda done, total: bar.update(task, completed=done, total=total)
         return

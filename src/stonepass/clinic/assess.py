@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool, Float
 
+from stonepass.array_types import Bool, Float
 from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.assessment_warnings import assessment_warnings
 from stonepass.clinic.cohorts import Row, rows_for

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool
 
+from stonepass.array_types import Bool
 from stonepass.clinic.assessment import Assessment
 
 __all__ = ["assessment_warnings"]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool, Float
 
+from stonepass.array_types import Bool, Float
 from stonepass.clinic.patient import Patient
 from stonepass.errors import BadInput
 from stonepass.model.ureter import WALL_RATIO

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
+
+from stonepass.array_types import Bool, Float
 
 __all__ = [
     "FEWER",

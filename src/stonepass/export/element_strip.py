@@ -7,8 +7,8 @@ can do. So other programs get the surface of the stone as elements whose nodes a
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import require
 from stonepass.export.grid import Grid, grid
 from stonepass.fe.axisymmetric.profile import Profile

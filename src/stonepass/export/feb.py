@@ -11,9 +11,9 @@ from __future__ import annotations
 from xml.etree.ElementTree import Comment, Element, SubElement, indent, tostring
 
 import numpy as np
-from jaxtyping import Num
 
 from stonepass.about import DISCLAIMER
+from stonepass.array_types import Num
 from stonepass.export.feb_material import add_wall_material
 from stonepass.export.seating import KPA, MM, Seating
 from stonepass.export.wedge import WEDGE, Wedge

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
+
+from stonepass.array_types import Float, Int
 
 __all__ = ["Grid", "grid"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float, Int
 
+from stonepass.array_types import Float, Int
 from stonepass.fe.axisymmetric.wall_values import STRESSES, Field
 
 __all__ = ["SEGMENTS", "Meridian", "meridian"]

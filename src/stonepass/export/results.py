@@ -7,9 +7,9 @@ import re
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 from scipy.interpolate import PchipInterpolator
 
+from stonepass.array_types import Float
 from stonepass.errors import require
 from stonepass.export.seating import KPA, MM, Seating
 from stonepass.io.text_file import read_text

@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
 from stonepass.about import VERSION
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
 from stonepass.export.checks import checked_value
 from stonepass.export.element_strip import CLEARANCE, element_strip

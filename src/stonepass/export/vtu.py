@@ -7,8 +7,8 @@ from tempfile import TemporaryDirectory
 
 import meshio
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.export.meridian import SEGMENTS, meridian
 from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.io.text_file import write_file

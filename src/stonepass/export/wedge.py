@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float, Int
 
+from stonepass.array_types import Float, Int
 from stonepass.export.grid import Grid
 
 __all__ = ["WEDGE", "Wedge"]

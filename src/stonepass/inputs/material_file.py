@@ -8,7 +8,6 @@ from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any
 
-import autograd.numpy as anp
 import numpy as np
 import tomli_w
 from pydantic import BaseModel, ConfigDict, Field, create_model
@@ -123,6 +122,8 @@ def _from_python(path: Path, name: str, text: str) -> Material:
 
 def _try_out(law: UserLaw) -> None:
     """Evaluate the law on arrays of plausible strains and refuse what is not a finite energy."""
+    import autograd.numpy as anp
+
     t, z = (np.array(column) for column in zip(*_TRIAL, strict=True))
     with np.errstate(all="ignore"):  # what is not finite is refused below
         C = CauchyGreen(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.fe.axisymmetric.profile import ROUND
 from stonepass.io.csv_file import read_columns

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.io.text_file import read_text
 

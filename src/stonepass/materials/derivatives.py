@@ -10,8 +10,8 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.materials.protocol import Law
 from stonepass.strain import INNER_WALL, CauchyGreen, Place
 from stonepass.units import Values

@@ -19,8 +19,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.materials.derivatives import energy_derivatives, rest_moduli
 from stonepass.materials.protocol import Law
 from stonepass.strain import CauchyGreen, Place

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, UnstableLaw
 from stonepass.materials.derivatives import rest_gradient, rest_moduli
 from stonepass.materials.ellipticity import weakest

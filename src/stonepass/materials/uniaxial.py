@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import require
 from stonepass.materials.protocol import Law
 from stonepass.strain import INNER_WALL, CauchyGreen

@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 from numpy.polynomial import Polynomial
 
+from stonepass.array_types import Float
 from stonepass.errors import require
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem

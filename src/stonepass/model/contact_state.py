@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float
+
+from stonepass.array_types import Float
 
 if TYPE_CHECKING:  # loads the finite elements
     from stonepass.fe.axisymmetric.wall_values import Field

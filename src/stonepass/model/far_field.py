@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput
 from stonepass.fe.core.roots import bracketed_root
 from stonepass.materials.composition import fibres_of

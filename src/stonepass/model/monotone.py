@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.units import Values
 
 __all__ = ["MonotoneIntegral", "monotone_integral"]

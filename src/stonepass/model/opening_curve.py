@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
 
 __all__ = ["RADIUS", "OpeningCurve"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
 from stonepass.fe.axisymmetric.profile import ROUND, Profile
 from stonepass.model.caution import Caution, caution

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from jaxtyping import Float
 from numpy.polynomial import chebyshev
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
 from stonepass.fe.axisymmetric.profile import ROUND
 from stonepass.fe.core.roots import bracketed_root

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve

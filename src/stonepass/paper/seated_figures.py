@@ -68,7 +68,7 @@ class Fig5:
             _meshes(figure.add_subplot(2, 1, k + 1), state)
         caption = (
             "The finite elements before (grey, with the arc that touches the lumen) and after the "
-            "stone is pressed in (blue), at the published critical sizes. The elements are of order "
+            "stone is pressed in (blue), at the published critical sizes. Elements are of order "
             "4, graded towards the edge of the contact, which is a grid line."
         )
         rows = [

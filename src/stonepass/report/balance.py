@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 from matplotlib.axes import Axes
 
+from stonepass.array_types import Float
 from stonepass.model.answer import Answer
 from stonepass.report.style import COLOURS, tidy
 from stonepass.units import Values

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 from matplotlib import colormaps
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from stonepass.array_types import Float
 from stonepass.export.meridian import SEGMENTS, meridian
 from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.problem import Problem

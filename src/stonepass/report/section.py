@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Int
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.tri import Triangulation
 
+from stonepass.array_types import Int
 from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.problem import Problem
 from stonepass.report.stone import draw_stone

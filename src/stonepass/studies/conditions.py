@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float
 from scipy.optimize import elementwise
 
+from stonepass.array_types import Bool, Float
 from stonepass.model.case import Case
 from stonepass.model.far_field import (
     SMALLEST_LUMEN,

@@ -13,11 +13,11 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from jaxtyping import Bool, Float
 from scipy.interpolate import RBFInterpolator
 from scipy.spatial import KDTree
 from scipy.stats import qmc
 
+from stonepass.array_types import Bool, Float
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from jaxtyping import Bool, Float
 from scipy.stats import qmc
 
+from stonepass.array_types import Bool, Float
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 
 __all__ = ["Draws", "draw", "sobol_points"]

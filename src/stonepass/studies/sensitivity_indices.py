@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 from scipy.stats import sobol_indices
 
+from stonepass.array_types import Float
 from stonepass.studies.sampling import Draws
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 from scipy.stats import lognorm, truncnorm, uniform
 
+from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
 from stonepass.units import format_length, length
 

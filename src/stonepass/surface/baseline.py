@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+
+from stonepass.array_types import Float
 
 __all__ = ["POWERS", "Baseline", "fit_baseline"]
 

@@ -14,8 +14,8 @@ from numbers import Integral
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float, Num
 
+from stonepass.array_types import Float, Num
 from stonepass.errors import BadInput, require
 from stonepass.surface.baseline import POWERS, Baseline, fit_baseline
 from stonepass.surface.paths import Profiles, StraightPath, evenly_spaced, profiles_along

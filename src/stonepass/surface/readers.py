@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Num
 
+from stonepass.array_types import Num
 from stonepass.errors import BadInput, StonepassError
 from stonepass.io.optional_imports import library
 from stonepass.surface.limits import SIDE, check_file, check_size, check_unpacked, too_large

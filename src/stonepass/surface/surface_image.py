@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Num
 
+from stonepass.array_types import Num
 from stonepass.errors import BadInput, require
 
 __all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]

@@ -6,8 +6,8 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.contact import AUGMENTATION, Arc, bilateral
 from stonepass.fe.axisymmetric.discretisation import (
     Discretisation,

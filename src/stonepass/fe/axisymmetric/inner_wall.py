@@ -7,8 +7,8 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.discretisation import Discretisation
 from stonepass.fe.axisymmetric.mesh import INNER
 from stonepass.fe.core.lobatto import lobatto

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.mesh import Layout
 from stonepass.fe.axisymmetric.problem import Resolution, Tube
 from stonepass.fe.core.grading import graded, growing, intervals

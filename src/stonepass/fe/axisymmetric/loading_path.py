@@ -14,8 +14,8 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Bool, Float
 
+from stonepass.array_types import Bool, Float
 from stonepass.fe.axisymmetric.contact import AUGMENTATION, Arc
 from stonepass.fe.axisymmetric.contact_predictor import PREDICTOR_ORDER, wrap_round
 from stonepass.fe.axisymmetric.discretisation import (

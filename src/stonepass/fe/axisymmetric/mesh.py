@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import netgen.meshing as nm
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
+
+from stonepass.array_types import Float
 
 __all__ = [
     "BOUNDARIES",

@@ -6,8 +6,8 @@ from typing import Any, Protocol, runtime_checkable
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.discretisation import Discretisation, smallest_volume_ratio
 from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
 from stonepass.fe.axisymmetric.inner_wall import inner_wall

@@ -7,8 +7,9 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float
 from numpy.polynomial import chebyshev
+
+from stonepass.array_types import Float
 
 __all__ = ["ROUND", "Profile"]
 

@@ -7,8 +7,8 @@ lumen that has closed, would touch itself, so such a state is not that of a real
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool, Float
 
+from stonepass.array_types import Bool, Float
 from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
 from stonepass.fe.axisymmetric.inner_wall import inner_wall
 

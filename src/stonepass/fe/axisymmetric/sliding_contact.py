@@ -24,8 +24,8 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.equilibrium import POLISH, TOLERANCE, contact_flaw, penetration
 from stonepass.fe.axisymmetric.problem import Failure
 from stonepass.fe.axisymmetric.sliding_forces import (

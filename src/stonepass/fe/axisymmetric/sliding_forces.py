@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.inner_wall import InnerWall, inner_wall
 from stonepass.fe.axisymmetric.sliding_workspace import CONTACT, Workspace
 from stonepass.fe.core.lobatto import lobatto_slopes, resampling

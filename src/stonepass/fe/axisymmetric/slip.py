@@ -6,8 +6,8 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.discretisation import Discretisation
 from stonepass.fe.axisymmetric.inner_wall import InnerWall, inner_wall
 from stonepass.fe.axisymmetric.profile import Profile

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+
+from stonepass.array_types import Float
 
 __all__ = ["STRESSES", "ContactProfile", "Deformation", "Field", "Volume"]
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.core.roots import bracketed_root
 
 __all__ = ["graded", "growing", "intervals"]

@@ -6,7 +6,8 @@ from functools import lru_cache
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
+
+from stonepass.array_types import Float
 
 __all__ = ["joined", "lobatto", "lobatto_rule", "lobatto_slopes", "resampling"]
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import ngsolve as ng
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.core.newton import SingularTangent
 
 __all__ = ["BorderedSystem", "FormSystem"]

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.declaration import Kind, check_inputs, declared
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution

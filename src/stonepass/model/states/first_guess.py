@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.problem import Wrap
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.model.far_field import inflation

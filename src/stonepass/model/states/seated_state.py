@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float
 
+from stonepass.array_types import Float
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.caution import Caution, caution
 from stonepass.model.problem import Problem

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from jaxtyping import Int
 
+from stonepass.array_types import Int
 from stonepass.fe.axisymmetric.buckling import buckling_half_wave
 from stonepass.fe.axisymmetric.wall_values import Deformation, Field
 from stonepass.materials.derivatives import rest_moduli

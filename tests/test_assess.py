@@ -368,7 +368,7 @@ def test_page_needs_nothing_beside_it_and_gives_no_verdict(tmp_path):
     for verdict in ("will not pass", "will pass", "should", "recommend", "treatment"):
         assert verdict not in words
     for sentence in found.warnings:
-        assert sentence.split("'")[0] in text
+        assert str(sentence).split("'")[0] in text
     assert "6 kPa" in text
     assert "Jendeberg 2017" in text
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from stonepass.bench.invitro import fit_friction
     from stonepass.bench.law_fit import fit_law
     from stonepass.bench.test_data import read_inflation, read_tension
+    from stonepass.caution import Caution
     from stonepass.clinic.assess import assess
     from stonepass.clinic.assessment import Assessment
     from stonepass.clinic.patient import read_patient
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from stonepass.model.answer import Answer, Model
     from stonepass.model.case import Case
     from stonepass.model.case_states import push_through, seat
-    from stonepass.model.caution import Caution
     from stonepass.model.critical import critical_pressure, solve
     from stonepass.model.load import Load
     from stonepass.model.models.elastic_foundation import ElasticFoundation
@@ -71,7 +71,7 @@ _HOME = {
     "Assessment": "clinic.assessment",
     "BadInput": "errors",
     "Case": "model.case",
-    "Caution": "model.caution",
+    "Caution": "caution",
     "ClosuresRecord": "records.closures",
     "CompareRecord": "records.compare",
     "CurvePointRecord": "records.curve",

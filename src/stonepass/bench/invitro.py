@@ -26,6 +26,7 @@ from stonepass.bench.least_squares import (
     profile_level,
 )
 from stonepass.bench.series_model import SeriesModel, series_curves
+from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.stone import FRICTION
@@ -42,11 +43,6 @@ START = (0.3, 1.0)
 REFINED, JOINTLY_REFINED = 3, 2  # times that the series is solved at the friction fitted so far
 SETTLED = 1e-3  # of friction, relative
 FEWEST = 4  # points for two parameters
-NO_FRICTION = (
-    "no friction makes this wall meet the series: the one that is nearest lies at the end of what "
-    "the model answers"
-)
-ENDED = "{} points have no answer at the friction that fits and were left out of the fit"
 
 
 @dataclass(frozen=True)
@@ -98,7 +94,7 @@ class InVitro:
     setting : Setting
     weighted : bool
         Whether residuals are weighted by the points' standard deviations.
-    warnings : tuple of str
+    warnings : tuple of Caution
     """
 
     comparison: Comparison
@@ -107,7 +103,7 @@ class InVitro:
     joint: JointFit | None
     setting: Setting
     weighted: bool
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Caution, ...] = ()
 
 
 def fit_friction(
@@ -167,11 +163,13 @@ def fit_friction(
     answered = sum(fitted.answers[k].outcome is Outcome.MOVES for k in kept)
     if answered < 2 or any(abs(value - end) < 1e-3 * end for end in BOUNDS["friction"]):
         estimate = Estimate(value, None, None)
-        warnings.append(NO_FRICTION)
+        warnings.append(caution("no_friction_fits"))
     else:
         bounds, more = intervals(minimizer, found, ["friction"])
         estimate = Estimate(value, *_ends(bounds, "friction"))
-        warnings += [*more, *([ENDED.format(chosen.count(False))] if False in chosen else [])]
+        warnings += more
+        if False in chosen:
+            warnings.append(caution("unanswered_at_fit", count=chosen.count(False)))
     joint, about_both = _joint(library, whole, parameters, solver)
     asked = fitted if friction is None else compare(points, friction, setting, solver)
     warnings = list(dict.fromkeys([*warnings, *about_both]))
@@ -196,11 +194,11 @@ def _weights(points: Sequence[Point]) -> tuple[Float[np.ndarray, " n"], bool]:
 
 def _joint(
     library: Any, series: SeriesModel, parameters: Any, solver: CaseSolver
-) -> tuple[JointFit | None, list[str]]:
+) -> tuple[JointFit | None, list[Caution]]:
     """Fit friction and stiffness together, and map the misfit around."""
     count = len(series.curves)
     if count < FEWEST:
-        return None, [f"{count} points are too few to tell stiffness from friction"]
+        return None, [caution("too_few_for_stiffness", points=count)]
     both = parameters.copy()
     both["stiffness"].set(vary=True)
     for _ in range(JOINTLY_REFINED):
@@ -218,13 +216,12 @@ def _joint(
 
     best = {name: float(found.params[name].value) for name in BOUNDS}
     estimates = {name: Estimate(best[name], *_profiled(misfit, best, name, count)) for name in best}
-    warnings = [
-        f"the series does not bound {name} {'' if end is None else 'on one side '}when stiffness "
-        "is fitted too"
-        for name, each in estimates.items()
-        for end in [each.high if each.low is None else each.low]
-        if each.low is None or each.high is None
-    ]
+    warnings = []
+    for name, each in estimates.items():
+        if each.low is None and each.high is None:
+            warnings.append(caution("jointly_not_bounded", name=name))
+        elif each.low is None or each.high is None:
+            warnings.append(caution("jointly_bounded_on_one_side", name=name))
     excess_level = 2.0 * float(f_distribution.ppf(LEVEL, 2, count - 2)) / (count - 2)
     correlation = correlations(found, list(both)).get(("friction", "stiffness"))
     joint = JointFit(

@@ -14,6 +14,7 @@ from scipy.stats import spearmanr
 
 from stonepass.array_types import Float
 from stonepass.bench.least_squares import correlations, intervals, lmfit
+from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, Unit
 from stonepass.materials.known_laws import constants_by_name, known_law
@@ -95,7 +96,7 @@ class FittedLaw:
         Pairs of fitted constants and the correlation of their estimates.
     unstable : str
         Why the law describes no solid; empty where it does.
-    warnings : tuple of str
+    warnings : tuple of Caution
     """
 
     material: Material
@@ -106,7 +107,7 @@ class FittedLaw:
     r_squared: float
     correlations: dict[tuple[str, str], float]
     unstable: str = ""
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Caution, ...] = ()
 
     @property
     def residuals(self) -> Float[np.ndarray, " n"]:
@@ -280,12 +281,11 @@ def _check_told(residuals: Any, result: Any, free: list[str]) -> None:
 
 def _growing(
     off: Float[np.ndarray, " n"], observed: Float[np.ndarray, " n"], relative: bool
-) -> list[str]:
+) -> list[Caution]:
     """Whether residuals grow with what was measured, although they were taken as equal."""
     if relative or len(off) < FEWEST_OF_A_TREND or np.ptp(np.abs(off)) == 0.0:
         return []
     trend = spearmanr(np.abs(off), np.abs(observed))
     if not (trend.statistic > 0.0 and trend.pvalue < UNLIKELY):
         return []
-    return ["residuals grow with the stress, so that intervals are too narrow: fit with relative "
-            "errors (--relative)"]  # fmt: skip
+    return [caution("residuals_grow")]

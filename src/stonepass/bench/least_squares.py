@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
+from stonepass.caution import Caution, caution
 from stonepass.io.optional_imports import library
 
 __all__ = [
@@ -39,7 +40,7 @@ def lmfit() -> Any:
 
 def intervals(
     minimizer: Any, result: Any, free: Sequence[str]
-) -> tuple[dict[str, Interval], list[str]]:
+) -> tuple[dict[str, Interval], list[Caution]]:
     """95 % intervals of the free parameters by profile likelihood, and what there is to say.
 
     The scatter is that of the residuals. Where a profile cannot be followed the curvature at the
@@ -58,8 +59,7 @@ def intervals(
             )  # fmt: skip
     except (fitting.minimizer.MinimizerException, ValueError, RuntimeError, UserWarning):
         found, told = _by_curvature(result, free)
-        how = "intervals are by the curvature at the best fit: its profile could not be found"
-        return found, [*told, how]
+        return found, [*told, caution("interval_by_curvature")]
     bounds = {name: (_end(rows[0][1]), _end(rows[-1][1])) for name, rows in profiles.items()}
     return bounds, _open_ended(bounds)
 
@@ -79,13 +79,13 @@ def _end(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def _open_ended(bounds: dict[str, Interval]) -> list[str]:
+def _open_ended(bounds: dict[str, Interval]) -> list[Caution]:
     told = []
     for name, (low, high) in bounds.items():
         if low is None and high is None:
-            told.append(f"the data do not bound {name}")
+            told.append(caution("not_bounded", name=name))
         elif low is None or high is None:
-            told.append(f"the data bound {name} on one side only")
+            told.append(caution("bounded_on_one_side", name=name))
     return told
 
 
@@ -133,10 +133,10 @@ def ends_of_profile(
     return ends[0], ends[1]
 
 
-def _by_curvature(result: Any, free: Sequence[str]) -> tuple[dict[str, Interval], list[str]]:
+def _by_curvature(result: Any, free: Sequence[str]) -> tuple[dict[str, Interval], list[Caution]]:
     """95 % of the t distribution about the best fit."""
     if any(result.params[name].stderr is None for name in free):
-        return {}, ["no interval could be found: the fit is flat about its best constants"]
+        return {}, [caution("no_interval")]
     factor = float(t_distribution.ppf(0.5 + LEVEL / 2.0, result.nfree))
     found: dict[str, Interval] = {}
     for name in free:

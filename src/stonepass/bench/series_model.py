@@ -16,6 +16,7 @@ import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.bench.comparison import Setting
+from stonepass.caution import Caution, caution
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
@@ -184,14 +185,14 @@ class SeriesModel:
 
 def series_curves(
     points: Sequence[Point], setting: Setting, solver: CaseSolver
-) -> tuple[list[PressureCurve | None], list[str]]:
+) -> tuple[list[PressureCurve | None], list[Caution]]:
     """Solve every point at a few frictions, and at a few factors on its confining pressure.
 
     Returns
     -------
     curves : list of PressureCurve or None
         None for a point with fewer than two answers.
-    warnings : list of str
+    warnings : list of Caution
         Which points say nothing, and why.
     """
     asked = [_asked(point, setting) for point in points]
@@ -205,12 +206,9 @@ def series_curves(
     lost = sum(curve is None for curve in curves) - sum(loose)
     warnings = []
     if any(loose):
-        warnings.append(
-            f"{sum(loose)} of {len(points)} stones are no larger than the lumen and say "
-            "nothing of friction"
-        )
+        warnings.append(caution("loose_points", count=sum(loose), points=len(points)))
     if lost:
-        warnings.append(f"{lost} of {len(points)} points have no answer and are left out")
+        warnings.append(caution("unanswered_points", count=lost, points=len(points)))
     return curves, warnings
 
 

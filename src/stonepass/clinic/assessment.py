@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from stonepass.caution import Caution
 from stonepass.clinic.cohorts import Row
 from stonepass.clinic.fractions import Fraction, Present, Range, Samples
 from stonepass.clinic.patient import Patient
@@ -53,7 +54,7 @@ class Assessment:
     solves : int
     surface_error : float
         95th percentile of the surface's relative error, from leaving out one solve at a time.
-    warnings : tuple of str
+    warnings : tuple of Caution
     """
 
     patient: Patient
@@ -73,7 +74,7 @@ class Assessment:
     possible: float = 1.0
     solves: int = 0
     surface_error: float = 0.0
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Caution, ...] = ()
 
     def beside(self, row: Row) -> Fraction | None:
         """Return the model's fraction below the limit for the stones of a cohort's row.

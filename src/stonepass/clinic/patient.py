@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import Field, create_model
 
+from stonepass.caution import Caution, caution
 from stonepass.clinic.cohorts import PLACES
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.inputs.build import build_load, build_method, in_words
@@ -37,14 +38,6 @@ SAMPLES = (256, 65_536)
 LARGEST_SEED = 2**32
 # What nobody measures in a patient, and what stands in where the file is silent.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
-WHY_FRICTION = (
-    "friction is taken from 0.05 to 0.5: nobody has measured it between a stone and a ureter; "
-    "wet tissue lies far below the paper's 0.5, which is estimated from a dry crystal's slopes"
-)
-WHY_STIFFNESS = (
-    "the wall's stiffness is taken to be 1 ± 0.3 times the material's: how much people differ "
-    "is not published"
-)
 # Inputs of the sections that are those of a case file, as the file names them.
 SHARED_WORDS = {
     each.title: f"'{key}'"
@@ -85,7 +78,7 @@ class Patient:
     model : Model
     numerics : Numerics
     samples, seed : int
-    assumed : tuple of str
+    assumed : tuple of Caution
         What the file leaves to us, in sentences.
     """
 
@@ -99,7 +92,7 @@ class Patient:
     numerics: Numerics = field(default_factory=Numerics)
     samples: int = 4096
     seed: int = 1
-    assumed: tuple[str, ...] = ()
+    assumed: tuple[Caution, ...] = ()
 
     @property
     def dilated(self) -> bool:
@@ -213,10 +206,10 @@ def _patient(parsed: Any, folder: Path) -> Patient:
     seed = parsed.assessment.seed
     require(0 <= seed < LARGEST_SEED, "seed", seed, f"from 0 to {LARGEST_SEED - 1}")
     assumed = [
-        why
-        for why, given, default in (
-            (WHY_FRICTION, stone.friction, ASSUMED_FRICTION),
-            (WHY_STIFFNESS, ureter.stiffness, ASSUMED_STIFFNESS),
+        caution(code)
+        for code, given, default in (
+            ("friction_assumed", stone.friction, ASSUMED_FRICTION),
+            ("stiffness_assumed", ureter.stiffness, ASSUMED_STIFFNESS),
         )
         if given == default  # written out or not, nobody measured it
     ]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import ClassVar, Protocol, runtime_checkable
 
+from stonepass.caution import Caution
 from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import ErrorEstimate
-from stonepass.model.caution import Caution
 from stonepass.model.contact_state import ContactState
 from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
 from stonepass.fe.axisymmetric.profile import ROUND, Profile
-from stonepass.model.caution import Caution, caution
 
 __all__ = ["ASPECT", "Shape"]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from stonepass.caution import Caution
 from stonepass.errors import Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.answer import Answer, Model
 from stonepass.model.case import Case
-from stonepass.model.caution import Caution
 from stonepass.model.critical import solve
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.load import Load

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from stonepass.caution import Caution, caution
 from stonepass.materials.derivatives import hoop_modulus
-from stonepass.model.caution import Caution, caution
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.problem import Problem
 

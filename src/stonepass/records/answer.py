@@ -8,7 +8,7 @@ from pydantic import Field
 
 from stonepass.model.answer import Answer
 from stonepass.model.contact_state import SolvedState
-from stonepass.records.base import CautionRecord, PartRecord, Record, degrees, kilo
+from stonepass.records.base import CautionRecord, PartRecord, Record, degrees, kilo, warning_records
 from stonepass.records.case import CaseRecord, case_record
 
 __all__ = ["AnswerRecord", "SolverRecord", "answer_record"]
@@ -130,5 +130,5 @@ def answer_fields(answer: Answer) -> dict[str, Any]:
             seconds=answer.seconds or None,
             residual=solved.solver.residual if solved else None,
         ),
-        "warnings": [CautionRecord.of(each) for each in answer.warnings],
+        "warnings": warning_records(answer.warnings),
     }

@@ -149,9 +149,7 @@ class AssessRecord(Record):
     inputs: AssessInputsRecord = Field(description="what was said of the patient")
     accuracy: SurfaceAccuracyRecord = Field(description="how well the samples are known")
     level: float = Field(description="level of the intervals")
-    warnings: list[CautionRecord | str] = Field(
-        description="what was assumed, extrapolated or left open"
-    )
+    warnings: list[CautionRecord] = Field(description="what was assumed, extrapolated or left open")
     caution: str = Field(description="what the fractions are not")
 
 

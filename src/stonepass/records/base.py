@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 
 from stonepass.about import DISCLAIMER, VERSION
-from stonepass.model.caution import Caution
+from stonepass.caution import Caution
 
 __all__ = ["CautionRecord", "PartRecord", "Record", "degrees", "kilo", "warning_records"]
 
@@ -55,9 +55,9 @@ class CautionRecord(BaseModel):
         return cls(code=caution.code, sentence=str(caution), values=dict(caution.values))
 
 
-def warning_records(warnings: Iterable[Caution | str]) -> list[CautionRecord | str]:
-    """Return cautions as records; a warning that is a plain sentence stays one."""
-    return [CautionRecord.of(each) if isinstance(each, Caution) else each for each in warnings]
+def warning_records(warnings: Iterable[Caution]) -> list[CautionRecord]:
+    """Return the records of several cautions."""
+    return [CautionRecord.of(each) for each in warnings]
 
 
 def kilo(value: float | None) -> float | None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from pydantic import Field
 
 from stonepass.io.csv_file import write_csv
-from stonepass.records.base import CautionRecord, Record, kilo
+from stonepass.records.base import CautionRecord, Record, kilo, warning_records
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 
 __all__ = ["ClosuresRecord", "closures_record", "write_map"]
@@ -76,7 +76,7 @@ def closures_record(found: ClosureComparison) -> ClosuresRecord:
             **pressures,
             **errors,
             "series_coefficients": None if series is None else list(series.coefficients),
-            "warnings": [CautionRecord.of(each) for each in found.warnings],
+            "warnings": warning_records(found.warnings),
         }
     )
 

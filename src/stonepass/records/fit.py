@@ -90,7 +90,7 @@ class FitRecord(Record):
     strain_range: list[float] = Field(description="smallest and largest stretch of the data")
     stable: bool = Field(description="whether the law describes a solid over that range")
     stability: str = Field(description="why it does not; empty where it does")
-    warnings: list[CautionRecord | str] = Field(description="where the fit must be read with care")
+    warnings: list[CautionRecord] = Field(description="where the fit must be read with care")
 
 
 def fit_record(found: FittedLaw, inputs: Mapping[str, Any]) -> FitRecord:

@@ -86,7 +86,7 @@ class FrictionRecord(Record):
     image: str = Field(description="name of the file")
     pixel_source: str = Field(description="who says how large a pixel is")
     notes: list[str] = Field(description="what was left out, and how the file was read")
-    warnings: list[CautionRecord | str] = Field(description="where μ_f must be read with care")
+    warnings: list[CautionRecord] = Field(description="where μ_f must be read with care")
 
 
 def friction_record(found: SurfaceFriction, image: str) -> FrictionRecord:

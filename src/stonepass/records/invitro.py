@@ -10,10 +10,10 @@ from pydantic import Field
 from stonepass.bench.comparison import Comparison
 from stonepass.bench.invitro import Estimate, InVitro
 from stonepass.bench.least_squares import LEVEL
+from stonepass.caution import Caution
 from stonepass.inputs.measured_pressures import Point
 from stonepass.io.csv_file import write_csv
 from stonepass.model.answer import Answer
-from stonepass.model.caution import Caution
 from stonepass.records.base import CautionRecord, PartRecord, Record, kilo, warning_records
 
 __all__ = [
@@ -102,7 +102,7 @@ class InVitroRecord(AgreementRecord, Record):
     level: float = Field(description="confidence level of the intervals")
     points: list[InVitroPointRecord] = Field(description="the series, point by point")
     inputs: InVitroInputsRecord = Field(description="what was asked")
-    warnings: list[CautionRecord | str] = Field(
+    warnings: list[CautionRecord] = Field(
         description="where the fit, or an answer of the model, must be read with care"
     )
 
@@ -137,7 +137,7 @@ def invitro_record(found: InVitro, file: str) -> InVitroRecord:
     )
 
 
-def series_warnings(found: InVitro) -> list[Caution | str]:
+def series_warnings(found: InVitro) -> list[Caution]:
     """Return what the fit warns of, and what the answers warn of, each once."""
     of_answers: Iterable[Caution] = (
         each for answer in found.comparison.answers for each in answer.warnings

@@ -9,6 +9,7 @@ from typing import Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
+from stonepass.caution import SENTENCES
 from stonepass.inputs.schema import case_schema
 from stonepass.records.answer import AnswerRecord
 from stonepass.records.assess import AssessRecord
@@ -48,7 +49,7 @@ unit ends with the unit. `record_version` is raised when a key changes its name 
 
 
 def reference() -> str:
-    """Return the reference as Markdown: keys of records, of their parts, and of case files."""
+    """Return the reference as Markdown: keys of records and of case files, codes of warnings."""
     lines = [PREFACE, "## Records", ""]
     for command, record in RECORDS.items():
         lines += [f"### `stonepass {command}`", "", *_introduction(command, record), ""]
@@ -56,6 +57,7 @@ def reference() -> str:
     lines += ["## Parts of records", ""]
     for part in parts():
         lines += [f"### {part.__name__}", "", _meaning(part), "", *_table(part, ())]
+    lines += ["## Codes of warnings", "", *_cautions()]
     lines += ["## Case file", "", *_case_file()]
     return "\n".join(lines) + "\n"
 
@@ -127,6 +129,18 @@ def _kind(annotation: Any) -> str:
         return f"[{annotation.__name__}](#{annotation.__name__.lower()})"
     words = {float: "number", int: "whole number", str: "text", bool: "true or false"}
     return "null" if annotation is NoneType else words[annotation]
+
+
+def _cautions() -> list[str]:
+    rows = [f"| `{code}` | {_cell(sentence)} |" for code, sentence in SENTENCES.items()]
+    return [
+        "A warning has the code, the values that stand in braces here, and the sentence.",
+        "",
+        "| code | sentence |",
+        "| --- | --- |",
+        *rows,
+        "",
+    ]
 
 
 def _case_file() -> list[str]:

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from stonepass.io.csv_file import write_csv
 from stonepass.model.states.loaded_state import PushedState
-from stonepass.records.base import CautionRecord, PartRecord, Record, kilo
+from stonepass.records.base import CautionRecord, PartRecord, Record, kilo, warning_records
 from stonepass.studies.rising import Rising
 
 __all__ = ["RisingRecord", "RisingStateRecord", "rising_record", "write_rising"]
@@ -61,7 +61,7 @@ def rising_record(rising: Rising) -> RisingRecord:
         leak_pressure_kPa=kilo(getattr(critical.detail, "leak_pressure", None)),
         states=[_state(state, float(deviation)) for state, deviation in pairs],
         reason=rising.reason,
-        warnings=[CautionRecord.of(each) for each in critical.warnings],
+        warnings=warning_records(critical.warnings),
     )
 
 

@@ -7,7 +7,7 @@ from pydantic import Field
 from stonepass.model.answer import Answer
 from stonepass.model.size import SizeAnswer
 from stonepass.records.answer import AnswerRecord, answer_fields
-from stonepass.records.base import CautionRecord, kilo
+from stonepass.records.base import kilo, warning_records
 
 __all__ = ["SizeRecord", "size_record"]
 
@@ -49,6 +49,6 @@ def size_record(answer: SizeAnswer) -> SizeRecord:
             "critical_size_ratio_error": answer.size_ratio_error,
             "critical_diameter_mm": None if diameter is None else diameter * 1e3,
             "limit_kPa": limit,
-            "warnings": [CautionRecord.of(each) for each in answer.warnings],
+            "warnings": warning_records(answer.warnings),
         }
     )

@@ -163,7 +163,8 @@ def _passed(found: Assessment, row: Row) -> str:
 
 
 def _warnings(found: Assessment) -> list[str]:
-    return ["<h2>What to keep in mind</h2>", _list(found.warnings)] if found.warnings else []
+    sentences = [str(each) for each in found.warnings]
+    return ["<h2>What to keep in mind</h2>", _list(sentences)] if sentences else []
 
 
 def _sources(found: Assessment) -> list[str]:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.caution import Caution, caution
 from stonepass.model.closure import ORDER, Series, series_through
 from stonepass.model.critical import solve
 from stonepass.model.energy_balance import advance_force

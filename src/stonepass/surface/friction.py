@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from stonepass.array_types import Float, Num
+from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
 from stonepass.surface.baseline import POWERS, Baseline, fit_baseline
 from stonepass.surface.paths import Profiles, StraightPath, evenly_spaced, profiles_along
@@ -112,7 +113,7 @@ class SurfaceFriction:
         Distance from the start of the paths in m, heights along each, and their mean.
     roughness : Roughness
     spread : Spread
-    warnings : tuple of str
+    warnings : tuple of Caution
     """
 
     picture: SurfaceImage
@@ -125,7 +126,7 @@ class SurfaceFriction:
     profiles: Float[np.ndarray, "paths n"]
     roughness: Roughness
     spread: Spread
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Caution, ...] = ()
 
     @property
     def mean(self) -> Float[np.ndarray, " n"]:
@@ -211,16 +212,15 @@ def surface_friction(
     first, rest, friction = _fit(sampled.distance, heights.mean(axis=0), first_order, second_order)
     spread = _spread(sampled, heights, scale, ranges, (first_order, second_order))
     if len(chosen) == 1:
-        warnings.append("one path alone: how the friction varies over the surface is not known")
+        warnings.append(caution("single_path"))
     if spread.sd is None:
-        warnings.append("for some of the choices the slopes are too steep: no spread is given")
+        warnings.append(caution("friction_spread_missing"))
     if len(spread.orders) < len(FACTORS):
-        warnings.append("the paths are too short for some of the orders that the spread is over")
+        warnings.append(caution("paths_too_short"))
     if any(part.at_edge for part in (first, rest)):
-        warnings.append("a baseline is steepest where it ceases to be looked at, near the ends of "
-                        "the paths: it may be steeper still; choose longer paths")  # fmt: skip
+        warnings.append(caution("baseline_at_path_end"))
     if friction > LARGEST:
-        warnings.append(f"the friction coefficient lies above {LARGEST:g}, which no case takes")
+        warnings.append(caution("friction_beyond_range", largest=LARGEST))
     return SurfaceFriction(
         picture,
         friction,
@@ -279,7 +279,7 @@ def _orders(first: int, second: int | None) -> tuple[int, int]:
     return found[0], found[1]
 
 
-def _look_at(picture: SurfaceImage) -> list[str]:
+def _look_at(picture: SurfaceImage) -> list[Caution]:
     """Refuse what is flat or cut off; warn of what looks like no surface."""
     values = picture.surface
     if picture.has_heights:
@@ -300,16 +300,13 @@ def _look_at(picture: SurfaceImage) -> list[str]:
             "take one that is not saturated")  # fmt: skip
     told = []
     if ends > TELL_SATURATED:
-        told.append(f"{ends:.0%} of the pixels have the darkest or brightest grey, where heights "
-                    "are cut off")  # fmt: skip
+        told.append(caution("saturated_greys", fraction=ends))
     gaps = np.diff(greys) > GAP * (high - low)
     if gaps[0] or gaps[-1]:
-        told.append("no grey lies near the darkest or brightest: a scale bar or writing sets the "
-                    "scale of heights; cut it off with --area")  # fmt: skip
+        told.append(caution("isolated_grey"))
     plain = float(np.mean(np.ptp(values, axis=1) <= 1))
     if plain > PLAIN_ROWS:
-        told.append(f"{plain:.0%} of the rows have one grey: a data bar, or a part that is "
-                    "missing; cut it off with --area")  # fmt: skip
+        told.append(caution("plain_rows", fraction=plain))
     return told
 
 

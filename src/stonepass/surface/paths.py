@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
 from stonepass.surface.surface_image import SurfaceImage
 
@@ -45,12 +46,12 @@ class Profiles:
         From the start of each path, in m.
     values : array (paths, n)
         Grey values or heights.
-    warnings : tuple of str
+    warnings : tuple of Caution
     """
 
     distance: Float[np.ndarray, " n"]
     values: Float[np.ndarray, "paths n"]
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Caution, ...] = ()
 
 
 def read_path(text: str) -> StraightPath:
@@ -111,7 +112,7 @@ def profiles_along(picture: SurfaceImage, paths: Sequence[StraightPath]) -> Prof
                            "choose other paths")  # fmt: skip
         rows.append(values)
     uneven = max(lengths) > (1.0 + UNEVEN) * shortest
-    told = f"paths of up to {max(lengths) / shortest:.2f} times the length of the shortest are cut"
+    told = caution("uneven_paths", ratio=max(lengths) / shortest)
     return Profiles(distance, np.array(rows), (told,) if uneven else ())
 
 

@@ -12,12 +12,12 @@ from typing import ClassVar
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.caution import Caution, caution
 from stonepass.declaration import Kind, check_inputs, declared
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.secant import STRETCH, secant_moduli
 from stonepass.model.answer import Answer, Quantity, unanswered
-from stonepass.model.caution import Caution, caution
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law
 from stonepass.model.numerics import Numerics

@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
+from stonepass.caution import caution
 from stonepass.declaration import Kind, check_inputs, declared
 from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import ErrorEstimate, Level
 from stonepass.model.answer import Answer, Quantity, unanswered
-from stonepass.model.caution import caution
 from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
 from stonepass.model.states.loaded_state import Critical, NoPush, PushedState

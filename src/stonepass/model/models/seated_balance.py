@@ -9,13 +9,13 @@ from typing import ClassVar
 
 import numpy as np
 
+from stonepass.caution import caution
 from stonepass.declaration import Kind, check_inputs, declared
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.protocol import Law
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.answer import Answer, Quantity, unanswered
-from stonepass.model.caution import caution
 from stonepass.model.closure import ORDER, Series, fit_series, linear_closure, series_through
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
 from stonepass.model.force_balance import drive, resistance

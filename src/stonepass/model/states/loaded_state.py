@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stonepass.array_types import Float
-from stonepass.model.caution import Caution, caution
+from stonepass.caution import Caution, caution
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
 

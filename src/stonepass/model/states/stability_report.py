@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from stonepass.model.caution import Caution, caution
+from stonepass.caution import Caution, caution
 
 __all__ = ["StabilityReport"]
 

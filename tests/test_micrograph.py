@@ -469,6 +469,7 @@ def test_a_reader_is_believed_only_as_far_as_it_makes_sense(
     (tmp_path / "reader").write_text(f"#!/bin/sh\nread line\n{script}\n")
     (tmp_path / "reader").chmod(0o755)
     monkeypatch.setattr(sys, "executable", str(tmp_path / "reader"))
+    monkeypatch.setattr("stonepass.sandbox.sandbox.PATIENCE", 1.0 if "sleep" in script else 60.0)
     with pytest.raises(BadInput, match=sentence):
         read_untrusted(path, seconds=0.5)
 

@@ -83,10 +83,47 @@ def test_confining_pressure_with_little_friction_moves_with_a_warning():
     alpha = found.contact.contact_angle
     force = float(resistance(found.contact).total(np.array(alpha)))
     assert found.pressure == pytest.approx(force / math.sin(alpha) ** 2, rel=1e-12)
-    assert any("narrowed the lumen" in str(warning) for warning in found.warnings)
+    assert any("has narrowed" in str(warning) for warning in found.warnings)
     lumen = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("4 kPa"), closure_start="lumen")
-    assert not any("narrowed the lumen" in str(warning) for warning in lumen.warnings)
+    assert not any("has narrowed" in str(warning) for warning in lumen.warnings)
     assert lumen.critical_angle > alpha
+
+
+@pytest.mark.parametrize(
+    ("load", "friction"),
+    [
+        (sp.Load("0 kPa", prestretch=1.15), 0.5),
+        (sp.Load("0 kPa", prestretch=1.05), 0.5),
+        (sp.Load("8 kPa"), 0.1),
+    ],
+    ids=["much pre-stretch", "little pre-stretch", "confined"],
+)
+def test_pressure_grows_through_the_size_of_the_unloaded_lumen(load, friction):
+    """Never past the pressure at which the tube is as wide as the stone, and without a step at 1."""
+    pressures = {}
+    for xi in (0.96, 0.98, 0.99, 0.9999, 1.0, 1.0001, 1.02):
+        found = answer(xi, friction, THIN, load)
+        if found.outcome is sp.Outcome.MOVES and found.contact is not None:
+            assert 0.0 < found.pressure <= found.detail.closure_end_pressure * (1.0 + 1e-12)
+            pressures[xi] = found.pressure
+    assert len(pressures) >= 4
+    assert np.all(np.diff(list(pressures.values())) > 0.0)
+    below, at, above = (pressures[xi] for xi in (0.9999, 1.0, 1.0001))
+    assert above - below < 0.03 * at
+
+
+def test_a_stone_smaller_than_the_unloaded_lumen_says_so():
+    stretched = sp.Load("0 kPa", prestretch=1.15)
+    small, large = (
+        answer(0.98, ureter=THIN, load=stretched),
+        answer(1.02, ureter=THIN, load=stretched),
+    )
+    codes = [{each.code for each in found.warnings} for found in (small, large)]
+    assert ["smaller_than_lumen" in each for each in codes] == [True, False]
+    # 0.96 is no more than the far field without the ground matrix gives the lumen: no answer.
+    assert answer(0.96, ureter=THIN, load=stretched).outcome is sp.Outcome.BEYOND_CLOSURE
+    series = answer(0.98, ureter=THIN, load=stretched, closure="series")
+    assert 0.0 < series.pressure <= series.detail.closure_end_pressure * (1.0 + 1e-12)
 
 
 def test_a_stone_is_loose_only_against_the_narrowed_lumen():

@@ -63,9 +63,12 @@ SENTENCES = {
     ),
     "moves_at_contact_angle": (
         "the drive outweighs the resistance as soon as the stone is seated: the paper's closure "
-        "starts at the unloaded inner radius although the load has narrowed the lumen; the "
-        "critical pressure is taken from the seated contact angle, and closure_start = 'lumen' is "
-        "the alternative"
+        "starts wider than the lumen, which the load has narrowed; the critical pressure is taken "
+        "from the seated contact angle, and closure_start = 'lumen' is the alternative"
+    ),
+    "smaller_than_lumen": (
+        "the stone is smaller than the unloaded lumen, where the paper's closure would narrow as "
+        "the wall opens: it is kept at the stone's radius instead"
     ),
     "long_beam_contact": (
         "half the contact is {decay_lengths:.2g} decay lengths of the beam long, which takes the "

@@ -16,7 +16,7 @@ from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem
 from stonepass.units import Values
 
-__all__ = ["ORDER", "Series", "fit_series", "linear_closure", "series_through"]
+__all__ = ["ORDER", "Series", "first_radius", "fit_series", "linear_closure", "series_through"]
 
 ORDER = (1, 8)
 
@@ -31,6 +31,16 @@ def linear_closure(
     tube give smaller radii in between. Holds for α ≤ π/2, since ρ_α folds there.
     """
     return start + (size_ratio - start) * _opening(width, first_width)
+
+
+def first_radius(size_ratio: float) -> float:
+    """Return r_a/R_a at α₀ by Eq. 15: 1, and ξ for a stone that is smaller than the unloaded lumen.
+
+    A load that narrows the lumen holds stones with ξ < 1 too. From R_a to R_s < R_a the closure
+    would narrow as the wall opens. With r_a = R_s at every α the pressure is P(R_s), at which the
+    tube far away is as wide as the stone; at ξ = 1 both are the same.
+    """
+    return min(1.0, size_ratio)
 
 
 @dataclass(frozen=True)

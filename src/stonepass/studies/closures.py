@@ -11,7 +11,7 @@ from stonepass.errors import BadInput, Outcome, require
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.closure import ORDER, Series, series_through
+from stonepass.model.closure import ORDER, Series, first_radius, series_through
 from stonepass.model.critical import solve
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.far_field import far_field_law
@@ -128,14 +128,15 @@ def compare_closures(
     contact = paper.contact
     if not isinstance(contact, SeatedState):
         return found
-    eq15 = Closure(far_field_law(case, ground=seated.far_field_ground))
+    far_field = far_field_law(case, ground=seated.far_field_ground)
+    eq15 = Closure(far_field, first_radius(case.size_ratio))
     pressures["printed"] = balance_pressure(contact, eq15, as_printed=True)
     curve = states.opening_curve(case, case.numerics)
     series = None if curve is None else series_through(case, curve, order)
     if curve is None or series is None:
         return found
     # The loaded states are of the whole law, so the series is turned back by the whole law.
-    fitted = Closure(far_field_law(case, ground=True), 1.0, series)
+    fitted = Closure(far_field_law(case, ground=True), series.start, series)
     pressures["series"] = balance_pressure(contact, fitted)
     return replace(found, series=series, opening_curve=curve)
 

@@ -16,7 +16,14 @@ from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.protocol import Law
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.answer import Answer, Quantity, unanswered
-from stonepass.model.closure import ORDER, Series, fit_series, linear_closure, series_through
+from stonepass.model.closure import (
+    ORDER,
+    Series,
+    first_radius,
+    fit_series,
+    linear_closure,
+    series_through,
+)
 from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.numerics import Numerics
@@ -278,6 +285,7 @@ def balance(
             *strain_range(case),
             *ring_buckling(case),
             *seated.warnings(),
+            *([caution("smaller_than_lumen")] if closure.start == case.size_ratio < 1.0 else []),
             *([caution("closure_undecided")] if undecided else []),
         ),
     )
@@ -385,6 +393,8 @@ def _error(
 
 
 def _closure_start(model: SeatedBalance, case: Problem, ground: bool) -> float | None:
-    if model.closure_start == "inner-radius":
-        return 1.0
+    # A series of a stone that is no larger than its first radius has no slope to fit.
+    degenerate = model.closure == "series" and case.size_ratio <= 1.0
+    if model.closure_start == "inner-radius" and not degenerate:
+        return first_radius(case.size_ratio)
     return lumen_ratio(case.wall_ratio, far_field_law(case, ground=ground), case.load)

@@ -281,7 +281,7 @@ def test_line_ends_and_a_byte_order_mark_are_read(tmp_path, kind, ends):
         ("case", "4.2 mm", "4.2", ("'stone.diameter' is 4.2", "a length with its unit")),
         ("case", '"4.2 mm"', "4.2", ("'stone.diameter' is 4.2", "text in quotes")),
         ("case", "4.2 mm", "4.2 kg", ("'stone.diameter' is 4.2 kg", "a length")),
-        ("case", "4.2 mm", "4,2 mm", ("'stone.diameter' is 4,2 mm", "a length with its unit")),
+        ("case", "4.2 mm", "4,2 mm", ("'stone.diameter' is 4,2 mm", "with a decimal point", "4.2 mm")),
         ("case", "4.2 mm", "NaN mm", ("'stone.diameter' is NaN mm", "a length with its unit")),
         ("case", "4.2 mm", "1e400 mm", ("'stone.diameter' is 1e400 mm", "a finite length")),
         ("case", "4.2 mm", "-4.2 mm", ("'stone.diameter' is -4.2 mm", "0.01 mm to 1000 mm")),

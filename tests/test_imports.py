@@ -112,7 +112,6 @@ def test_a_circle_would_be_found():
 # Libraries that take long to load, or that exist on some systems only, and who asks for them late.
 LATE_LIBRARIES = {
     "PIL": ("surface.readers",),
-    "pint": ("units",),
     "resource": ("sandbox.worker",),
     "scipy.optimize": ("model.energy_balance", "model.shape_fit"),
     "autograd": ("materials.derivatives", "materials.secant"),

@@ -1,4 +1,4 @@
-"""Small numerical methods of our own, beside those of SciPy and pint, which take long to import."""
+"""Small numerical methods of our own, beside those of SciPy, which take long to import."""
 
 import math
 
@@ -7,7 +7,6 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
-from stonepass import units
 from stonepass.fe.core.roots import bracketed_root
 from stonepass.model.monotone import monotone_integral
 
@@ -76,12 +75,3 @@ def test_a_monotone_integral_is_that_of_scipy(seed):
 def test_the_integral_of_a_straight_line_by_hand():
     found = monotone_integral(np.array([0.0, 1.0, 4.0]), np.array([2.0, 4.0, 10.0]))
     np.testing.assert_allclose(found(np.array([0.0, 1.0, 2.0, 4.0])), [0.0, 3.0, 8.0, 24.0])
-
-
-def test_usual_units_have_the_factors_of_pint():
-    checked = 0
-    for si, factors in units._USUAL.items():
-        for unit, factor in factors.items():
-            assert float(units._registry().Quantity(1.0, unit).to(si).magnitude) == factor
-            checked += 1
-    assert checked >= 15

@@ -1,11 +1,20 @@
 import math
 
+import pint
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from stonepass.errors import BadInput
-from stonepass.units import Length, Pressure, format_length, format_pressure, length, pressure
+from stonepass.units import (
+    _FACTORS,
+    Length,
+    Pressure,
+    format_length,
+    format_pressure,
+    length,
+    pressure,
+)
 
 
 @pytest.mark.parametrize(
@@ -29,6 +38,61 @@ def test_lengths(text, metres):
 )
 def test_pressures(text, pascals):
     assert pressure(text) == pytest.approx(pascals, rel=1e-6)
+
+
+# A French is 1/3 mm; 1 Torr = 101325/760 Pa; 1 kgf/cm² = 9.80665 N over 1e-4 m².
+@pytest.mark.parametrize(
+    ("read", "text", "si"),
+    [
+        (length, "12 Fr", 4e-3),
+        (length, "12 Ch", 4e-3),
+        (length, "1 inch", 0.0254),
+        (pressure, "2 kN/m²", 2e3),
+        (pressure, "2 kN/m^2", 2e3),
+        (pressure, "760 Torr", 101325.0),
+        (pressure, "1 kgf/cm2", 98066.5),
+        (pressure, "0.3 N/mm2", 3e5),
+        (pressure, "1e4 dyn/cm2", 1e3),
+    ],
+)
+def test_units_of_the_clinic_and_of_testing_machines(read, text, si):
+    assert read(text) == pytest.approx(si, rel=1e-12)
+
+
+def test_every_factor_is_that_of_pint():
+    registry = pint.UnitRegistry()
+    registry.define("French = millimeter / 3 = Fr = Ch")
+    spelled = {"cmH2O": "centimeter_H2O", "mmHg": "millimeter_Hg", "Torr": "torr", "inch": "inch"}
+    checked = 0
+    for kind, si in ((Length, "meter"), (Pressure, "pascal")):
+        for unit, factor in _FACTORS[kind].items():
+            if unit.startswith("mmH"):
+                continue  # pint has the centimetre of water alone
+            name = spelled.get(unit.replace("₂", "2"), unit)
+            name = name.replace("m2", "m**2") if "/" in name else name
+            found = registry.Quantity(1.0, name).to(si).magnitude
+            assert factor == pytest.approx(found, rel=1e-9), unit
+            checked += 1
+    assert checked >= 30
+
+
+@pytest.mark.parametrize(
+    ("read", "text", "sentence"),
+    [
+        (length, "12px", "must be a length in m, cm, mm, um, nm, in or Fr"),
+        (length, "4 pt", "must be a length in"),
+        (length, "4,2 mm", r"with a decimal point; write '4\.2 mm'"),
+        (length, "4 MM", "did you mean mm"),
+        (length, "1 ly", "must be a length in"),
+        (pressure, "12 kpa", "did you mean kPa"),
+        (pressure, "90 mmhg", "did you mean mmHg"),
+        (pressure, "4 eV/angstrom**3", "must be a pressure in"),
+        (pressure, "3 mm", "must be a pressure in"),
+    ],
+)
+def test_a_word_that_is_a_unit_somewhere_else_is_none_here(read, text, sentence):
+    with pytest.raises(BadInput, match=sentence):
+        read(text, "stone")
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import re
-from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -38,21 +37,30 @@ Q = TypeVar("Q", Length, Pressure)
 
 _EXAMPLES = {Length: "'4.2 mm'", Pressure: "'12 kPa', '90 mmHg' or '122 cmH2O'"}
 _WORDS = {Length: "a length", Pressure: "a pressure"}
-_SI = {Length: "meter", Pressure: "pascal"}
-# Usual units, so that pint, which takes 0.3 s to import, is not loaded for them.
-_USUAL = {
-    "meter": {"m": 1.0, "cm": 0.01, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6},
-    "pascal": {
+# SI units in one unit. The list is closed: of a large vocabulary of units too many short words are
+# lengths or pressures by chance, such as "px", 1/96 inch.
+_FACTORS = {
+    Length: {
+        "m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9,
+        "in": 0.0254, "inch": 0.0254,
+        "Fr": 1e-3 / 3.0, "Ch": 1e-3 / 3.0,  # French gauge, Charrière: a diameter of 1/3 mm
+    },
+    Pressure: {
         "Pa": 1.0, "hPa": 100.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "mbar": 100.0,
-        "centimeter_H2O": 98.06649999999999, "millimeter_Hg": 133.322387415,
+        "mmHg": 133.322387415, "Torr": 101325.0 / 760.0, "torr": 101325.0 / 760.0,
+        "cmH2O": 98.0665, "cmH₂O": 98.0665, "mmH2O": 9.80665, "mmH₂O": 9.80665,
+        "atm": 101325.0, "psi": 6894.757293168361,
+        "N/m2": 1.0, "kN/m2": 1e3, "MN/m2": 1e6, "N/cm2": 1e4, "N/mm2": 1e6,
+        "kgf/cm2": 98066.5, "dyn/cm2": 0.1,
     },
 }  # fmt: skip
+_SHOWN = {
+    Length: "m, cm, mm, um, nm, in or Fr",
+    Pressure: "Pa, kPa, MPa, bar, mbar, mmHg, Torr, cmH2O, atm, psi, N/mm2, kN/m2 or kgf/cm2",
+}
 _TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ%°/][^\s]*)\s*")
-_NAME = r"[A-Za-zµμ°%][A-Za-z0-9_µμ°%]{0,29}(?:(?:\*\*|\^)-?\d)?"
-_UNIT = re.compile(rf"{_NAME}(?:[*/·]{_NAME}){{0,5}}")
+_DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*[A-Za-zµμ][^\s]*\s*")
 LONGEST = 100  # characters of a number with its unit
-# Pint knows "cmH2O" as centimetre_H2O; these spellings reach it under its own name.
-_SPELLINGS = {"cmH2O": "centimeter_H2O", "cmH₂O": "centimeter_H2O", "mmHg": "millimeter_Hg"}
 
 
 def length(value: Any, argument: str = "length") -> Length:
@@ -93,11 +101,13 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
     word, example = _WORDS[kind], _EXAMPLES[kind]
     if not isinstance(value, str):
         raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
+    if len(value) <= LONGEST and _DECIMAL_COMMA.fullmatch(value):
+        point = value.strip().replace(",", ".")
+        raise BadInput(argument, value, f"{word} with a decimal point", f"write '{point}'")
     match = _TEXT.fullmatch(value) if len(value) <= LONGEST else None
     if match is None:
         raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
-    number, unit = float(match[1]), match[2]
-    si = number * _factor(unit, argument, value, kind)
+    si = float(match[1]) * _factor(match[2], argument, value, kind)
     if not math.isfinite(si):
         raise BadInput(argument, value, f"a finite {word.split()[-1]}")
     # 15 digits: 4.2 mm is 0.0042 m, not 0.004200000000000001 m.
@@ -105,35 +115,10 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
 
 
 def _factor(unit: str, argument: str, value: str, kind: type[Q]) -> float:
-    scale = _si_factor(_SPELLINGS.get(unit, unit), _SI[kind])
-    if scale is None:
-        word, example = _WORDS[kind], _EXAMPLES[kind]
-        raise BadInput(argument, value, f"{word}", f"write it like {example}")
-    return scale
-
-
-@lru_cache(maxsize=64)
-def _si_factor(unit: str, si: str) -> float | None:
-    """SI units in one `unit`, or None where `unit` is unknown or of another dimension."""
-    for dimension, factors in _USUAL.items():
-        if unit in factors:
-            return factors[unit] if dimension == si else None
-    if not _UNIT.fullmatch(unit):  # mm**9**9**9 keeps pint busy for good
-        return None
-    registry = _registry()
-    try:
-        return float(registry.Quantity(1.0, unit).to(si).magnitude)
-    except Exception:  # pint raises a dozen kinds for text that is not this unit
-        return None
-
-
-@lru_cache(maxsize=1)
-def _registry() -> Any:
-    return _pint().UnitRegistry()
-
-
-def _pint() -> Any:
-    """Pint costs 0.3 s to import, so it is loaded with the first value that has a unit."""
-    import pint
-
-    return pint
+    factors = _FACTORS[kind]
+    known = factors.get(unit.replace("²", "2").replace("^2", "2"))
+    if known is not None:
+        return known
+    meant = [each for each in factors if each.casefold() == unit.casefold()]
+    remedy = f"did you mean {meant[0]}" if meant else f"write it like {_EXAMPLES[kind]}"
+    raise BadInput(argument, value, f"{_WORDS[kind]} in {_SHOWN[kind]}", remedy)

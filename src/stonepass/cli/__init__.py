@@ -9,6 +9,8 @@ import os
 import sys
 import warnings
 
+from stonepass.cli.encoding import spell_what_is_lacking
+
 __all__ = ["main"]
 
 EXIT_NO_ANSWER, EXIT_BAD_REQUEST, EXIT_FAULT = 1, 2, 3
@@ -18,6 +20,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit."""
     # Looking for plug-ins of pydantic reads the metadata of every installed package.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    spell_what_is_lacking()
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
 

@@ -12,6 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from stonepass.cli.encoding import encodes_everything
 from stonepass.io.text_file import check_writable
 
 if TYPE_CHECKING:
@@ -37,7 +38,9 @@ def _on_terminal() -> bool:
 
 def print_json(record: Any) -> None:
     """Write one JSON document to stdout; NaN would be a fault and raises."""
-    sys.stdout.write(json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    escaped = not encodes_everything(sys.stdout)  # JSON has its own way to write characters
+    document = json.dumps(record, indent=2, ensure_ascii=escaped, allow_nan=False)
+    sys.stdout.write(document + "\n")
 
 
 def show(*parts: Any) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.materials.one_trace import one_trace
 from stonepass.materials.protocol import Law
 from stonepass.strain import INNER_WALL, CauchyGreen, Place
 from stonepass.units import Values
@@ -27,6 +28,7 @@ __all__ = [
 REST = CauchyGreen(*(np.array([each]) for each in (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)))
 
 
+@one_trace
 def hoop_energy_slope(
     law: Law, stretch: Values, axial: float = 1.0, place: Place = INNER_WALL
 ) -> Values:
@@ -62,6 +64,7 @@ def rest_gradient(law: Law) -> Float[np.ndarray, 6]:
     return gradient[0]
 
 
+@one_trace
 def energy_derivatives(
     law: Law, C: CauchyGreen, place: Place
 ) -> tuple[Float[np.ndarray, "points 6"], Float[np.ndarray, "points 6 6"]]:
@@ -94,6 +97,7 @@ def energy_derivatives(
 
 
 @lru_cache(maxsize=64)
+@one_trace
 def rest_moduli(law: Law) -> tuple[Float[np.ndarray, "2 2"], float]:
     """Small-strain moduli in Pa of the inner wall at rest: (hoop, axial) matrix, r–z shear modulus.
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from stonepass.errors import require
 from stonepass.materials.derivatives import hoop_energy_slope
+from stonepass.materials.one_trace import one_trace
 from stonepass.materials.protocol import Law
 from stonepass.strain import INNER_WALL, CauchyGreen
 
@@ -16,6 +17,7 @@ __all__ = ["secant_moduli"]
 STRETCH = (1.001, 2.0)
 
 
+@one_trace
 def secant_moduli(law: Law, stretch: float) -> tuple[float, float]:
     """Circumferential and longitudinal modulus in Pa: nominal stress over λ − 1, plane strain.
 

@@ -1,8 +1,13 @@
-"""Finite-element states, solved every time."""
+"""Finite-element states, solved every time, one at a time in a process.
+
+The engine is not safe to be used by two threads at once, so the others wait. Several processes
+(`studies.executor.process_pool`) are what makes many cases faster.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from threading import RLock
 
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.numerics import Numerics
@@ -17,6 +22,9 @@ from stonepass.units import Pressure
 __all__ = ["UNCACHED"]
 
 
+_ENGINE = RLock()
+
+
 class _Uncached:
     """Solves each state when it is asked for; only then are the finite elements loaded."""
 
@@ -28,9 +36,10 @@ class _Uncached:
         resolution: Resolution | None = None,
     ) -> SeatedState | NoSeat:
         """See `StateSolver.seat`."""
-        from stonepass.model.states.seated import solve_seated
+        with _ENGINE:
+            from stonepass.model.states.seated import solve_seated
 
-        return solve_seated(case, seating, numerics, resolution)
+            return solve_seated(case, seating, numerics, resolution)
 
     def push(
         self,
@@ -42,9 +51,10 @@ class _Uncached:
         leak: bool,
     ) -> list[Critical | NoPush]:
         """See `StateSolver.push`."""
-        from stonepass.model.states.loaded import find_critical
+        with _ENGINE:
+            from stonepass.model.states.loaded import find_critical
 
-        return find_critical(case, numerics, resolutions, wetted=wetted, leak=leak)
+            return find_critical(case, numerics, resolutions, wetted=wetted, leak=leak)
 
     def hold(
         self,
@@ -56,15 +66,17 @@ class _Uncached:
         wetted: bool,
     ) -> list[PushedState | NoPush]:
         """See `StateSolver.hold`."""
-        from stonepass.model.states.loaded import solve_loaded
+        with _ENGINE:
+            from stonepass.model.states.loaded import solve_loaded
 
-        return solve_loaded(case, numerics, pressures, resolution, wetted=wetted)
+            return solve_loaded(case, numerics, pressures, resolution, wetted=wetted)
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
         """See `StateSolver.opening_curve`."""
-        from stonepass.model.states.opening import solve_opening_curve
+        with _ENGINE:
+            from stonepass.model.states.opening import solve_opening_curve
 
-        return solve_opening_curve(case, numerics)
+            return solve_opening_curve(case, numerics)
 
 
 UNCACHED: StateSolver = _Uncached()

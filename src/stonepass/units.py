@@ -16,7 +16,16 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.errors import BadInput
 
-__all__ = ["Length", "Pressure", "Values", "format_length", "format_pressure", "length", "pressure"]
+__all__ = [
+    "Length",
+    "Pressure",
+    "Values",
+    "format_length",
+    "format_pressure",
+    "length",
+    "pressure",
+    "unit_ratio",
+]
 
 # A number or an array of numbers; functions of it work elementwise.
 Values: TypeAlias = float | Float[np.ndarray, "..."]
@@ -93,6 +102,18 @@ def format_length(value: float) -> str:
 def format_pressure(value: float) -> str:
     """Write pascals in kilopascals: ``format_pressure(12000.0) == '12 kPa'``."""
     return f"{value / PASCAL_PER['kPa']:.12g} kPa"
+
+
+def unit_ratio(unit: str, other: str) -> float | None:
+    """Return how many `other` are one `unit`; None for units of different kinds, or unknown ones.
+
+    >>> unit_ratio("MPa", "kPa")
+    1000.0
+    """
+    for factors in _FACTORS.values():
+        if unit in factors and other in factors:
+            return factors[unit] / factors[other]
+    return None
 
 
 def _read(value: Any, argument: str, kind: type[Q]) -> Q:

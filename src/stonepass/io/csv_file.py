@@ -16,6 +16,7 @@ import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
+from stonepass.io.column_names import refuse_column
 from stonepass.io.text_file import read_text
 
 __all__ = ["Columns", "read_columns", "write_csv"]
@@ -99,7 +100,7 @@ def _check_header(
     known = [*required, *optional]
     for name in header:
         if name not in known:
-            refuse_unknown(f"in {path.name}, column", name, known)
+            refuse_column(f"in {path.name}, column", name, known, header)
     for name in known:
         if header.count(name) > 1:
             raise BadInput(f"in {path.name}, column", name, "given once")

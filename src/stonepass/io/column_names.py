@@ -1,0 +1,66 @@
+"""Refusal of a column whose name is not known; a name that is suggested never changes the unit."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from difflib import get_close_matches
+from typing import NoReturn
+
+from stonepass.errors import BadInput
+from stonepass.units import unit_ratio
+
+__all__ = ["refuse_column"]
+
+# Units at the end of names of columns, apart from the lengths and pressures of `stonepass.units`.
+_FACTORS = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "cN": 1e-2, "kgf": 9.80665, "gf": 9.80665e-3}
+_ANGLES = {"deg": 1.0, "rad": 57.29577951308232}
+
+
+def refuse_column(where: str, name: str, known: Sequence[str], header: Collection[str]) -> NoReturn:
+    """Refuse the column `name` with what helps.
+
+    Parameters
+    ----------
+    where : str
+        File and kind of what is refused, as the sentence begins.
+    name : str
+        Of the column, one of `header`.
+    known : sequence of str
+        Columns that the table may have.
+    header : collection of str
+        Columns that it has; none of them is suggested again.
+    """
+    left = [each for each in known if each not in header]
+    stem, unit = _split(name)
+    stems = {_split(each)[0]: each for each in left}
+    same = stems.get(stem) or next(
+        (stems[each] for each in get_close_matches(stem, stems, n=1, cutoff=0.75)), None
+    )
+    allowed = "one of " + ", ".join(known)
+    if same is not None and unit and (ratio := _ratio(unit, _split(same)[1])) is not None:
+        wanted = _split(same)[1]
+        if ratio != 1.0:
+            raise BadInput(where, name, same, f"convert the values from {unit} to {wanted}: "
+                           f"1 {unit} is {ratio:.6g} {wanted}")  # fmt: skip
+    for each in get_close_matches(name, left, n=3, cutoff=0.4):
+        its = _split(each)[1]
+        if its == unit:
+            raise BadInput(where, name, allowed, f"did you mean '{each}'")
+        if not unit:
+            raise BadInput(where, name, allowed, f"write '{each}' if its values are in {its}")
+    raise BadInput(where, name, allowed)
+
+
+def _split(name: str) -> tuple[str, str]:
+    """Return the name without its unit, and the unit, which may be nothing."""
+    stem, _, end = name.rpartition("_")
+    known = bool(stem) and (_ratio(end, end) is not None)
+    return (stem, end) if known else (name, "")
+
+
+def _ratio(unit: str, wanted: str) -> float | None:
+    """`wanted` units in one `unit`; None for units that measure different things, or none."""
+    for table in (_FACTORS, _ANGLES):
+        if unit in table and wanted in table:
+            return table[unit] / table[wanted]
+    return unit_ratio(unit, wanted)

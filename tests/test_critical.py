@@ -83,7 +83,7 @@ def test_confining_pressure_with_little_friction_moves_with_a_warning():
     alpha = found.contact.contact_angle
     force = float(resistance(found.contact).total(np.array(alpha)))
     assert found.pressure == pytest.approx(force / math.sin(alpha) ** 2, rel=1e-12)
-    assert any("has narrowed" in str(warning) for warning in found.warnings)
+    assert any("narrowed lumen" in str(warning) for warning in found.warnings)
     lumen = answer(1.2, friction=0.02, ureter=THIN, load=sp.Load("4 kPa"), closure_start="lumen")
     assert not any("has narrowed" in str(warning) for warning in lumen.warnings)
     assert lumen.critical_angle > alpha

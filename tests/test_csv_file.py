@@ -49,7 +49,7 @@ def test_columns_come_by_name(tmp_path, text):
         ("a,b\n1,\n", "in data.csv, row 2, column 'b' is empty, but must be a number"),
         ("a,b\n1,1e999\n", "in data.csv, row 2, column 'b' is 1e999, but must be a number"),
         ("a,b\n1,2,5\n", "in data.csv, row 2 is 3 cells"),
-        (b"\xff\xfe\x00a", "but must be a CSV file of text"),
+        (b"\xff\xfe\x00\x00a", "but must be a CSV file of text"),
         (b"a,b\n1,\x002\n", "in data.csv, row 2, column 'b'"),
         ('a,b\n"1,2\n', "but must be a row of a CSV file"),
     ],
@@ -83,3 +83,47 @@ def test_a_file_that_is_missing_or_too_large(tmp_path):
 def test_the_front_door_takes_a_path_as_text(name):
     with pytest.raises(BadInput, match=r"/nowhere\.csv"):
         getattr(stonepass, name)("/nowhere.csv")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a,b\n1,2.5\n1,2.5\n",
+        "a;b\n1;2.5\n1;2.5\n",
+        "a;b\n1;2,5\n1;2,5\n",
+        "sep=;\na;b\n1;2,5\n1;2,5\n",
+        "a\tb\n1\t2.5\n1\t2.5\n",
+        "# made by hand, with a comma\na;b\n1;2,5\n1;2,5\n",
+        "a,b,,\n1,2.5,,\n1,2.5,,\n",
+    ],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_a_table_of_a_spreadsheet_or_a_machine(tmp_path, text, encoding):
+    """A measurement may be there twice; commas, semicolons or tabs; decimal commas."""
+    path = tmp_path / "machine.csv"
+    path.write_bytes(text.encode(encoding))
+    columns = read_columns(path, ("a", "b"))
+    np.testing.assert_array_equal(columns["a"], [1.0, 1.0])
+    np.testing.assert_array_equal(columns["b"], [2.5, 2.5])
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a\tb\n1,234\t2\n",  # thousands or decimals?
+        "a;b\n1,5;2.5\n",
+        'a,b\n"1,5",2\n',
+    ],
+)
+def test_a_comma_of_two_meanings_is_refused(tmp_path, text):
+    path = tmp_path / "machine.csv"
+    path.write_text(text)
+    with pytest.raises(BadInput, match=r"in machine\.csv, row 2.* is 1,\d+, but must be a number"):
+        read_columns(path, ("a", "b"))
+
+
+def test_columns_without_a_name_that_have_cells_are_refused(tmp_path):
+    path = tmp_path / "machine.csv"
+    path.write_text("a,b,\n1,2,3\n")
+    with pytest.raises(BadInput, match="column is empty"):
+        read_columns(path, ("a", "b"))

@@ -63,8 +63,8 @@ SENTENCES = {
     ),
     "moves_at_contact_angle": (
         "the drive outweighs the resistance as soon as the stone is seated: the paper's closure "
-        "starts wider than the lumen, which the load has narrowed; the critical pressure is taken "
-        "from the seated contact angle, and closure_start = 'lumen' is the alternative"
+        "starts wider than the narrowed lumen; the critical pressure is taken from the seated "
+        "contact angle, and closure_start = 'lumen' is the alternative"
     ),
     "smaller_than_lumen": (
         "the stone is smaller than the unloaded lumen, where the paper's closure would narrow as "

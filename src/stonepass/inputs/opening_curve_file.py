@@ -59,6 +59,6 @@ def read_opening_curve(path: str | Path) -> OpeningCurve:
         Naming the file, and row and column where one is at fault.
     """
     path = Path(path)
-    columns = read_columns(path, tuple(BOUNDS), bounds=BOUNDS)
+    columns = read_columns(path, tuple(BOUNDS), bounds=BOUNDS, distinct=True)
     alpha, radius = np.radians(columns["alpha_deg"]), columns["radius_ratio"]
     return OpeningCurve(tuple(alpha.tolist()), tuple(radius.tolist()), str(path))

@@ -79,7 +79,9 @@ def read_shape(path: str | Path) -> Shape:
         Naming the file, and row and column where one is at fault.
     """
     path = Path(path)
-    columns = read_columns(path, ("z", "rho"), bounds={"z": (-FAR, FAR), "rho": (0.0, FAR)})
+    columns = read_columns(
+        path, ("z", "rho"), bounds={"z": (-FAR, FAR), "rho": (0.0, FAR)}, distinct=True
+    )
     try:
         found = shape_through(columns["z"], columns["rho"], columns.place)
     except BadInput as problem:

@@ -17,6 +17,7 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.io.column_names import refuse_column
+from stonepass.io.table_dialect import delimiter_of, with_decimal_points
 from stonepass.io.text_file import read_text
 
 __all__ = ["Columns", "read_columns", "write_csv"]
@@ -46,21 +47,36 @@ def read_columns(
     optional: Sequence[str] = (),
     bounds: Mapping[str, tuple[float, float]] | None = None,
     words: Mapping[str, Sequence[str]] | None = None,
+    *,
+    distinct: bool = False,
 ) -> Columns:
     """Read columns of numbers by the names in the first row, in any order.
 
-    `bounds` has the least and the largest number allowed in a column, `words` the words allowed in
-    one that has no numbers; a word is returned as its place among them.
+    Empty lines, lines that begin with ``#`` and columns without a name and without any cell are
+    left out; rows count as an editor's lines do. Cells may be separated by commas, semicolons or
+    tabs (`table_dialect`).
 
-    Empty lines and those that begin with ``#`` are left out; rows count as an editor's lines do.
+    Parameters
+    ----------
+    path : Path
+    required, optional : sequence of str
+        Names of columns.
+    bounds : mapping
+        Least and largest number allowed in a column.
+    words : mapping
+        Words allowed in a column that has no numbers; they are returned as indices into this list.
+    distinct : bool
+        Whether a row that is there twice is a mistake, as in an outline. A measurement may be
+        repeated.
 
     Raises
     ------
     BadInput
         Naming the file, and row and column where one is at fault: a missing file, one larger than
         10 MB, of more than 100 000 rows or not of text, a column that is missing, unknown (with the
-        nearest known one) or there twice, a row of another length or the same as an earlier one, a
-        cell that is no finite number or out of bounds or none of the words, no rows at all.
+        nearest known one) or there twice, a row of another length, one that is there twice where
+        rows must be distinct, a cell that is no finite number or out of bounds or none of the
+        words, no rows at all.
     """
     rows = _rows(path)
     if not rows:
@@ -72,26 +88,41 @@ def read_columns(
     cells = _Cells(path, header, bounds or {}, words or {})
     values = [cells.numbers(line, row) for line, row in rows[1:]]
     lines = tuple(line for line, _ in rows[1:])
-    _check_repeated(path, lines, values)
+    if distinct:
+        _check_repeated(path, lines, values)
     return Columns(lines, dict(zip(header, np.array(values).T, strict=True)))
 
 
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Line number and cells of every row that says something."""
-    text = read_text(path, LARGEST_FILE, "a CSV file of text")
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+    text = read_text(path, LARGEST_FILE, "a CSV file of text", other_encodings=True)
+    delimiter, declared = delimiter_of(text)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
     try:
-        rows = [(reader.line_num, cells) for cells in islice(reader, MOST_ROWS + 1)]
+        rows = [(reader.line_num, cells) for cells in islice(reader, MOST_ROWS + 1)][declared:]
     except csv.Error as problem:
         where = f"in {path.name}, row {reader.line_num}"
         raise BadInput(where, str(problem), "a row of a CSV file") from problem
     require(len(rows) <= MOST_ROWS, f"number of rows of {path.name}", f"more than {MOST_ROWS}",
             "fewer")  # fmt: skip
-    return [
+    kept = [
         (line, cells)
         for line, cells in rows
         if any(cell.strip() for cell in cells) and not cells[0].lstrip().startswith("#")
     ]
+    return with_decimal_points(_without_empty_columns(kept), delimiter, path.name)
+
+
+def _without_empty_columns(rows: list[tuple[int, list[str]]]) -> list[tuple[int, list[str]]]:
+    """Leave out the cells behind the last name of the header if all are empty."""
+    if not rows:
+        return rows
+    header = [cell.strip() for cell in rows[0][1]]
+    width = len(header)
+    while width and not header[width - 1]:
+        width -= 1
+    empty = all(not cell.strip() for _, cells in rows for cell in cells[width:])
+    return [(line, cells[:width]) for line, cells in rows] if width and empty else rows
 
 
 def _check_header(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import codecs
 import os
+import unicodedata
 from pathlib import Path
 
 from stonepass.errors import BadInput, require
@@ -21,8 +23,13 @@ def existing(path: Path, what: str = "file") -> Path:
     return path
 
 
-def read_text(path: Path, largest: int, kind: str, what: str = "file") -> str:
+def read_text(
+    path: Path, largest: int, kind: str, what: str = "file", *, other_encodings: bool = False
+) -> str:
     """The text of a file in UTF-8 of at most `largest` bytes, a byte order mark left out.
+
+    With `other_encodings` also UTF-16 with its byte order mark, and Latin-1 where no UTF-8 is given
+    and the text has no control characters.
 
     Raises
     ------
@@ -36,9 +43,28 @@ def read_text(path: Path, largest: int, kind: str, what: str = "file") -> str:
         with path.open("rb") as file:
             raw = file.read(largest + 1)  # some files do not know their size
         require(len(raw) <= largest, what, path, f"smaller than {size}")
-        return raw.decode("utf-8-sig")
+        return _decoded(raw) if other_encodings else raw.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as problem:
         raise BadInput(what, path, f"{kind} ({problem})") from problem
+
+
+def _decoded(raw: bytes) -> str:
+    if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        text = raw.decode("utf-16")
+        if _has_control_characters(text):  # UTF-32 begins with the same bytes
+            raise UnicodeDecodeError("utf-16", raw[:4], 0, 4, "control characters")
+        return text
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+        if _has_control_characters(text):
+            raise
+        return text
+
+
+def _has_control_characters(text: str) -> bool:
+    return any(unicodedata.category(c) == "Cc" and c not in "\t\r\n" for c in set(text))
 
 
 def check_writable(path: Path, endings: tuple[str, ...]) -> None:

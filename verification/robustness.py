@@ -43,6 +43,7 @@ class Row:
     law: str
     outcome: str
     pressure: float | None
+    closure_end: float | None
     at_edge: bool
     cause: str
     unstable_tube: bool
@@ -75,7 +76,8 @@ def section() -> Section:
             f"{len(rows)} cases, seed {SEED}: {FAMILIES} families of one tube, one load, one "
             f"friction and {SIZES} sizes. Latex ξ 1.0005–1.6, and both stable readings of the "
             "ureter with G 5–100 kPa, ξ 1.0005–1.35; η 1.05–4; friction 0–1; P_out none in two "
-            "families of five, else 0–10 kPa, dead or hydrostatic; L 6–40; all seatings. "
+            "families of five, else 0–10 kPa, dead or hydrostatic; one family in three is "
+            "pre-stretched by up to 20 %, its sizes counted from its lumen; L 6–40; all seatings. "
             f"{elapsed / 60.0:.0f} minutes; {seconds[len(seconds) // 2]:.1f} s per case in the "
             f"median, {seconds[-1]:.0f} s at most (error estimate included). Where the confining "
             "pressure makes a tube unstable by itself, waves along it lower its energy, and a "
@@ -113,6 +115,15 @@ def checks(rows: list[Row]) -> list[Check]:
             len(pairs) > 100 and not wrong,
         )
     )
+    moving = [row for row in seated if row.outcome == "MOVES"]
+    beyond = [row.case for row in moving if row.pressure > row.closure_end * (1.0 + 1e-9)]
+    found.append(
+        Check(
+            "P_ucr is no more than the end of the closure",
+            "; ".join([f"{len(moving) - len(beyond)} of {len(moving)}", *beyond]),
+            len(moving) > 100 and not beyond,
+        )
+    )
     named = [row for row in rows if row.outcome == "NO_SOLUTION"]
     found.append(
         Check("every failure names its cause", str(len(named)), all(row.cause for row in named))
@@ -142,6 +153,7 @@ def run_case(number: int, case: sp.Case) -> Row:
         law="latex" if case.ureter.material.name == "latex" else "ureter",
         outcome=answer.outcome.name,
         pressure=answer.pressure,
+        closure_end=answer.detail.closure_end_pressure if answer.detail else None,
         at_edge=any(each.code == "moves_at_contact_angle" for each in answer.warnings),
         cause=answer.message.partition(": ")[2] if no_solution else "",
         unstable_tube=no_solution and bool(axisymmetric_buckling(case, case.numerics.half_length)),
@@ -219,8 +231,12 @@ def failures(rows: list[Row]) -> list[list[str]]:
 
 
 def families(seed: int, count: int) -> list[list[sp.Case]]:
-    """Every second family is latex; sizes are log-uniform in ξ − 1 and rise."""
-    random = np.random.default_rng(seed)
+    """Every second family is latex; sizes are log-uniform in ξ over the lumen less 1 and rise.
+
+    A third of the families is pre-stretched, by up to 20 %, so that some stones are smaller than
+    the unloaded lumen. The pre-stretch has a generator of its own.
+    """
+    random, of_stretch = np.random.default_rng(seed), np.random.default_rng([seed, 1])
     found = []
     for k in range(count):
         law = ("latex", "ureter")[k % 2]
@@ -233,12 +249,16 @@ def families(seed: int, count: int) -> list[list[sp.Case]]:
         confinement = ("dead", "hydrostatic")[int(random.integers(2))]
         half_length = 6.0 * (40.0 / 6.0) ** random.uniform()
         seating = ("pressed", "pressed", "growing", "frictionless")[int(random.integers(4))]
+        prestretch = float(of_stretch.uniform(1.0, 1.2)) if k % 3 == 0 else 1.0
+        load = sp.Load(f"{outside} kPa", confinement, prestretch)
+        if prestretch > 1.0 and (lumen := lumen_ratio(eta, wall.law, load)) is not None:
+            sizes = sizes * lumen
         found.append(
             [
                 sp.Case(
                     sp.Stone(size_ratio=float(xi), friction=friction),
                     sp.Ureter(wall_ratio=eta, material=wall),
-                    sp.Load(f"{outside} kPa", confinement),
+                    load,
                     sp.SeatedBalance(seating=seating),
                     sp.Numerics(half_length=half_length),
                 )
@@ -262,9 +282,11 @@ def describe(case: sp.Case, *, size: bool = True) -> str:
     ground = f", G {law.G / 1e3:.0f} kPa" if isinstance(law, Fung) else ""
     load = case.load
     outside = f", {load.confining_pressure / 1e3:.1f} kPa {load.confinement}"
+    outside = outside if load.confining_pressure else ""
+    outside += f", λ_z {load.prestretch:.3f}" if load.prestretch != 1.0 else ""
     ratio = f", ξ {case.size_ratio:.4f}" if size else ""
     return (
         f"{case.ureter.material.name}{ground}, η {case.wall_ratio:.3f}{ratio}, "
-        f"μ {case.stone.friction:.2f}{outside if load.confining_pressure else ''}, "
+        f"μ {case.stone.friction:.2f}{outside}, "
         f"L {case.numerics.half_length:.0f}, {case.model.seating}"
     )

@@ -176,6 +176,7 @@ def test_a_map_takes_the_material_of_a_case_file(tmp_path, capsys):
     assert record["material"] == "latex"
 
 
+@pytest.mark.slow
 def test_under_a_load_the_comparison_carries_the_warnings_of_its_models():
     stone = sp.Stone(size_ratio=1.2, friction=0.3)
     found = compare_closures(sp.Case(stone, sp.Ureter(wall_ratio=1.3), sp.Load("4 kPa"), **FAST))

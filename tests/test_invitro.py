@@ -83,6 +83,7 @@ def test_a_point_without_an_answer_is_counted_not_averaged():
     assert found.r_squared is None
 
 
+@pytest.mark.slow  # the same fit with a formula in place of the elements is in the fast tests
 def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
     """A wall of 1.3 times the modulus, dry and under water, against the material's own stiffness."""
     stiff = Material("stiff", NeoHookean(1.3 * 0.1465e6), "", "", "", (1.0, 1.5))

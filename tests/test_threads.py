@@ -24,7 +24,7 @@ def pressure(question):
     return sp.critical_pressure(stone, tube, model=model, numerics=sp.Numerics("fast")).pressure
 
 smooth, direct = sp.SeatedBalance("frictionless"), sp.PushThrough()
-questions = [(1.1, smooth), (1.2, smooth), (1.15, direct), (1.25, smooth)]
+questions = [(1.1, smooth), (1.2, smooth), (1.15, direct)]
 with ThreadPoolExecutor(2) as pool:
     together = list(pool.map(pressure, questions))
 assert None not in together

@@ -83,6 +83,14 @@ def test_a_point_without_an_answer_is_counted_not_averaged():
     assert found.r_squared is None
 
 
+def test_friction_and_stiffness_come_back_from_a_formula():
+    points = made_up([*DRY, *WET], 0.35, stiffness=1.3)
+    found = fit_friction(points, QUICK, solver=MadeUp())
+    assert found.joint.friction.value == pytest.approx(0.35, rel=1e-3)
+    assert found.joint.stiffness.value == pytest.approx(1.3, rel=1e-3)
+    assert found.friction.value > 0.4
+
+
 @pytest.mark.slow  # the same fit with a formula in place of the elements is in the fast tests
 def test_friction_and_stiffness_come_back_through_the_finite_elements(tmp_path):
     """A wall of 1.3 times the modulus, dry and under water, against the material's own stiffness."""

@@ -180,14 +180,14 @@ SENTENCES = {
 
 @dataclass(frozen=True)
 class Caution:
-    """What a reader of a result must know.
+    """A warning that belongs to a result.
 
     Attributes
     ----------
     code : str
         One of `SENTENCES`; it stays the same when the sentence is reworded.
     values : tuple of (str, value)
-        What the sentence says with numbers and names.
+        The numbers and names that the sentence contains.
     """
 
     code: str

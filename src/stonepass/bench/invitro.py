@@ -23,6 +23,7 @@ from stonepass.bench.least_squares import (
     ends_of_profile,
     intervals,
     lmfit,
+    open_ended,
     profile_level,
 )
 from stonepass.bench.series_model import SeriesModel, series_curves
@@ -216,12 +217,8 @@ def _joint(
 
     best = {name: float(found.params[name].value) for name in BOUNDS}
     estimates = {name: Estimate(best[name], *_profiled(misfit, best, name, count)) for name in best}
-    warnings = []
-    for name, each in estimates.items():
-        if each.low is None and each.high is None:
-            warnings.append(caution("jointly_not_bounded", name=name))
-        elif each.low is None or each.high is None:
-            warnings.append(caution("jointly_bounded_on_one_side", name=name))
+    bounds = {name: (each.low, each.high) for name, each in estimates.items()}
+    warnings = open_ended(bounds, "jointly_not_bounded", "jointly_bounded_on_one_side")
     excess_level = 2.0 * float(f_distribution.ppf(LEVEL, 2, count - 2)) / (count - 2)
     correlation = correlations(found, list(both)).get(("friction", "stiffness"))
     joint = JointFit(

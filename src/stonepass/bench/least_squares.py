@@ -21,6 +21,7 @@ __all__ = [
     "ends_of_profile",
     "intervals",
     "lmfit",
+    "open_ended",
     "profile_level",
 ]
 
@@ -48,7 +49,7 @@ def intervals(
     """
     if len(free) == 1:
         bounds = {free[0]: _profile_of_one(minimizer, result, free[0])}
-        return bounds, _open_ended(bounds)
+        return bounds, open_ended(bounds)
     fitting = lmfit()
     try:
         with np.errstate(all="ignore"), catch_warnings():
@@ -61,7 +62,7 @@ def intervals(
         found, told = _by_curvature(result, free)
         return found, [*told, caution("interval_by_curvature")]
     bounds = {name: (_end(rows[0][1]), _end(rows[-1][1])) for name, rows in profiles.items()}
-    return bounds, _open_ended(bounds)
+    return bounds, open_ended(bounds)
 
 
 def correlations(result: Any, free: Sequence[str]) -> dict[tuple[str, str], float]:
@@ -79,13 +80,16 @@ def _end(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def _open_ended(bounds: dict[str, Interval]) -> list[Caution]:
+def open_ended(
+    bounds: dict[str, Interval], both: str = "not_bounded", one: str = "bounded_on_one_side"
+) -> list[Caution]:
+    """Return a caution for each interval that is open: code `both`, or `one` for one open end."""
     told = []
     for name, (low, high) in bounds.items():
         if low is None and high is None:
-            told.append(caution("not_bounded", name=name))
+            told.append(caution(both, name=name))
         elif low is None or high is None:
-            told.append(caution("bounded_on_one_side", name=name))
+            told.append(caution(one, name=name))
     return told
 
 

@@ -1,4 +1,4 @@
-"""What a reader of an assessment must keep in mind, as cautions."""
+"""The warnings of an assessment, as cautions."""
 
 from __future__ import annotations
 
@@ -36,26 +36,22 @@ def _of_inputs(found: Assessment) -> list[Caution]:
 
 
 def _of_samples(found: Assessment) -> list[Caution]:
-    samples, material = found.samples, found.patient.material
+    samples, beyond = found.samples, _strain_limit(found)
     if samples is None:
         return []
-    highest = material.strain_range[1]
-    beyond = {"highest": highest, "material": material.name}
     return [
-        *_where(samples.size_ratio > highest, "samples_beyond_range", **beyond),
+        *_where(samples.size_ratio > beyond["highest"], "samples_beyond_range", **beyond),
         *_where(samples.loose, "samples_loose"),
         *_where(samples.censored, "samples_censored"),
     ]
 
 
 def _of_present(found: Assessment) -> list[Caution]:
-    present, material = found.at_present, found.patient.material
+    present, beyond = found.at_present, _strain_limit(found)
     if present is None:
         return []
-    highest = material.strain_range[1]
-    beyond = {"highest": highest, "material": material.name}
     told = [
-        *_where(present.opening > highest, "dilation_beyond_range", **beyond),
+        *_where(present.opening > beyond["highest"], "dilation_beyond_range", **beyond),
         *_where(present.opening < 1.0, "dilation_none"),
     ]
     below = found.below_present
@@ -72,6 +68,12 @@ def _of_accuracy(found: Assessment) -> list[Caution]:
     if found.surface_error > LARGE_ERROR:
         told.append(caution("surface_error", error=found.surface_error))
     return told
+
+
+def _strain_limit(found: Assessment) -> dict[str, Any]:
+    """Return the largest stretch that the material's constants were used for, and its name."""
+    material = found.patient.material
+    return {"highest": material.strain_range[1], "material": material.name}
 
 
 def _where(chosen: Bool[np.ndarray, " n"], code: str, **values: Any) -> list[Caution]:

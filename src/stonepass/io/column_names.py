@@ -24,7 +24,7 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
     where : str
         File and kind of what is refused, as the sentence begins.
     name : str
-        Of the column, one of `header`.
+        The name of the column, one of `header`.
     known : sequence of str
         Columns that the table may have.
     header : collection of str
@@ -37,11 +37,11 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
         (stems[each] for each in get_close_matches(stem, stems, n=1, cutoff=0.75)), None
     )
     allowed = "one of " + ", ".join(known)
-    if same is not None and unit and (ratio := _ratio(unit, _split(same)[1])) is not None:
-        wanted = _split(same)[1]
-        if ratio != 1.0:
-            raise BadInput(where, name, same, f"convert the values from {unit} to {wanted}: "
-                           f"1 {unit} is {ratio:.6g} {wanted}")  # fmt: skip
+    wanted = "" if same is None else _split(same)[1]
+    ratio = _ratio(unit, wanted)
+    if same is not None and ratio not in (None, 1.0):
+        raise BadInput(where, name, same, f"convert the values from {unit} to {wanted}: "
+                       f"1 {unit} is {ratio:.6g} {wanted}")  # fmt: skip
     for each in get_close_matches(name, left, n=3, cutoff=0.4):
         its = _split(each)[1]
         if its == unit:

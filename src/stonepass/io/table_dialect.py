@@ -1,4 +1,4 @@
-"""What separates the cells of a table and its decimals, read from the table itself.
+"""The cell separator and the decimal mark of a table are read from the table itself.
 
 Spreadsheets and testing machines write tables with commas, semicolons or tabs between cells, and
 with decimal commas where cells are not separated by commas.
@@ -47,11 +47,11 @@ def with_decimal_points(
     Parameters
     ----------
     rows : iterable of (line, cells)
-        Rows under the header.
+        The header and the rows under it, without comments.
     delimiter : str
-        What separates the cells.
+        The character that separates the cells.
     name : str
-        Of the file, for refusals.
+        The name of the file, for refusals.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def with_decimal_points(
     commas = [(line, cell) for line, cells in found for cell in cells if _COMMA.fullmatch(cell)]
     if not commas:
         return found
-    points = any("." in cell for _, cells in found for cell in cells if cell[:1] != "#")
+    points = any("." in cell for _, cells in found for cell in cells)
     thousands = delimiter == "\t" and all(_GROUPED.fullmatch(cell) for _, cell in commas)
     if points or thousands:
         line, cell = commas[0]

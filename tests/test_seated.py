@@ -204,3 +204,23 @@ def test_a_spheroid_is_seated_in_balance_and_its_wall_lies_on_it(aspect):
     closed = z < np.cos(state.contact_angle) * (1.0 - 1e-9)
     np.testing.assert_allclose(np.hypot(r, z)[closed], 1.0, atol=1e-6)
     assert np.hypot(r, z)[~closed].min() > 1.0 - 1e-6
+
+
+def test_stone_barely_larger_than_a_stretched_lumen():
+    """The internal forces of the stretched wall are far larger than the contact force.
+
+    Their rounding exceeds 1e-9 of the contact force, which alone was the tolerance once. The
+    contact is narrow against the wall's thickness, so by Hertz its pressure is proportional to its
+    width, and thus to the square root of the opening.
+    """
+    load, coarse = Load(prestretch=1.155), Numerics(half_length=17.0, accuracy="fast")
+    tube = Ureter(wall_ratio=2.109, material="latex")
+    lumen = lumen_ratio(tube.wall_ratio, tube.material.law, load)
+    assert lumen is not None
+    pressures = []
+    for opening in (5e-4, 1e-3):
+        stone = Stone(size_ratio=lumen * (1.0 + opening), friction=0.18)
+        state = seat(Case(stone, tube, load, FRICTIONLESS["model"], coarse))
+        assert isinstance(state, SeatedState)
+        pressures.append(state.equator_contact_pressure)
+    assert pressures[1] / pressures[0] == pytest.approx(2.0**0.5, rel=0.05)

@@ -22,10 +22,9 @@ from stonepass.fe.axisymmetric.discretisation import (
 from stonepass.fe.axisymmetric.equilibrium import (
     INSIDE_OUT,
     POLISH,
-    ROUNDING,
-    TOLERANCE,
     EquilibriumState,
     equilibrium_state,
+    residual_tolerance,
 )
 from stonepass.fe.axisymmetric.friction import open_contact
 from stonepass.fe.axisymmetric.inner_wall import contact_edges
@@ -71,7 +70,7 @@ def solve_active_set(
         interpolate_start(d, start)
         free = free_unknowns(d, INNER, friction=start.origin is not None)
         system = FormSystem(_form(d, start, friction), d.state, free)
-        tolerance = max(TOLERANCE * start.force, ROUNDING)
+        tolerance = residual_tolerance(system, start.force)
         report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
         steps += report.steps
         found = contact_edges(d) if report.converged else None

@@ -16,6 +16,7 @@ from stonepass.fe.axisymmetric.discretisation import (
     free_unknowns,
     wall_form,
 )
+from stonepass.fe.axisymmetric.equilibrium import residual_tolerance
 from stonepass.fe.axisymmetric.inner_wall import contact_edges
 from stonepass.fe.axisymmetric.layouts import equal_layout
 from stonepass.fe.axisymmetric.mesh import INNER
@@ -60,7 +61,8 @@ def predict_contact(
     wrap_round(d, wrap)
     system = FormSystem(_form(d, weight), d.state, free_unknowns(d, INNER))
     force = contact_force(d, system)
-    report = newton_or_homotopy(system, d.stiffening.Set, PREDICTOR_TOLERANCE * force)
+    tolerance = residual_tolerance(system, force, PREDICTOR_TOLERANCE)
+    report = newton_or_homotopy(system, d.stiffening.Set, tolerance)
     if not report.converged:
         return Failure(report.reason, report.steps)
     edges = contact_edges(d)

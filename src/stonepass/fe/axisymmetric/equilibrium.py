@@ -22,17 +22,17 @@ from stonepass.fe.core.systems import FormSystem
 __all__ = [
     "INSIDE_OUT",
     "POLISH",
-    "ROUNDING",
     "TOLERANCE",
     "EquilibriumState",
     "contact_flaw",
     "equilibrium_state",
     "penetration",
+    "residual_tolerance",
 ]
 
 TOLERANCE = 1e-9  # of the contact force
 POLISH = 1e-2  # of the tolerance, where that is cheap: forces at single nodes are less accurate
-ROUNDING = 1e-14  # norm of the residual that rounding leaves where the contact force is tiny
+ROUNDING = 1e-14  # norm of the residual that rounding leaves in any case
 INSIDE_OUT = "the wall found is turned inside out where its axial fibres buckle"
 PULLS = 1e-6  # of the largest contact force: largest tension at a node
 
@@ -74,6 +74,25 @@ class EquilibriumState:
     friction: float
     dissipated: float
     edge_uncertainty: float = 0.0
+
+
+def residual_tolerance(system: FormSystem, force: float, fraction: float = TOLERANCE) -> float:
+    """Norm of the residual at which a contact counts as solved.
+
+    It is a fraction of the contact force, but not less than what rounding leaves. A wall that is
+    stretched before the stone comes has large internal forces that balance each other, and near
+    the size of the loaded lumen their rounding exceeds that fraction of a tiny contact force.
+
+    Parameters
+    ----------
+    system : FormSystem
+        At the starting point of the solve.
+    force : float
+        Norm of the nodal contact forces that are expected.
+    fraction : float
+        Of the contact force.
+    """
+    return max(fraction * force, ROUNDING, system.rounding())
 
 
 def equilibrium_state(

@@ -18,11 +18,10 @@ from stonepass.fe.axisymmetric.discretisation import (
 )
 from stonepass.fe.axisymmetric.equilibrium import (
     POLISH,
-    ROUNDING,
-    TOLERANCE,
     EquilibriumState,
     contact_flaw,
     equilibrium_state,
+    residual_tolerance,
 )
 from stonepass.fe.axisymmetric.friction import closed_contact
 from stonepass.fe.axisymmetric.inner_wall import inner_wall
@@ -97,7 +96,7 @@ def solve_fitted_contact(
         apply=move_edges,
         conditions=lambda: np.array([d.state.vec[index] for index in at_edges]),
     )
-    tolerance = max(TOLERANCE * start.force, ROUNDING)
+    tolerance = residual_tolerance(system, start.force)
     report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
     if not report.converged:
         return Failure(report.reason, report.steps)

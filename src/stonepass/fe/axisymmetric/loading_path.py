@@ -24,6 +24,7 @@ from stonepass.fe.axisymmetric.discretisation import (
     free_unknowns,
     wall_form,
 )
+from stonepass.fe.axisymmetric.equilibrium import residual_tolerance
 from stonepass.fe.axisymmetric.friction import open_contact
 from stonepass.fe.axisymmetric.inner_wall import (
     InnerWall,
@@ -99,7 +100,7 @@ def follow_loading_path(
     system = FormSystem(_form(d, path, origin), d.state, free_unknowns(d, INNER, friction=True))
     before, now = None, _untouched(d, path)
     usual = step = 1.0 / resolution.increments
-    s, steps, dissipated = 0.0, 0, 0.0
+    s, steps, dissipated, tolerance = 0.0, 0, 0.0, 0.0
     while True:
         ahead = s + step if s + step < 1.0 - 1e-9 else 1.0
         t = ahead**2
@@ -107,7 +108,7 @@ def follow_loading_path(
         touch = _touching_place(before or _rigid_motion(now, d, path, t), now, t)
         set_at_nodes(origin, piecewise_linear(inner_wall(d).station, touch), d)
         _guess(d, before, now, t, path, wrap_at)
-        tolerance = PATH_TOLERANCE * frictionless.force
+        tolerance = tolerance or residual_tolerance(system, frictionless.force, PATH_TOLERANCE)
         report = newton_or_homotopy(system, d.stiffening.Set, tolerance)
         steps += report.steps
         if not report.converged:

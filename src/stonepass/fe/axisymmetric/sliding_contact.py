@@ -26,7 +26,13 @@ from functools import partial
 import numpy as np
 
 from stonepass.array_types import Float
-from stonepass.fe.axisymmetric.equilibrium import POLISH, TOLERANCE, contact_flaw, penetration
+from stonepass.fe.axisymmetric.equilibrium import (
+    POLISH,
+    TOLERANCE,
+    contact_flaw,
+    penetration,
+    residual_tolerance,
+)
 from stonepass.fe.axisymmetric.problem import Failure
 from stonepass.fe.axisymmetric.sliding_forces import (
     axial_force,
@@ -135,7 +141,7 @@ def _solve(
         z=forces.wall.z,
         contact_pressure=forces.normal / forces.area,
         steps=steps,
-        residual=report.residual / workspace.problem.tolerance * TOLERANCE,
+        residual=report.residual / (2.0 * workspace.problem.force),
         penetration=penetration(workspace.discretisation),
         friction_work=friction_work(workspace),
     )
@@ -225,5 +231,6 @@ def _newton(
         apply=apply,
         conditions=conditions,
     )
-    report = newton(system, problem.tolerance, most=MOST_STEPS, polish=POLISH)
+    tolerance = residual_tolerance(system, problem.force, 2.0 * TOLERANCE)
+    report = newton(system, tolerance, most=MOST_STEPS, polish=POLISH)
     return capture(workspace, start.seal), report

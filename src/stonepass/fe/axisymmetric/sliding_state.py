@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stonepass.array_types import Float
-from stonepass.fe.axisymmetric.equilibrium import ROUNDING, TOLERANCE, EquilibriumState
+from stonepass.fe.axisymmetric.equilibrium import EquilibriumState
 from stonepass.fe.axisymmetric.layouts import graded_layout
 from stonepass.fe.axisymmetric.mesh import Layout
 from stonepass.fe.axisymmetric.problem import Resolution, Tube
@@ -53,11 +53,6 @@ class SlidingProblem:
     def outlet(self) -> float:
         """Distance of the downstream end from the stone, in inner radii."""
         return self.tube.half_length - self.offset
-
-    @property
-    def tolerance(self) -> float:
-        """Norm of the residual at which a state counts as solved."""
-        return max(2.0 * TOLERANCE * self.force, ROUNDING)
 
     def layout(self, edges: tuple[float, float], seal: float) -> Layout:
         """Grid lines for a contact between two stations, with the seal at a fraction of it."""

@@ -16,6 +16,7 @@ __all__ = ["BorderedSystem", "FormSystem"]
 
 MOST = 0.3  # largest change of a scalar unknown in one step, in units of its scale
 DIFFERENCE = 1e-6  # of the scale, for difference quotients
+ROUNDED = 2.0**-30  # relative change of the unknowns from which the effect of rounding is scaled
 
 
 class FormSystem:
@@ -52,6 +53,22 @@ class FormSystem:
         self.evaluate(self._force)
         self._known = True
         return float(ng.Norm(self._force))
+
+    def rounding(self) -> float:
+        """Estimate the norm of the residual that rounding of the unknowns leaves near this state.
+
+        Every unknown is changed by a small fraction of itself, with random signs, and the change
+        of the residual is scaled down to the relative precision of a floating-point number.
+        """
+        self.evaluate(self._force)
+        kept = self.remember()
+        unknowns = self.state.vec.FV().NumPy()
+        signs = np.random.default_rng(0).choice((-ROUNDED, ROUNDED), unknowns.size)
+        unknowns *= 1.0 + signs
+        self.evaluate(self._change)
+        self._change.data -= self._force
+        self.recall(kept)
+        return float(ng.Norm(self._change)) * np.finfo(float).eps / ROUNDED
 
     def direction(self, *, again: bool = False) -> None:
         """Linearise and factorise, unless `again`, and solve."""

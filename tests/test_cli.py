@@ -331,7 +331,7 @@ def test_the_direct_model_answers_draws_and_writes(cli, tmp_path):
     assert record["detail"]["seal_angle_deg"] < record["downstream_angle_deg"]
     assert "closure_end_pressure_kPa" not in record["detail"]
     assert figure.stat().st_size > 20_000
-    rows = list(csv.reader(profile.open()))[1:]
+    rows = list(csv.reader(profile.read_text().splitlines()))[1:]
     assert float(rows[0][1]) == pytest.approx(record["critical_pressure_kPa"])
     assert float(rows[-1][1]) == 0.0
     code, out, _ = cli("pressure", *LATEX[:6], "--friction", 0.475, "--model", "direct", *FAST)
@@ -401,7 +401,9 @@ DIRECT = ("--eta", 1.3, "--model", "direct", *FAST)
 def test_curve_takes_the_direct_model(cli, tmp_path):
     out = tmp_path / "c.csv"
     assert cli("curve", *DIRECT, "--xi", "1.1:1.2:0.1", "--out", out)[0] == 0
-    low, high = (float(row["critical_pressure_kPa"]) for row in csv.DictReader(out.open()))
+    low, high = (
+        float(row["critical_pressure_kPa"]) for row in csv.DictReader(out.read_text().splitlines())
+    )
     assert 0.0 < low < 8.0 < high
 
 

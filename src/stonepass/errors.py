@@ -10,6 +10,7 @@ from typing import Any, NoReturn, Self
 
 __all__ = [
     "BadInput",
+    "CacheWarning",
     "Misplaced",
     "Outcome",
     "StonepassError",
@@ -26,6 +27,10 @@ _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 200
 
 class StonepassError(Exception):
     """Root of every error this package raises on purpose."""
+
+
+class CacheWarning(UserWarning):
+    """The solution cache could not be written, or held a damaged result; answers are unaffected."""
 
 
 class BadInput(StonepassError, ValueError):

@@ -5,15 +5,28 @@ Exit codes: 0 an answer, 1 no answer (its outcome says why), 2 a bad request, 3 
 
 from __future__ import annotations
 
+import errno
 import os
+import signal
 import sys
 import warnings
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from stonepass.cli.encoding import spell_what_is_lacking
 
 __all__ = ["main"]
 
 EXIT_NO_ANSWER, EXIT_BAD_REQUEST, EXIT_FAULT = 1, 2, 3
+EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
+NO_MEMORY = (
+    "bad_alloc",
+    "allocate memory",
+    "could not allocate",
+    "failed to map segment",
+    "can't start new thread",
+)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -21,6 +34,7 @@ def main(arguments: list[str] | None = None) -> None:
     # Looking for plug-ins of pydantic reads the metadata of every installed package.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     spell_what_is_lacking()
+    signal.signal(signal.SIGTERM, _terminate)
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
 
@@ -31,11 +45,14 @@ def run(arguments: list[str]) -> int:
     from stonepass.cli.app import app
     from stonepass.errors import StonepassError
 
-    warnings.simplefilter("ignore")  # what matters is in the answer's own warnings
     if arguments in ([], ["material"]):
         arguments = [*arguments, "--help"]
     try:
-        result = app(args=arguments, prog_name="stonepass", standalone_mode=False)
+        with _cache_warnings():
+            result = app(args=arguments, prog_name="stonepass", standalone_mode=False)
+            sys.stdout.flush()
+        if result == EXIT_INTERRUPTED:  # Typer has caught the interrupt
+            return _say("stopped.", EXIT_INTERRUPTED)
         return result if isinstance(result, int) else 0
     except StonepassError as problem:
         return _say(str(problem), EXIT_BAD_REQUEST)
@@ -44,18 +61,64 @@ def run(arguments: list[str]) -> int:
     except typer.TyperException as problem:
         return _say(_sentence(problem.format_message()), EXIT_BAD_REQUEST)
     except (KeyboardInterrupt, typer.Abort):
-        return _say("stopped.", 130)
+        return _say("stopped.", EXIT_INTERRUPTED)
+    except _Terminated:
+        return _say("stopped.", EXIT_TERMINATED)
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()
         return 0
-    except Exception as problem:  # we are wrong: no traceback reaches a user
+    except Exception as problem:  # no traceback reaches a user
         if os.environ.get("STONEPASS_DEBUG"):
             raise
+        if (sentence := _beyond_the_machine(problem)) is not None:
+            return _say(sentence, EXIT_BAD_REQUEST)
         return _say(
             f"this is a fault of stonepass, please report it with your command: "
             f"{type(problem).__name__}: {problem} (STONEPASS_DEBUG=1 shows where).",
             EXIT_FAULT,
         )
+
+
+class _Terminated(BaseException):
+    """The system asked this process to end."""
+
+
+def _terminate(*_: object) -> None:
+    raise _Terminated
+
+
+@contextmanager
+def _cache_warnings() -> Iterator[None]:
+    """Print what the solution cache warned of, once and after the answer.
+
+    Other warnings of Python are left out: what matters is in the answer's own warnings.
+    """
+    from stonepass.errors import CacheWarning
+
+    with warnings.catch_warnings(record=True) as noted:
+        warnings.simplefilter("ignore")
+        warnings.simplefilter("always", CacheWarning)
+        yield
+    for sentence, times in Counter(str(each.message) for each in noted).items():
+        count = "" if times == 1 else f" ({times} times)"
+        way = "; --cache names another folder, --no-cache does without" * ("written" in sentence)
+        print(f"warning: {sentence}{count}{way}", file=sys.stderr)
+
+
+def _beyond_the_machine(problem: Exception) -> str | None:
+    """Say what the machine lacks, memory or room for output, where that is the problem."""
+    text = str(problem).lower()
+    if isinstance(problem, MemoryError) or any(sign in text for sign in NO_MEMORY):
+        return "there is not enough memory for this; close other programs or raise the limit."
+    if isinstance(problem, OSError) and problem.errno in (errno.ENOSPC, errno.EDQUOT, errno.EIO):
+        _discard_output()
+        return f"the output could not be written: {problem.strerror}."
+    return None
+
+
+def _discard_output() -> None:
+    """Send what is left in the buffer of stdout nowhere, so that its end raises nothing."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _say(sentence: str, code: int) -> int:

@@ -54,14 +54,14 @@ def command(
     folder = cache_folder(cache, no_cache)
     with process_pool(workers or CORES) as pool, counting("solving") as progress:
         found = assess(patient, JobSolver(pool, folder, progress))
-    if html is not None:
-        from stonepass.report.assess_page import write_assessment
-
-        write_assessment(found, html)
     if json:
         print_json(assess_record(found, patient_file.name).to_dict())
     else:
         show(*assess_tables(found), f"{found.message} {CAUTION}", DISCLAIMER)
         warn(found.warnings)
         warn([f"at the measured values {each}" for each in found.at_values.warnings])
+    if html is not None:
+        from stonepass.report.assess_page import write_assessment
+
+        write_assessment(found, html)
     return 0 if found.outcome.answered else 1

@@ -105,15 +105,15 @@ def command(
     one = ClosureMap([settings.case(method__model="paper")], order, settings.wetted)
     with working("comparing closures"):
         (found,) = run_study(one, cache_folder=cache_folder(cache, no_cache))
-    if out is not None:
-        write_map([found], out)
-    if figure is not None:
-        save(closures_figure(found), figure)
     if json:
         print_json(closures_record(found).to_dict())
     else:
         show(closures_table(found))
     warn([*found.warnings, *([] if found.outcome.answered else [found.message])])
+    if out is not None:
+        write_map([found], out)
+    if figure is not None:
+        save(closures_figure(found), figure)
     return 0 if found.outcome.answered else 1
 
 
@@ -160,20 +160,29 @@ def _show_map(
     from stonepass.records.closures import closures_record, write_map
     from stonepass.report.closures_report import map_figure
     from stonepass.report.style import save
-    from stonepass.studies.closures import CLOSURES
 
+    if json:
+        print_json([closures_record(each).to_dict() for each in found])
+    else:
+        show(*_spreads(found))
     if out is not None:
         write_map(found, out)
     if figure is not None:
         save(map_figure(found), figure)
-    if json:
-        print_json([closures_record(each).to_dict() for each in found])
-        return 0
+    return 0
+
+
+def _spreads(found: list[ClosureComparison]) -> list[str]:
+    """A line for each closure: the range of its errors over the cases that it answers."""
+    from stonepass.studies.closures import CLOSURES
+
+    lines = []
     for name, text in CLOSURES.items():
         errors = [error for each in found if (error := each.error(name)) is not None]
         if name != "direct" and errors:
-            show(f"{text}: {min(errors):+.1%} to {max(errors):+.1%} of direct, {len(errors)} cases")
-    return 0
+            spread = f"{min(errors):+.1%} to {max(errors):+.1%} of direct"
+            lines.append(f"{text}: {spread}, {len(errors)} cases")
+    return lines
 
 
 def _numbers(text: str, option: str) -> list[float]:

@@ -51,13 +51,13 @@ def command(
     from stonepass.records.compare import compare_record
     from stonepass.report.compare_report import compare_figure, compare_table
 
-    if figure is not None:
-        from stonepass.report.style import save
-
-        save(compare_figure(found), figure)
     if json:
         print_json(compare_record(found).to_dict())
     else:
         show(compare_table(found))
         warn(found.answer.warnings)
+    if figure is not None:
+        from stonepass.report.style import save
+
+        save(compare_figure(found), figure)
     return 0 if found.answer.outcome.answered and found.pressure is not None else 1

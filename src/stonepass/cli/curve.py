@@ -64,13 +64,6 @@ def command(
     count = workers or min(CORES, max(1, len(sizes) // 6))  # a process takes seconds to start
     with process_pool(count) as pool, counting("size ratios") as progress:
         answers = run_study(Curve(case, sizes), pool, folder, progress)
-    if out is not None:
-        write_curve(answers, out)
-    if figure is not None:
-        from stonepass.report.curve_figure import curve_figure
-        from stonepass.report.style import save
-
-        save(curve_figure(answers), figure)
     if json:
         print_json([each.to_dict() for each in curve_records(answers)])
     else:
@@ -78,6 +71,13 @@ def command(
 
         show(curve_table(answers))
         warn(grouped_warnings(answers))
+    if out is not None:
+        write_curve(answers, out)
+    if figure is not None:
+        from stonepass.report.curve_figure import curve_figure
+        from stonepass.report.style import save
+
+        save(curve_figure(answers), figure)
     return 0 if all(answer.outcome.answered for answer in answers) else 1
 
 

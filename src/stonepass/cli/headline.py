@@ -34,8 +34,9 @@ def command(
     folder = cache_folder(cache, no_cache)
     with process_pool(workers or CORES) as pool, counting("cases") as progress:
         walls = run_study(Headline(), pool, folder, progress)
-    save(headline_figure(walls), figure)
-    show(headline_table(walls), confining_table(walls), f"Figure: {figure}", DISCLAIMER)
+    show(headline_table(walls), confining_table(walls), DISCLAIMER)
     for wall in walls:
         warn(grouped_warnings(wall.confined))
+    save(headline_figure(walls), figure)
+    show(f"Figure: {figure}")
     return 0 if all(wall.size.outcome.answered for wall in walls) else 1

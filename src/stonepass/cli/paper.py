@@ -50,13 +50,11 @@ def command(
     from stonepass.paper.run import chosen, reproduce
     from stonepass.paper.section import Asked
     from stonepass.studies.executor import CORES, process_pool
-    from stonepass.studies.solution_cache import SolutionCache
     from stonepass.units import pressure
 
     names = chosen(parts or [])
     asked = Asked(pressure(limit, "--limit"), () if points is None else read_points(points))
     folder = cache_folder(cache, no_cache)
-    before = 0 if folder is None else SolutionCache(folder).set_aside()
     with process_pool(workers or CORES) as pool, counting("solving") as progress:
         sections = reproduce(names, out, asked, pool, folder, progress)
     claims = [claim for section in sections for claim in section.claims]
@@ -66,7 +64,4 @@ def command(
     warned = sum(len(section.warnings) for section in sections)
     if warned:
         warn([f"{warned} kinds of warnings stand behind the answers; the page has them"])
-    spoilt = 0 if folder is None else SolutionCache(folder).set_aside() - before
-    if spoilt:
-        warn([f"{spoilt} remembered results were corrupt: set aside in {folder}, solved again"])
     return 1 if any(claim.holds is False for claim in claims) else 0

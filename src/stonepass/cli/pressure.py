@@ -44,13 +44,8 @@ def command(
     case = settings.case()
     from stonepass.model.critical import solve
 
-    if save is not None:
-        from stonepass.inputs.case_file import write_case
-
-        write_case(case, save)
     with working("solving for the wall"):
         answer = solve(case)
-    warn(_write(answer, profile, figure))
     if json:
         from stonepass.records.answer import answer_record
 
@@ -60,6 +55,11 @@ def command(
 
         show(pressure_table(answer), f"{answer.outcome.name}: {answer.message}")
         warn(answer.warnings)
+    warn(_write(answer, profile, figure))
+    if save is not None:
+        from stonepass.inputs.case_file import write_case
+
+        write_case(case, save)
     return 0 if answer.outcome.answered else 1
 
 

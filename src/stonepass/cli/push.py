@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -16,6 +16,9 @@ from stonepass.cli.options import (
     cache_folder,
     takes_settings,
 )
+
+if TYPE_CHECKING:
+    from stonepass.studies.rising import Rising
 
 __all__ = ["command"]
 
@@ -52,9 +55,8 @@ def command(
     writable(out, (".csv",))
     writable(figure, FIGURES)
     writable(animation, (".gif",))
-    from stonepass.records.rising import rising_record, write_rising
-    from stonepass.report.rising_report import rising_figure, rising_table, save_animation
-    from stonepass.report.style import save
+    from stonepass.records.rising import rising_record
+    from stonepass.report.rising_report import rising_table
     from stonepass.studies.rising import RisingPressure
     from stonepass.studies.study import run_study
     from stonepass.units import pressure
@@ -64,13 +66,6 @@ def command(
     folder = cache_folder(cache, no_cache)
     with working("raising the pressure"):
         rising = run_study(study, cache_folder=folder)
-        if rising.states:
-            if out is not None:
-                write_rising(rising, out)
-            if figure is not None:
-                save(rising_figure(rising), figure)
-            if animation is not None:
-                save_animation(rising, animation)
     if json:
         print_json(rising_record(rising).to_dict())
     else:
@@ -83,5 +78,21 @@ def command(
             *(["no state was found, so nothing was written"] if unwritten else []),
         ]
     )
+    if rising.states:
+        with working("drawing"):
+            _write(rising, out, figure, animation)
     complete = len(rising.states) in (0, steps)
     return 0 if complete and rising.critical.outcome.answered else 1
+
+
+def _write(rising: Rising, out: Path | None, figure: Path | None, animation: Path | None) -> None:
+    from stonepass.records.rising import write_rising
+    from stonepass.report.rising_report import rising_figure, save_animation
+    from stonepass.report.style import save
+
+    if out is not None:
+        write_rising(rising, out)
+    if figure is not None:
+        save(rising_figure(rising), figure)
+    if animation is not None:
+        save_animation(rising, animation)

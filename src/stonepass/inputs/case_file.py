@@ -16,6 +16,7 @@ from stonepass.inputs.catalogue import MODEL, all_inputs, sections
 from stonepass.inputs.material_file import material_table
 from stonepass.inputs.opening_curve_file import opening_curve_table
 from stonepass.inputs.shape_file import shape_table
+from stonepass.io.text_file import write_file
 from stonepass.io.toml_document import read_document
 from stonepass.materials.protocol import Material, names_a_file
 from stonepass.model.case import Case
@@ -104,10 +105,7 @@ def write_case(case: Case, path: Path) -> None:
     for key, value in values_of(case, path.resolve().parent).items():
         section, _, name = key.partition(".")
         document.setdefault(section, {})[name] = value
-    try:
-        path.write_text(tomli_w.dumps(document), encoding="utf-8")
-    except OSError as problem:
-        raise BadInput("case file", str(path), f"writable ({problem.strerror})") from problem
+    write_file(path, tomli_w.dumps(document), "case file")
 
 
 def values_of(case: Case, folder: Path) -> dict[str, Any]:

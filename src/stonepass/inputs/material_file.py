@@ -13,7 +13,7 @@ import tomli_w
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from stonepass.errors import BadInput, refuse_unknown
-from stonepass.io.text_file import existing
+from stonepass.io.text_file import existing, write_file
 from stonepass.io.toml_file import parse_table, read_toml
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.constants import (
@@ -226,7 +226,4 @@ def material_table(material: Material) -> dict[str, Any]:
 def write_law(material: Material, path: Path) -> None:
     """Write a material of a known law so that `load_material` gives it back."""
     document = material_table(material)
-    try:
-        path.write_text(tomli_w.dumps(document), encoding="utf-8")
-    except OSError as problem:
-        raise BadInput("law file", str(path), f"writable ({problem.strerror})") from problem
+    write_file(path, tomli_w.dumps(document), "law file")

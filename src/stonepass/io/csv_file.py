@@ -18,7 +18,7 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.io.column_names import refuse_column
 from stonepass.io.table_dialect import delimiter_of, with_decimal_points
-from stonepass.io.text_file import read_text
+from stonepass.io.text_file import read_text, write_file
 
 __all__ = ["Columns", "read_columns", "write_csv"]
 
@@ -188,13 +188,11 @@ def write_csv(path: Path, header: Iterable[str], rows: Iterable[Iterable[Any]]) 
     BadInput
         The file cannot be written.
     """
-    try:
-        with path.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(header)
-            writer.writerows([_cell(value) for value in row] for row in rows)
-    except OSError as problem:
-        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows([_cell(value) for value in row] for row in rows)
+    write_file(path, text.getvalue())
 
 
 def _cell(value: Any) -> str:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import codecs
 import os
+import shutil
+import threading
 import unicodedata
 from pathlib import Path
 
 from stonepass.errors import BadInput, require
 
-__all__ = ["check_writable", "existing", "read_text", "write_file"]
+__all__ = ["WRITING", "check_writable", "existing", "read_text", "replace_file", "write_file"]
+
+WRITING = threading.RLock()  # held while a file is half written; see `studies.executor`
 
 
 def existing(path: Path, what: str = "file") -> Path:
@@ -79,23 +83,48 @@ def check_writable(path: Path, endings: tuple[str, ...]) -> None:
     if path.suffix.lower() not in endings:
         raise BadInput("output file", str(path), "a name ending in " + ", ".join(endings))
     try:
-        fits = not path.is_dir()
-        fits = fits and os.access(path if path.exists() else path.parent, os.W_OK)
+        fits = not path.is_dir() and os.access(path.resolve().parent, os.W_OK)
+        fits = fits and (not path.exists() or os.access(path, os.W_OK))
     except (OSError, ValueError):  # a name too long for the system, or with a NUL
         fits = False
     if not fits:
         raise BadInput("output file", str(path), "in a folder that can be written to")
 
 
-def write_file(path: Path, content: str | bytes) -> None:
-    """Write a file; text is encoded in UTF-8.
+def write_file(path: Path, content: str | bytes, what: str = "output file") -> None:
+    """Write a file in one step; text is encoded in UTF-8.
 
     Raises
     ------
     BadInput
-        It cannot be written.
+        It cannot be written. A file that was there before is then as it was.
     """
     try:
-        path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
+        replace_file(path, content if isinstance(content, bytes) else content.encode("utf-8"))
     except OSError as problem:
-        raise BadInput("output file", str(path), f"writable ({problem.strerror})") from problem
+        raise BadInput(what, str(path), f"writable ({problem.strerror})") from problem
+
+
+def replace_file(path: Path, content: bytes) -> None:
+    """Write a file beside its place and move it there, so that nobody ever sees half of it.
+
+    A link is followed. A device or a pipe is written to directly.
+
+    Raises
+    ------
+    OSError
+        It cannot be written, and what was there before is as it was.
+    """
+    target = path.resolve()
+    if target.exists() and not target.is_file():
+        target.write_bytes(content)
+        return
+    beside = target.with_name(f".{os.getpid()}.{threading.get_ident()}.new")
+    with WRITING:
+        try:
+            beside.write_bytes(content)
+            if target.exists():
+                shutil.copymode(target, beside)
+            beside.replace(target)
+        finally:
+            beside.unlink(missing_ok=True)

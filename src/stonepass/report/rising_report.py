@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from rich import box
 from rich.table import Table
 
 from stonepass.errors import BadInput
+from stonepass.io.text_file import write_file
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.push_figure import draw_pressure, draw_wall
@@ -71,16 +73,16 @@ def save_animation(rising: Rising, path: Path) -> None:
         raise BadInput("animation", str(path), "a file name ending in .gif")
     top = max(state.peak_contact_pressure for state in rising.states)
     first, *others = (_frame(state, top) for state in rising.states)
-    try:
-        first.save(
-            path,
-            save_all=True,
-            append_images=others,
-            duration=[FRAME] * len(others) + [LAST_FRAME],
-            loop=0,
-        )
-    except OSError as problem:
-        raise BadInput("animation", str(path), f"writable ({problem.strerror})") from problem
+    drawn = io.BytesIO()
+    first.save(
+        drawn,
+        format="gif",
+        save_all=True,
+        append_images=others,
+        duration=[FRAME] * len(others) + [LAST_FRAME],
+        loop=0,
+    )
+    write_file(path, drawn.getvalue(), "animation")
 
 
 @in_style

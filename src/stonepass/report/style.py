@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -12,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stonepass.errors import BadInput
+from stonepass.io.text_file import write_file
 from stonepass.units import PASCAL_PER
 
 __all__ = ["COLOURS", "add_mmhg_axis", "in_style", "new_figure", "save", "tidy"]
@@ -97,7 +99,6 @@ def save(figure: Figure, path: Path) -> None:
     metadata: dict[str, Any] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(
         ending, {}
     )
-    try:
-        figure.savefig(path, dpi=200, metadata=metadata)
-    except OSError as problem:
-        raise BadInput("figure", str(path), f"writable ({problem.strerror})") from problem
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format=ending, dpi=200, metadata=metadata)
+    write_file(path, drawn.getvalue(), "figure")

@@ -1,19 +1,27 @@
 """Where the work of a study runs: any `concurrent.futures.Executor`, and how work is sent to it.
 
-A command makes one executor (`process_pool`) and passes it to every study it runs.
+A command makes one executor (`process_pool`) and passes it to every study it runs. Its processes
+end with the process that started them, however that one ends: each holds the reading end of a pipe
+and ends when nobody holds the writing end any more.
 """
 
 from __future__ import annotations
 
 import os
 import pickle
+import signal
+import threading
 import time
+import warnings
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
-from multiprocessing import get_context
-from typing import Any, TypeVar
+from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnContext, SpawnProcess
+from typing import Any, TextIO, TypeVar
+
+from stonepass.io.text_file import WRITING
 
 __all__ = ["CORES", "InProcessExecutor", "executor_for", "process_pool", "stream"]
 
@@ -21,9 +29,14 @@ CORES = os.cpu_count() or 1
 BLOCK_SECONDS = 1.0  # a block of items stops after the item that ends beyond this time
 LARGEST_BLOCK = 256  # items
 IN_FLIGHT = 64  # blocks that were sent and have not returned
+GRACE = 1.0  # s that a process has to end by itself once the work is given up
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
+
+
+# Results of the first items of a block, the seconds they took, and the warnings they gave.
+_Block = tuple[list[Result], float, list[warnings.WarningMessage]]
 
 
 class InProcessExecutor(Executor):
@@ -48,13 +61,100 @@ def process_pool(workers: int) -> Iterator[Executor]:
     workers : int
         Number of processes, at least 1; with 1 the work runs in this process. New processes are
         started with the method "spawn", so that a script that asks for them must guard its entry
-        point with ``if __name__ == "__main__"``.
+        point with ``if __name__ == "__main__"``. They end within about a second when the context is
+        left by an exception, such as the one that Ctrl-C raises, or when this process is killed.
     """
     if workers == 1:
         yield InProcessExecutor()
         return
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+    context = _RecordingContext()
+    reading, writing = context.Pipe(duplex=False)
+    pool = ProcessPoolExecutor(workers, context, _begin_worker, (reading,))
+    try:
         yield pool
+        pool.shutdown()
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        writing.close()
+        context.end_processes()
+        raise
+    finally:
+        writing.close()
+        reading.close()
+
+
+class _Worker(SpawnProcess):
+    """A process that Ctrl-C in a terminal does not reach: whoever started it decides."""
+
+    def start(self) -> None:
+        """Start it with SIGINT blocked, which a new process inherits."""
+        with _interrupts_blocked():
+            super().start()
+
+
+class _RecordingContext(SpawnContext):
+    """Starts processes and knows which, so that they can be ended."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.started: list[_Worker] = []
+
+    def Process(self, *args: Any, **settings: Any) -> _Worker:  # type: ignore[override]
+        """Return a new process, not yet started."""
+        process = _Worker(*args, **settings)
+        self.started.append(process)
+        return process
+
+    def end_processes(self) -> None:
+        """Wait for the processes to end, and kill those that do not within the grace."""
+        last = time.monotonic() + GRACE
+        for process in self.started:
+            process.join(max(0.0, last - time.monotonic()))
+        for process in self.started:
+            if process.is_alive():
+                process.kill()
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Hold back SIGINT in this thread; an interrupt that comes meanwhile is delivered after."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+_noted: list[warnings.WarningMessage] = []  # warnings of this worker that were not sent home yet
+
+
+def _begin_worker(parent: Connection) -> None:
+    """Prepare a process of the pool: it leaves Ctrl-C to its parent, and ends with it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+    warnings.showwarning = _note
+
+
+def _end_with(parent: Connection) -> None:
+    """End this process once the other end of the pipe is closed, but not amid writing a file."""
+    with suppress(EOFError, OSError):
+        parent.recv_bytes()
+    WRITING.acquire(timeout=GRACE)
+    os._exit(1)
+
+
+def _note(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    _noted.append(warnings.WarningMessage(message, category, filename, lineno))
 
 
 def executor_for(work: Any, executor: Executor | None) -> Executor:
@@ -94,7 +194,7 @@ def stream(
         What `work` raises; blocks that have not begun are then cancelled.
     """
     waiting = deque(enumerate(items))
-    pending: dict[Future[tuple[list[Result], float]], list[tuple[int, Item]]] = {}
+    pending: dict[Future[_Block[Result]], list[tuple[int, Item]]] = {}
     size = 1
     try:
         while waiting or pending:
@@ -107,7 +207,9 @@ def stream(
             done, _ = wait(pending, return_when=FIRST_COMPLETED)
             for future in done:
                 block = pending.pop(future)
-                results, seconds = future.result()
+                results, seconds, noted = future.result()
+                for each in noted:
+                    warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
                 waiting.extendleft(reversed(block[len(results) :]))
                 size = _block_size(len(results), seconds)
                 for (index, _), result in zip(block, results, strict=False):
@@ -124,12 +226,14 @@ def _block_size(count: int, seconds: float) -> int:
     return max(1, int(BLOCK_SECONDS * count / seconds))
 
 
-def _run_block(work: Callable[[Item], Result], items: Sequence[Item]) -> tuple[list[Result], float]:
-    """Return the results of the first items, as many as the time allows, and the time."""
+def _run_block(work: Callable[[Item], Result], items: Sequence[Item]) -> _Block[Result]:
+    """Return the results of the first items, as many as the time allows."""
     started = time.perf_counter()
     results = []
     for item in items:
         results.append(work(item))
         if time.perf_counter() - started >= BLOCK_SECONDS:
             break
-    return results, time.perf_counter() - started
+    noted = _noted.copy()
+    _noted.clear()
+    return results, time.perf_counter() - started, noted

@@ -12,7 +12,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
-from stonepass.io.folder import require_writable
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
@@ -165,11 +164,14 @@ def iterate_jobs(
 
     Raises
     ------
-    BadInput
-        If the cache folder cannot be written, or from a job.
+    Exception
+        What a job raises.
+
+    Warns
+    -----
+    CacheWarning
+        The cache folder cannot be written, or held a damaged result.
     """
-    if cache_folder is not None:
-        require_writable(cache_folder, "cache folder", "name another one, or none")
     # Other jobs take several solves each: they are started before the single ones.
     queue = sorted(_once(jobs), key=lambda job: isinstance(job, PressureJob))
     results = stream(executor_for(queue, executor), partial(_run, cache_folder=cache_folder), queue)

@@ -3,6 +3,7 @@
 One file for one result: SHA-256 of what follows, then a zip of JSON and arrays (NumPy's, without
 pickle). A file whose digest is wrong is set aside in ``corrupt/`` and its result solved again.
 Files are written beside their place and moved there in one step, so processes may share a folder.
+A folder that cannot be written costs the memory and not the answer: `CacheWarning` says so.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import hashlib
 import io
 import json
 import os
+import warnings
 import zipfile
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
@@ -20,8 +22,9 @@ from typing import Any
 import numpy as np
 import platformdirs
 
-from stonepass.errors import BadInput
+from stonepass.errors import CacheWarning
 from stonepass.fe.axisymmetric.problem import Resolution
+from stonepass.io.text_file import replace_file
 from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem
@@ -134,10 +137,6 @@ class SolutionCache:
             "opening_curve", case, numerics, {}, lambda: UNCACHED.opening_curve(case, numerics)
         )
 
-    def set_aside(self) -> int:
-        """Return how many corrupt files were found so far."""
-        return len(list((self.folder / CORRUPT).glob("*")))
-
     def _slim(self, found: Any) -> Any:
         """Return a state without its stress field, unless it is to be kept."""
         if self.walls:
@@ -168,7 +167,13 @@ class SolutionCache:
         if known is not None:
             return deserialise(known[0], known[1], case)
         found = solve()
-        _write(path, *serialise(found))
+        try:
+            _write(path, *serialise(found))
+        except OSError as problem:
+            _warn(
+                f"the cache folder '{self.folder}' could not be written "
+                f"({problem.strerror or problem}), so that what was solved is not remembered"
+            )
         return found
 
 
@@ -227,18 +232,17 @@ def describe_law(law: Any) -> Any:
 
 
 def _write(path: Path, document: Any, arrays: dict[str, Any]) -> None:
+    """Write one result; OSError where that fails."""
     packed = io.BytesIO()
     text = np.frombuffer(json.dumps(document).encode(), np.uint8)
     np.savez_compressed(packed, document=text, **arrays)
     payload = packed.getvalue()
-    beside = path.with_name(f"{path.name}.{os.getpid()}.new")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        beside.write_bytes(hashlib.sha256(payload).digest() + payload)
-        beside.replace(path)
-    except OSError as problem:
-        raise BadInput("cache folder", str(path.parent), f"writable ({problem.strerror})",
-                       "name another one, or none") from problem  # fmt: skip
+    path.parent.mkdir(parents=True, exist_ok=True)
+    replace_file(path, hashlib.sha256(payload).digest() + payload)
+
+
+def _warn(sentence: str) -> None:
+    warnings.warn(CacheWarning(sentence), stacklevel=2)
 
 
 def _read(path: Path, corrupt: Path) -> tuple[Any, dict[str, Any]] | None:
@@ -255,6 +259,7 @@ def _read(path: Path, corrupt: Path) -> tuple[Any, dict[str, Any]] | None:
             return json.loads(arrays.pop("document").tobytes()), arrays
         except (ValueError, KeyError, zipfile.BadZipFile):  # of another writer
             pass
+    _warn(f"a damaged result was set aside in '{corrupt}' and solved again")
     try:
         corrupt.mkdir(parents=True, exist_ok=True)
         if path.read_bytes() == raw:  # else another process has mended it meanwhile

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ast
 import hashlib
-import os
 from collections.abc import Iterable
 from functools import lru_cache
 from importlib import metadata
 from pathlib import Path
+
+from stonepass.io.text_file import replace_file
 
 __all__ = ["code_digest", "solver_digest"]
 
@@ -88,10 +89,8 @@ def _digest(parts: Iterable[bytes]) -> str:
 
 
 def _remember(path: Path, code: str) -> None:
-    beside = path.with_name(f"{path.name}.{os.getpid()}.new")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        beside.write_text(code, encoding="ascii")
-        beside.replace(path)
+        replace_file(path, code.encode("ascii"))
     except OSError:  # the digest is computed again the next time
         pass

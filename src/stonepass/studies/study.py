@@ -77,8 +77,13 @@ def run_study(
 
     Raises
     ------
-    BadInput
-        If the cache folder cannot be written, or from a job.
+    Exception
+        What a job raises.
+
+    Warns
+    -----
+    CacheWarning
+        The cache folder cannot be written, or held a damaged result.
     """
     return study.reduce(run_jobs(study.jobs(), executor, cache_folder, progress))
 

@@ -162,7 +162,7 @@ FORMAT = {
     "step": ("id name", "Control"),
     "Control": ("", "analysis time_steps step_size time_stepper solver"),
     "time_stepper:default": ("type", "max_retries opt_iter dtmin dtmax aggressiveness"),
-    "solver:solid": ("type", "symmetric_stiffness max_refs dtol etol qn_method"),
+    "solver:solid": ("type", "symmetric_stiffness max_refs dtol etol min_residual qn_method"),
     "qn_method:BFGS": ("type", "max_ups"),
     # FEBioXML/FEBioLoadDataSection3.cpp, FECore/FELoadCurve.cpp
     "LoadData": ("", "load_controller"),
@@ -244,7 +244,9 @@ def test_everything_referred_to_is_there(deck):
             if element.get(attribute) is not None:
                 assert element.get(attribute) in known
                 seen += 1
-    assert seen >= 12
+    assert seen >= 9
+    used_curves = {each.get("lc") for each in deck.root.iter() if each.get("lc") is not None}
+    assert used_curves == names["lc"]  # FEBio warns of a curve that nothing refers to
     assert {each.get("name") for each in deck.root.iter("SolidDomain")} == deck.named("Elements")
     maps = {each.text for each in deck.root.iter("value") if each.get("type") == "map"}
     assert maps == deck.named("NodeData") == {f"travel_{dof}" for dof in "xyz"}
@@ -437,7 +439,8 @@ def test_steps_take_a_time_of_one_each_and_the_curves_go_on(deck):
         assert dtmin < float(each.find("step_size").text) <= dtmax
     share = pytest.approx(deck.seating.first_fraction)
     assert curve(deck, 1) == [(0.0, 0.0), (1.0, share), (2.0, 1.0)]
-    assert curve(deck, 2) == [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]
+    loading = [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]
+    assert curve(deck, 2) == (loading if deck.seating.loaded else [])
     strip = [bc for bc in deck.root.iterfind("Boundary/bc") if bc.get("node_set") == "strip"]
     assert {bc.find("value").get("lc") for bc in strip} == {"1"}
 
@@ -606,7 +609,7 @@ def test_pyfebio_reads_the_sections_it_can(deck):
     assert len(found.surface_pairs) == 1
     assert len(read(meshdomains.MeshDomains, "MeshDomains").solid_domains) == 2
     assert len(read(meshdata.MeshData, "MeshData").node_data) == 3
-    assert len(read(loaddata.LoadData, "LoadData").load_controllers) == 2
+    assert len(read(loaddata.LoadData, "LoadData").load_controllers) == 1 + deck.seating.loaded
     found = read(output.Output, "Output")
     assert len(found.plotfile[0].all_vars) == 4
     assert len(found.logfile[0].node_data) == len(found.logfile[0].face_data) == 1

@@ -27,6 +27,9 @@ INNER_FILE = "seated_inner.csv"  # node, u_r, 0, u_z of the inner wall, in mm
 CONTACT_FILE = "seated_contact.csv"  # face, contact pressure in kPa
 
 STRIP_CURVE, LOAD_CURVE = "1", "2"
+# Squared residual, in mN², that counts as none. FEBio's own, 1e-20, is less than rounding leaves in
+# a step without forces, such as the first one of a tube without a load.
+NO_RESIDUAL = 1e-12
 
 
 def write_feb(seating: Seating) -> str:
@@ -203,12 +206,14 @@ def _control(control: Element, count: int) -> None:
     _leaf(solver, "max_refs", 25)
     _leaf(solver, "dtol", 1e-3)
     _leaf(solver, "etol", 1e-3)
+    _leaf(solver, "min_residual", NO_RESIDUAL)
     _leaf(SubElement(solver, "qn_method", type="BFGS"), "max_ups", 0)
 
 
 def _curves(root: Element, s: Seating) -> None:
     section = SubElement(root, "LoadData")
-    for number, first in ((STRIP_CURVE, s.first_fraction), (LOAD_CURVE, 1.0)):
+    curves = {STRIP_CURVE: s.first_fraction} | ({LOAD_CURVE: 1.0} if s.loaded else {})
+    for number, first in curves.items():
         curve = SubElement(section, "load_controller", id=number, type="loadcurve")
         _leaf(curve, "interpolate", "LINEAR")
         _leaf(curve, "extend", "CONSTANT")

@@ -1,12 +1,22 @@
 """A user's own law: works like a catalogue law, and every way to get it wrong is one sentence."""
 
+import runpy
+
 import numpy as np
 import pytest
 from options import asking
+from scipy.integrate import quad
 
 import stonepass as sp
+from stonepass.cli import run
 from stonepass.inputs.material_file import load_material
+from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.derivatives import hoop_energy_slope
+from stonepass.materials.protocol import Material
+from stonepass.materials.stability import one_sided_moduli
+from stonepass.materials.user_law import UserLaw
+from stonepass.model.far_field import confining_traction, lumen_ratio
+from stonepass.model.states.law_trial import check_in_engine
 from stonepass.strain import INNER_WALL, CauchyGreen
 
 FAST = asking(accuracy="fast", seating="frictionless")
@@ -16,6 +26,17 @@ strain_range = (1.0, 1.6)
 def energy(C, place, xp):
     return 146.5e3 * (C.rr + C.tt + C.zz - 3.0)
 """
+
+
+NUMPY = """
+import numpy as np
+def energy(C, place, xp):
+    return F
+"""
+
+
+def runpy_energy(tmp_path, text):
+    return runpy.run_path(write(tmp_path, text).removesuffix(":energy"))["energy"]
 
 
 def write(tmp_path, text, name="law.py"):
@@ -88,16 +109,120 @@ def test_bad_functions_are_refused(tmp_path, body, words):
 
 
 def test_a_law_that_only_numpy_can_evaluate_is_refused_by_the_engine(tmp_path):
-    text = """
-import numpy as np
-def energy(C, place, xp):
-    if xp.__name__.startswith("autograd"):
-        return 1e5 * (C.rr + C.tt + C.zz - 3.0)
-    return np.exp(C.tt)
-"""
-    mine = load_material(write(tmp_path, text))
+    mine = load_material(write(tmp_path, NUMPY.replace("F", "5e4 * (np.exp(C.I1 - 3.0) - 1.0)")))
     with pytest.raises(sp.BadInput, match=r"it may use .*xp\.exp"):
         sp.seat(sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=mine)))
+    with pytest.raises(sp.BadInput, match=r"it may use .*xp\.exp"):
+        check_in_engine(mine)
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        "1e5 * (C.I1 - 3.0) + np.where(C.I1 > 3.1, (C.I1 - 3.1) ** 2, 0.0)",
+        "1e5 * (C.I1 - 3.0) * (1.0 + C.I1 // 3.5)",
+        "1e5 * xp.logaddexp(C.I1 - 3.0, 0.0)",  # NumPy has it, the finite elements do not
+        "1e5 * np.sum([C.I1, -3.0])",
+    ],
+)
+def test_what_cannot_be_differentiated_is_the_laws_fault(tmp_path, formula):
+    with pytest.raises(sp.BadInput, match=r"law 'energy' is raising .*it may use \+"):
+        load_material(write(tmp_path, NUMPY.replace("F", formula)))
+
+
+def test_a_comparison_passes_in_numpy_and_is_found_by_the_check(tmp_path, capsys):
+    text = NUMPY.replace("F", "1e5 * (C.I1 - 3.0) + (C.I1 > 3.1) * 1e4 * (C.I1 - 3.1) ** 2")
+    assert run(["material", "check", write(tmp_path, text)]) == 2
+    said = capsys.readouterr().err
+    assert "TypeError: '>' not supported" in said
+    assert "no comparisons" in said
+
+
+def test_another_energy_in_the_finite_elements_is_found_by_the_check(tmp_path):
+    text = NUMPY.replace("F", "(1e5 if isinstance(C.rr, np.ndarray) else 1.1e5) * (C.I1 - 3.0)")
+    mine = Material("mine", UserLaw(runpy_energy(tmp_path, text), "energy"), "", "", "", (1.0, 1.5))
+    with pytest.raises(sp.BadInput, match=r"in the finite elements and .* in NumPy at circumf"):
+        check_in_engine(mine)
+
+
+@pytest.mark.parametrize("law", [*CATALOGUE])
+def test_the_finite_elements_find_what_numpy_finds(law):
+    check_in_engine(CATALOGUE[law])
+
+
+GENT = """
+strain_range = (1.0, {high})
+def energy(C, place, xp):
+    return -0.5 * 293e3 * {limit} * xp.log(1.0 - (C.I1 - 3.0) / {limit})
+"""
+LOADS = [
+    sp.Load("2 kPa"),
+    sp.Load("30 kPa", "hydrostatic"),
+    sp.Load(prestretch=1.3),
+    sp.Load("20 kPa", prestretch=1.2),
+]
+
+
+@pytest.mark.parametrize("load", LOADS)
+def test_a_locking_law_has_a_lumen_under_load(tmp_path, load):
+    """The bracket of the lumen begins where the law has an energy; Gent (1996)."""
+    law = load_material(write(tmp_path, GENT.format(limit=1.5, high=1.5))).law
+    lumen = lumen_ratio(1.5, law, load)
+    assert 0.5 < lumen < 1.0
+
+    def traction(R):  # dP/dR = w'(λ)/(λ_z λ R) with the slope of Gent's law by hand
+        axial = load.prestretch
+        hoop = np.sqrt(lumen**2 + (R**2 - 1.0) / axial) / R
+        excess = hoop**2 + axial**2 + 1.0 / (hoop * axial) ** 2 - 3.0
+        slope = 293e3 * 1.5 / (1.5 - excess) * (hoop - 1.0 / (hoop**3 * axial**2))
+        return slope / (axial * hoop * R)
+
+    outside = float(confining_traction(np.array(lumen), 1.5, load))
+    assert quad(traction, 1.0, 1.5)[0] + outside == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("load", LOADS)
+def test_a_law_that_locks_far_away_is_neo_hookean(tmp_path, load):
+    law = load_material(write(tmp_path, GENT.format(limit=1e7, high=1.5))).law
+    latex = CATALOGUE["latex"].law
+    assert lumen_ratio(1.5, law, load) == pytest.approx(lumen_ratio(1.5, latex, load), rel=1e-5)
+
+
+def test_a_stone_beyond_the_locking_stretch_has_no_answer(tmp_path):
+    """Its energy has no value there, but the derivative of the logarithm has."""
+    mine = load_material(write(tmp_path, GENT.format(limit=1.5, high=1.5)))
+    stone, ureter = sp.Stone(size_ratio=1.9), sp.Ureter(wall_ratio=1.5, material=mine)
+    answer = sp.critical_pressure(stone, ureter, **FAST)
+    assert answer.outcome is sp.Outcome.NO_SOLUTION
+    with np.errstate(invalid="raise"):
+        assert np.isnan(hoop_energy_slope(mine.law, np.array([1.9]))[0])
+
+
+def test_the_strain_range_of_a_locking_law_ends_before_it_locks(tmp_path):
+    load_material(write(tmp_path, GENT.format(limit=0.3, high=1.2)))
+    with pytest.raises(sp.BadInput, match=r"at circumferential stretch 1\.5.*strain_range = "):
+        load_material(write(tmp_path, GENT.format(limit=0.3, high=1.5)))
+
+
+def test_fibres_that_bear_tension_only_have_two_moduli(tmp_path, capsys):
+    """μ 40 kPa and fibres along the axis, k (C_zz − 1)² with k 50 kPa, stiffness 8 k = 400 kPa.
+
+    Uniaxial: 3 μ + 8 k along the axis in tension, 3 μ in compression. Around, the axis contracts in
+    tension (3 μ); in compression it would lengthen, 4 μ − (2 μ)²/(4 μ + 8 k).
+    """
+    text = """
+def energy(C, place, xp):
+    return 20e3 * (C.I1 - 3.0) + 50e3 * xp.maximum(C.zz - 1.0, 0.0) ** 2
+"""
+    assert run(["material", "check", write(tmp_path, text)]) == 0
+    shown = capsys.readouterr().out
+    assert "0.12 MPa in tension, 0.1486 MPa in compression" in shown
+    assert "0.52 MPa in tension, 0.12 MPa in compression" in shown
+    assert shown.count("in compression") == 2
+    law = load_material(f"{tmp_path / 'law.py'}:energy").law
+    tension, compression = one_sided_moduli(law, 1.0), one_sided_moduli(law, -1.0)
+    np.testing.assert_allclose(tension, (120e3, 520e3, 160e3), rtol=1e-5)
+    np.testing.assert_allclose(compression, (160e3 - 80e3**2 / 560e3, 120e3, 160e3), rtol=1e-5)
 
 
 @pytest.mark.parametrize(

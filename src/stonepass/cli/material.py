@@ -10,6 +10,8 @@ __all__ = ["app"]
 
 app = typer.Typer(help="List, show and check material laws.", rich_markup_mode=None)
 
+ONE_SIDED = 1e-4  # relative difference of a modulus in tension and in compression that is shown
+
 Name = Annotated[
     str, typer.Argument(metavar="NAME", help="Catalogue name, law.toml or file.py:function.")
 ]
@@ -113,16 +115,26 @@ def check_material(name: Name) -> int:
     """Check that a law describes a solid; exit code 2 and the reason where it does not."""
     from stonepass.cli.terminal import show
     from stonepass.inputs.material_file import find_material
-    from stonepass.materials.stability import check
+    from stonepass.materials.stability import check, one_sided_moduli
+    from stonepass.model.states.law_trial import check_in_engine
 
     entry = find_material(name)
     state = check(entry)
+    check_in_engine(entry)
+    names = ("circumferential modulus", "axial modulus", "circumferential, axis held")
+    sides = zip(one_sided_moduli(entry.law, 1.0), one_sided_moduli(entry.law, -1.0), strict=True)
+    rows = {name: _modulus(*both) for name, both in zip(names, sides, strict=True)}
+    rows["r-z shear modulus"] = _modulus(state.shear, state.shear)
     show(
         f"{entry.name}: no stress at rest, strongly elliptic over its strain range at axial "
-        "stretch 1.",
-        f"  circumferential modulus      {state.hoop / 1e6:.4g} MPa",
-        f"  axial modulus                {state.axial / 1e6:.4g} MPa",
-        f"  circumferential, axis held   {state.plane_hoop / 1e6:.4g} MPa",
-        f"  r-z shear modulus            {state.shear / 1e6:.4g} MPa",
+        "stretch 1, and the finite elements find the same energy.",
+        *(f"  {what:<26}   {value}" for what, value in rows.items()),
     )
     return 0
+
+
+def _modulus(tension: float, compression: float) -> str:
+    """One modulus, or two of a law whose fibres bear tension only."""
+    if abs(tension - compression) <= ONE_SIDED * max(tension, compression):
+        return f"{tension / 1e6:.4g} MPa"
+    return f"{tension / 1e6:.4g} MPa in tension, {compression / 1e6:.4g} MPa in compression"

@@ -12,7 +12,7 @@ import numpy as np
 import tomli_w
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
-from stonepass.errors import BadInput, refuse_unknown
+from stonepass.errors import BadInput, StonepassError, refuse_unknown
 from stonepass.io.text_file import existing, write_file
 from stonepass.io.toml_file import parse_table, read_toml
 from stonepass.materials.catalogue import material as catalogued
@@ -22,15 +22,13 @@ from stonepass.materials.constants import (
     format_constant,
     read_constant,
 )
+from stonepass.materials.derivatives import energy_derivatives
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, known_law, name_of_law
 from stonepass.materials.protocol import Law, Material, names_a_file
 from stonepass.materials.user_law import UserLaw
 from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["find_material", "load_material", "material_table", "write_law"]
-
-# Stretches (circumferential, axial) on which a user's function is tried before any solve.
-_TRIAL = tuple((t, z) for t in (0.9, 1.0, 1.1, 1.3) for z in (0.95, 1.0, 1.05))
 
 
 class _LawFile(BaseModel):
@@ -101,7 +99,6 @@ def _from_python(path: Path, name: str, text: str) -> Material:
         known = [key for key, value in module.items() if callable(value) and key[:1] != "_"]
         refuse_unknown(f"function in {path.name}", name, known or ["energy"])
     law = UserLaw(function, name)
-    _try_out(law)
     interval = module.get("strain_range", (1.0, 1.5))
     try:
         low, high = (float(bound) for bound in interval)
@@ -109,6 +106,7 @@ def _from_python(path: Path, name: str, text: str) -> Material:
         raise BadInput(
             f"strain_range in {path.name}", interval, "two circumferential stretches"
         ) from problem
+    _try_out(law, low, high)
     return Material(
         name=text,
         reference=text,
@@ -120,14 +118,22 @@ def _from_python(path: Path, name: str, text: str) -> Material:
     )
 
 
-def _try_out(law: UserLaw) -> None:
-    """Evaluate the law on arrays of plausible strains and refuse what is not a finite energy."""
+def _try_out(law: UserLaw, low: float, high: float) -> None:
+    """Evaluate the law over its strain range and refuse what is not a finite energy.
+
+    It is differentiated as well, because some Python works on numbers alone.
+    """
     import autograd.numpy as anp
 
-    t, z = (np.array(column) for column in zip(*_TRIAL, strict=True))
+    t = np.array([low, 1.0, (1.0 + high) / 2.0, high, 1.0, 1.0])
+    z = np.array([1.0, 1.0, 1.0, 1.0, 0.95, 1.05])
+    none = np.zeros_like(t)
+    C, place = (
+        CauchyGreen(1.0 / (t * z) ** 2, t**2, z**2, none, none, none),
+        Place(none + 1.0, none),
+    )
     with np.errstate(all="ignore"):  # what is not finite is refused below
-        C = CauchyGreen(1.0 / (t * z) ** 2, t**2, z**2, 0.0 * t)
-        value = law.energy(C, Place(1.0 + 0.0 * t, 0.0 * t), anp)
+        value = law.energy(C, place, anp)
     try:
         if np.iscomplexobj(value):
             raise TypeError("complex energies")
@@ -141,12 +147,19 @@ def _try_out(law: UserLaw) -> None:
         raise BadInput(
             f"value of law '{law.label}'",
             f"{energies[bad]} at circumferential stretch {t[bad]:g}, axial stretch {z[bad]:g}",
-            "a finite energy in J/m³",
+            "a finite energy in J/m³ over the strain range of the law",
+            "strain_range = (low, high) in its file states the range",
         )
     if np.ptp(energies) == 0.0:
         raise BadInput(
             f"value of law '{law.label}'", f"{energies[0]:g} at every strain", "strain-dependent"
         )
+    try:
+        energy_derivatives(law, C, place)
+    except StonepassError:
+        raise
+    except Exception as problem:
+        raise law.refusal(problem) from problem
 
 
 def _from_toml(path: Path, text: str) -> Material:

@@ -35,18 +35,21 @@ def hoop_energy_slope(
     """w′(λ) in Pa: slope of the energy of an inflated tube (model: far field).
 
     w(λ) is the energy at circumferential stretch λ and axial stretch `axial`; the radial stretch
-    follows from incompressibility, 1/(λ λ_z). For a neo-Hookean law 2 C₁₀ (λ − 1/(λ³ λ_z²)).
+    follows from incompressibility, 1/(λ λ_z). For a neo-Hookean law 2 C₁₀ (λ − 1/(λ³ λ_z²)). Where
+    the energy is not finite, as beyond the locking stretch of a law, the slope is NaN.
     """
 
     import autograd.numpy as anp
-    from autograd import elementwise_grad
+    from autograd import make_vjp
 
     def w(t: Any) -> Any:
         one = t / t
         C = CauchyGreen(1.0 / (t * axial) ** 2, t * t, axial**2 * one, 0.0 * one)
         return law.energy(C, place, anp)
 
-    slope: Values = elementwise_grad(w)(np.asarray(stretch, dtype=float))
+    with np.errstate(all="ignore"):  # what has no energy gets no slope
+        backwards, energy = make_vjp(w)(np.asarray(stretch, dtype=float))
+        slope: Values = np.where(np.isfinite(energy), backwards(np.ones_like(energy)), np.nan)
     return slope
 
 
@@ -73,6 +76,7 @@ def energy_derivatives(
     Every component of C is an array (points), and so are the coordinates of the place, or they are
     numbers that hold for all points. The energy at a point depends on that point alone, so that six
     copies of the points give all rows of second derivatives in one pass, one row for each copy.
+    Where the energy is not finite the derivatives are NaN.
     """
     import autograd.numpy as anp
     from autograd import grad
@@ -92,17 +96,33 @@ def energy_derivatives(
     def own_slopes(c: Any) -> Any:
         return anp.sum(slopes(c) * own_row + 0.0 * c)
 
-    curvature = np.asarray(grad(own_slopes)(components)).reshape(6, 6, count)
-    return np.asarray(slopes(components))[:, :count].T, np.moveaxis(curvature, -1, 0)
+    with np.errstate(all="ignore"):  # what has no energy gets no derivatives
+        curvature = np.asarray(grad(own_slopes)(components)).reshape(6, 6, count)
+        gradient = np.asarray(slopes(components))[:, :count].T
+        energy = law.energy(C, Place(*(x[:count] for x in everywhere)), anp)
+    known = np.isfinite(np.broadcast_to(energy, count))
+    return (
+        np.where(known[:, None], gradient, np.nan),
+        np.where(known[:, None, None], np.moveaxis(curvature, -1, 0), np.nan),
+    )
 
 
 @lru_cache(maxsize=64)
 @one_trace
-def rest_moduli(law: Law) -> tuple[Float[np.ndarray, "2 2"], float]:
+def rest_moduli(
+    law: Law, strains: tuple[float, float] = (0.0, 0.0)
+) -> tuple[Float[np.ndarray, "2 2"], float]:
     """Small-strain moduli in Pa of the inner wall at rest: (hoop, axial) matrix, r–z shear modulus.
 
     The matrix is the Hessian of the energy in the logarithmic strains (e_tt, e_zz) with
     e_rr = −e_tt − e_zz; the shear modulus that of simple shear, C_rz = γ, C_zz = 1 + γ².
+
+    Parameters
+    ----------
+    law : Law
+    strains : (float, float)
+        (e_tt, e_zz) at which the matrix is taken. Tiny strains tell the moduli on either side of
+        rest of a law with fibres that bear tension only; at rest itself their mean is found.
     """
 
     import autograd.numpy as anp
@@ -118,6 +138,6 @@ def rest_moduli(law: Law) -> tuple[Float[np.ndarray, "2 2"], float]:
         return law.energy(CauchyGreen(one, one, 1.0 + g[0] ** 2, g[0]), INNER_WALL, anp)
 
     return (
-        np.asarray(hessian(stretched)(np.zeros(2))),
+        np.asarray(hessian(stretched)(np.array(strains))),
         float(np.asarray(hessian(sheared)(np.zeros(1)))[0, 0]),
     )

@@ -36,7 +36,8 @@ ZOOMS = 4  # refinements, each four times finer
 class Weakest:
     """The weakest shear band: its stiffness in units of the rest r–z shear modulus, and where.
 
-    `stiffness` 1 is that of the unloaded wall across its softest plane, 0 the loss of ellipticity;
+    `stiffness` 1 is that of the unloaded wall across its softest plane, 0 the loss of ellipticity,
+    −∞ where the law has no energy;
     `index` says which of the given deformations it is; `normal` and `direction` are n and m, in
     (r, t, z).
     """
@@ -55,6 +56,7 @@ def weakest(law: Law, F: Float[np.ndarray, "points 5"], place: Place) -> Weakest
     """
     angles, derivatives = _scan(), energy_derivatives(law, _right_cauchy_green(F), place)
     values, _ = shear_stiffness(F, derivatives, _normals(angles)[None])
+    values = np.where(np.isnan(values), -np.inf, values)
     some = np.argsort(values.min(axis=1))[:REFINED]
     F, derivatives = F[some], (derivatives[0][some], derivatives[1][some])
     best, spacing = angles[np.argmin(values[some], axis=1)], np.pi / 2.0 / (COARSE - 1)
@@ -64,7 +66,7 @@ def weakest(law: Law, F: Float[np.ndarray, "points 5"], place: Place) -> Weakest
         found, directions = shear_stiffness(F, derivatives, _normals(near))
         choice = np.argmin(found, axis=1)
         best = np.take_along_axis(near, choice[:, None, None], axis=1)[:, 0]
-    least = found.min(axis=1)
+    least = np.where(np.isnan(found), -np.inf, found).min(axis=1)
     k = int(np.argmin(least))
     n, m = _normals(best[k]), directions[k, choice[k]]
     return Weakest(

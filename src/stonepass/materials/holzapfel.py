@@ -19,7 +19,7 @@ class HolzapfelGasserOgden:
     E = κ (I₁ − 3) + (1 − 3κ)(I₄ − 1) with I₄ = a·C a the squared stretch along the fibres, which
     lie at +γ and −γ from the circumference in the surface θ–z. ⟨E⟩ is E where it is positive, else
     zero: fibres bear tension only. U has a second derivative on either side of E = 0 but not there;
-    at exactly E = 0 automatic differentiation gives the mean of both.
+    at exactly E = 0 automatic differentiation gives the mean of both. `one_sided_moduli` has both.
 
     Sources: Holzapfel, Gasser, Ogden 2000, Journal of Elasticity 61, 1–48 (κ = 0); Gasser, Ogden,
     Holzapfel 2006, Journal of the Royal Society Interface 3, 15–35 (dispersion κ).

@@ -15,8 +15,10 @@ from stonepass.materials.ellipticity import weakest
 from stonepass.materials.protocol import Law, Material, MayBeDefective
 from stonepass.strain import INNER_WALL
 
-__all__ = ["RestState", "check", "rest_state"]
+__all__ = ["RestState", "check", "one_sided_moduli", "rest_state"]
 
+TINY = 1e-7  # a strain that tells one side of rest from the other
+MOST_SIDES = 12
 MODULUS_RANGE = (1.0, 1e11)  # Pa: softer than any tissue, stiffer than steel
 
 
@@ -60,6 +62,33 @@ def rest_state(law: Law) -> RestState:
         softest=float(values[0]),
         softest_direction=direction,
     )
+
+
+def one_sided_moduli(law: Law, sign: float) -> tuple[float, float, float]:
+    """Moduli in Pa on one side of rest: uniaxial hoop and axial, and hoop with the axis held.
+
+    They differ from side to side for a law with fibres that bear tension only.
+
+    Parameters
+    ----------
+    law : Law
+    sign : float
+        1 for tension, −1 for compression.
+    """
+    small = sign * TINY
+
+    def uniaxial(along: int) -> float:
+        across, contraction = 1 - along, 0.5
+        for _ in range(MOST_SIDES):  # which fibres are in tension depends on the contraction
+            strains = [small, small]
+            strains[across] *= -contraction
+            matrix, _ = rest_moduli(law, (strains[0], strains[1]))
+            before, contraction = contraction, matrix[0, 1] / matrix[across, across]
+            if abs(contraction - before) <= TINY:
+                break
+        return float(matrix[along, along] - matrix[0, 1] * contraction)
+
+    return uniaxial(0), uniaxial(1), float(rest_moduli(law, (small, 0.0))[0][0, 0])
 
 
 @lru_cache(maxsize=32)
@@ -131,6 +160,13 @@ def _check_ellipticity(material: Material) -> None:
     hoop = np.linspace(low, high, 9)
     zero, one = np.zeros_like(hoop), np.ones_like(hoop)
     worst = weakest(material.law, np.column_stack([1.0 / hoop, zero, zero, one, hoop]), INNER_WALL)
+    if worst.stiffness == -math.inf:
+        raise BadInput(
+            f"energy of material '{material.name}'",
+            f"not finite at circumferential stretch {hoop[worst.index]:.3g}",
+            "finite over the strain range of the law",
+            f"narrow its strain range, {low:g} to {high:g}",
+        )
     if worst.stiffness <= 0.0:
         n, m = (_vector(v) for v in (worst.normal, worst.direction))
         raise UnstableLaw(

@@ -7,7 +7,10 @@ from collections.abc import Callable
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from inspect import Parameter, signature
+from types import SimpleNamespace
 from typing import Any
+
+import numpy as np
 
 from stonepass.errors import BadInput
 from stonepass.materials.protocol import NAMESPACE
@@ -49,14 +52,25 @@ class UserLaw:
         """Call the user's function; whatever it raises becomes one sentence."""
         try:
             with redirect_stdout(sys.stderr):  # stdout is for answers
-                value = self.function(C, place, xp)
+                value = self.function(C, place, _allowed(xp))
         except Exception as problem:
-            raise BadInput(
-                f"law '{self.label}'",
-                f"raising {type(problem).__name__}: {problem}",
-                "a function energy(C, place, xp) that returns J/m³",
-                "it may use + - * / ** and xp." + ", xp.".join(NAMESPACE),
-            ) from problem
+            raise self.refusal(problem) from problem
         if value is None:
             raise BadInput(f"value of law '{self.label}'", "None", "an energy in J/m³")
+        if getattr(value, "dtype", None) == np.dtype(object):
+            raise self.refusal(TypeError("a function of NumPy was used in place of one of xp"))
         return value
+
+    def refusal(self, problem: Exception) -> BadInput:
+        """Turn what the function raises, or its derivatives, into one sentence."""
+        return BadInput(
+            f"law '{self.label}'",
+            f"raising {type(problem).__name__}: {problem}",
+            "a function energy(C, place, xp) that returns J/m³",
+            "it may use + - * / ** and xp." + ", xp.".join(NAMESPACE) + ", and no comparisons",
+        )
+
+
+def _allowed(xp: Any) -> SimpleNamespace:
+    """Return the functions of an array namespace that every one of them has."""
+    return SimpleNamespace(**{name: getattr(xp, name) for name in NAMESPACE})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -85,12 +86,33 @@ def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
     def pressure(ratio: float) -> float:
         return float(urine_pressure(np.array(ratio), wall_ratio, law, load))
 
-    wide = 1.05 / np.sqrt(load.prestretch)
-    while not pressure(wide) > 0.0 and wide < 2.0:
+    unloaded = 1.0 / float(np.sqrt(load.prestretch))
+    wide = 1.05 * unloaded
+    while pressure(wide) <= 0.0 and wide < 2.0:
         wide *= 1.1
-    if not pressure(SMALLEST_LUMEN) < 0.0 < pressure(wide):
+    narrow = _nearest_with_value(pressure, SMALLEST_LUMEN, unloaded)
+    wide = _nearest_with_value(pressure, wide, unloaded)
+    if not pressure(narrow) < 0.0 < pressure(wide):
         return None
-    return bracketed_root(pressure, SMALLEST_LUMEN, wide, xtol=1e-14)
+    return bracketed_root(pressure, narrow, wide, xtol=1e-14)
+
+
+def _nearest_with_value(pressure: Callable[[float], float], ratio: float, inside: float) -> float:
+    """Return `ratio`, or the place nearest to it, on the way to `inside`, where there is a value.
+
+    A law with a locking stretch has none beyond it, and its pressure is unbounded on the way there.
+    """
+    with np.errstate(all="ignore"):
+        if np.isfinite(pressure(ratio)):
+            return ratio
+        without, there = ratio, inside
+        while abs(there - without) > 4.0 * np.spacing(inside):
+            middle = (there + without) / 2.0
+            if np.isfinite(pressure(middle)):
+                there = middle
+            else:
+                without = middle
+        return there
 
 
 def stuck_lumen(case: Problem) -> float:

@@ -16,11 +16,10 @@ from stonepass.fe.axisymmetric.discretisation import (
     Discretisation,
     discretise,
     free_unknowns,
-    smallest_volume_ratio,
+    wall_flaw,
     wall_form,
 )
 from stonepass.fe.axisymmetric.equilibrium import (
-    INSIDE_OUT,
     POLISH,
     EquilibriumState,
     equilibrium_state,
@@ -78,8 +77,9 @@ def solve_active_set(
             return Failure(report.reason or "the wall left the stone", steps)
         uncertainty = resolution.edge * (edges[1] - edges[0]) / 2.0
         if max(abs(found[0] - edges[0]), abs(found[1] - edges[1])) <= uncertainty:
-            if not smallest_volume_ratio(d) > 0.0:  # NaN too
-                return Failure(INSIDE_OUT, steps)
+            flaw = wall_flaw(d)
+            if flaw:
+                return Failure(flaw, steps)
             solved = equilibrium_state(d, layout, system, report, start, friction)
             return replace(solved, edge_uncertainty=uncertainty, steps=steps)
         edges = found

@@ -12,7 +12,7 @@ import numpy as np
 from stonepass.fe.axisymmetric.contact import Arc
 from stonepass.fe.axisymmetric.mesh import INNER, Layout, structured_mesh
 from stonepass.fe.axisymmetric.problem import Tube
-from stonepass.fe.axisymmetric.wall import outside_work, strain, wall_energy
+from stonepass.fe.axisymmetric.wall import PLACE, SYMBOLS, outside_work, strain, wall_energy
 from stonepass.fe.core.lobatto import lobatto_rule
 from stonepass.fe.core.systems import FormSystem
 
@@ -27,6 +27,7 @@ __all__ = [
     "edge_unknown",
     "free_unknowns",
     "smallest_volume_ratio",
+    "wall_flaw",
     "wall_form",
 ]
 
@@ -232,5 +233,29 @@ def contact_force(d: Discretisation, system: FormSystem) -> float:
 
 def smallest_volume_ratio(d: Discretisation) -> float:
     """Smallest volume ratio J at the integration points; NaN where the state is not finite."""
-    at = d.mesh.MapToAllElements({ng.QUAD: ng.IntegrationRule(ng.QUAD, 2 * d.order)}, ng.VOL)
-    return float(strain(d.fields.u, d.fields.w).J(at).min())
+    return float(strain(d.fields.u, d.fields.w).J(_integration_points(d)).min())
+
+
+def wall_flaw(d: Discretisation) -> str:
+    """Why the current state is no wall: J ≤ 0 or no energy at some integration point.
+
+    A law with a locking stretch has no energy beyond it, but its derivatives may have values there.
+
+    Returns
+    -------
+    str
+        Empty where the wall is sound.
+    """
+    deformed = strain(d.fields.u, d.fields.w)
+    energy = d.tube.energy(deformed.C, PLACE, SYMBOLS)
+    volume_ratio, energies = ng.CF((deformed.J, energy))(_integration_points(d)).T
+    if not volume_ratio.min() > 0.0:  # NaN too
+        return "the wall found is turned inside out where its axial fibres buckle"
+    if not np.all(np.isfinite(energies)):
+        return "the wall found is stretched beyond where its law has an energy"
+    return ""
+
+
+def _integration_points(d: Discretisation) -> Any:
+    rule = ng.IntegrationRule(ng.QUAD, 2 * d.order)
+    return d.mesh.MapToAllElements({ng.QUAD: rule}, ng.VOL)

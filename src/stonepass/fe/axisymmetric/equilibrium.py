@@ -10,7 +10,7 @@ from stonepass.array_types import Float
 from stonepass.fe.axisymmetric.discretisation import (
     Discretisation,
     contact_force,
-    smallest_volume_ratio,
+    wall_flaw,
 )
 from stonepass.fe.axisymmetric.inner_wall import inner_wall
 from stonepass.fe.axisymmetric.mesh import Layout
@@ -20,7 +20,6 @@ from stonepass.fe.core.newton import Report
 from stonepass.fe.core.systems import FormSystem
 
 __all__ = [
-    "INSIDE_OUT",
     "POLISH",
     "TOLERANCE",
     "EquilibriumState",
@@ -33,7 +32,6 @@ __all__ = [
 TOLERANCE = 1e-9  # of the contact force
 POLISH = 1e-2  # of the tolerance, where that is cheap: forces at single nodes are less accurate
 ROUNDING = 1e-14  # norm of the residual that rounding leaves in any case
-INSIDE_OUT = "the wall found is turned inside out where its axial fibres buckle"
 PULLS = 1e-6  # of the largest contact force: largest tension at a node
 
 
@@ -120,7 +118,7 @@ def equilibrium_state(
 def contact_flaw(
     d: Discretisation, normal: Float[np.ndarray, "edges points"], allowed: float
 ) -> str:
-    """Why the current state is no admissible contact: λ_n < 0, gap < 0 or J ≤ 0 somewhere.
+    """Why the current state is no admissible contact: no wall, λ_n < 0 or gap < 0 somewhere.
 
     Parameters
     ----------
@@ -135,8 +133,9 @@ def contact_flaw(
     str
         Empty where the state is admissible.
     """
-    if not smallest_volume_ratio(d) > 0.0:  # NaN too
-        return INSIDE_OUT
+    flaw = wall_flaw(d)
+    if flaw:
+        return flaw
     if normal.min() < -PULLS * normal.max():
         return "the contact is not one closed band: the wall would lift off inside it"
     if penetration(d) > allowed:

@@ -122,6 +122,46 @@ def test_a_comma_of_two_meanings_is_refused(tmp_path, text):
         read_columns(path, ("a", "b"))
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Machine;5944\nOperator;N. N.\n\nstretch;stress_kPa\n1,0;0,0\n1,5;2,5\n",
+        "Tensile test, 3 mm/min\nstretch,stress_kPa\n-,kPa\n1,0\n1.5,2.5\n",
+        'Date: 2021-05-04\n"stretch"\t"stress_kPa"\n(mm/mm)\t(kPa)\n1\t0\n1.5\t2.5\n',
+        "stretch,stress_kPa\n[-],[kPa]\n1,0\n1.5,2.5\n",
+        "sep=;\nreport\nstress_kPa;stretch\nkPa;\n0;1\n2.5;1.5\n",
+    ],
+)
+def test_lines_before_the_table_and_a_row_of_units(tmp_path, text):
+    path = tmp_path / "machine.csv"
+    path.write_text(text, encoding="utf-8")
+    columns = read_columns(path, ("stretch", "stress_kPa"))
+    np.testing.assert_array_equal(columns["stretch"], [1.0, 1.5])
+    np.testing.assert_array_equal(columns["stress_kPa"], [0.0, 2.5])
+    assert path.read_text().splitlines()[columns.lines[1] - 1].startswith(("1", "2"))
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (
+            "stretch,stress_kPa\n-,MPa\n1,0\n",
+            "row 2, the unit of column 'stress_kPa' is MPa, but must be kPa; convert the values",
+        ),
+        ("stretch,stress_kPa\n%,kPa\n1,0\n", "column 'stretch' is %, but must be none, as the"),
+        ("report\nLoad_N;Extension_mm\nN;mm\n1;2\n", "column is Load_N, but must be one of"),
+        ("a report\nwithout a table\n", "column is a report, but must be one of"),
+        ("stretch,stress_kPa\n-,-\n1,0\n", "row 2, column 'stretch' is -, but must be a number"),
+    ],
+)
+def test_units_and_names_that_do_not_fit_are_named(tmp_path, text, sentence):
+    path = tmp_path / "machine.csv"
+    path.write_text(text)
+    with pytest.raises(BadInput) as refused:
+        read_columns(path, ("stretch", "stress_kPa"))
+    assert sentence in str(refused.value)
+
+
 def test_columns_without_a_name_that_have_cells_are_refused(tmp_path):
     path = tmp_path / "machine.csv"
     path.write_text("a,b,\n1,2,3\n")

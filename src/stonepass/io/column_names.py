@@ -9,7 +9,7 @@ from typing import NoReturn
 from stonepass.errors import BadInput
 from stonepass.units import unit_ratio
 
-__all__ = ["refuse_column"]
+__all__ = ["is_unit", "refuse_column", "unit_of"]
 
 # Units at the end of names of columns, apart from the lengths and pressures of `stonepass.units`.
 _FACTORS = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "cN": 1e-2, "kgf": 9.80665, "gf": 9.80665e-3}
@@ -51,11 +51,20 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
     raise BadInput(where, name, allowed)
 
 
+def unit_of(name: str) -> str:
+    """Return the unit at the end of the name of a column; empty where it has none."""
+    return _split(name)[1]
+
+
+def is_unit(text: str) -> bool:
+    """Whether a text is a unit that the name of a column may end in."""
+    return _ratio(text, text) is not None
+
+
 def _split(name: str) -> tuple[str, str]:
     """Return the name without its unit, and the unit, which may be nothing."""
     stem, _, end = name.rpartition("_")
-    known = bool(stem) and (_ratio(end, end) is not None)
-    return (stem, end) if known else (name, "")
+    return (stem, end) if stem and is_unit(end) else (name, "")
 
 
 def _ratio(unit: str, wanted: str) -> float | None:

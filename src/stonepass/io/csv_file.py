@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
@@ -17,14 +16,14 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.io.column_names import refuse_column
-from stonepass.io.table_dialect import delimiter_of, with_decimal_points
+from stonepass.io.table_dialect import with_decimal_points
+from stonepass.io.table_header import NUMBER, layout_of, without_units
 from stonepass.io.text_file import read_text, write_file
 
 __all__ = ["Columns", "read_columns", "write_csv"]
 
 LARGEST_FILE = 10_000_000  # bytes
 MOST_ROWS = 100_000  # empty ones too
-_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
 
 
 class Columns(dict[str, Float[np.ndarray, " rows"]]):
@@ -50,11 +49,12 @@ def read_columns(
     *,
     distinct: bool = False,
 ) -> Columns:
-    """Read columns of numbers by the names in the first row, in any order.
+    """Read columns of numbers by the names in the header, in any order.
 
-    Empty lines, lines that begin with ``#`` and columns without a name and without any cell are
-    left out; rows count as an editor's lines do. Cells may be separated by commas, semicolons or
-    tabs (`table_dialect`).
+    The header is the first line with all required names; what a machine writes before it is left
+    out, and so is a row of units under it. Empty lines, lines that begin with ``#`` and columns
+    without a name and without any cell are left out too; rows count as an editor's lines do. Cells
+    may be separated by commas, semicolons or tabs (`table_header`).
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def read_columns(
         rows must be distinct, a cell that is no finite number or out of bounds or none of the
         words, no rows at all.
     """
-    rows = _rows(path)
+    rows = _rows(path, required)
     if not rows:
         raise BadInput("file", path, f"a table with the columns {', '.join(required)}")
     header = [name.strip() for name in rows[0][1]]
@@ -93,15 +93,16 @@ def read_columns(
     return Columns(lines, dict(zip(header, np.array(values).T, strict=True)))
 
 
-def _rows(path: Path) -> list[tuple[int, list[str]]]:
-    """Line number and cells of every row that says something."""
+def _rows(path: Path, required: Sequence[str]) -> list[tuple[int, list[str]]]:
+    """Line number and cells of the header and of every row under it that says something."""
     text = read_text(path, LARGEST_FILE, "a CSV file of text", other_encodings=True)
-    delimiter, declared = delimiter_of(text)
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter, strict=True)
+    lines = list(io.StringIO(text, newline=""))
+    delimiter, before = layout_of([line.rstrip("\r\n") for line in lines], required)
+    reader = csv.reader(iter(lines[before:]), delimiter=delimiter, strict=True)
     try:
-        rows = [(reader.line_num, cells) for cells in islice(reader, MOST_ROWS + 1)][declared:]
+        rows = [(reader.line_num + before, cells) for cells in islice(reader, MOST_ROWS + 1)]
     except csv.Error as problem:
-        where = f"in {path.name}, row {reader.line_num}"
+        where = f"in {path.name}, row {reader.line_num + before}"
         raise BadInput(where, str(problem), "a row of a CSV file") from problem
     require(len(rows) <= MOST_ROWS, f"number of rows of {path.name}", f"more than {MOST_ROWS}",
             "fewer")  # fmt: skip
@@ -110,7 +111,8 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
         for line, cells in rows
         if any(cell.strip() for cell in cells) and not cells[0].lstrip().startswith("#")
     ]
-    return with_decimal_points(_without_empty_columns(kept), delimiter, path.name)
+    table = without_units(_without_empty_columns(kept), path.name)
+    return with_decimal_points(table, delimiter, path.name)
 
 
 def _without_empty_columns(rows: list[tuple[int, list[str]]]) -> list[tuple[int, list[str]]]:
@@ -172,7 +174,7 @@ class _Cells:
             if cell.strip() not in known:
                 refuse_unknown(where, cell.strip(), known)
             return float(known.index(cell.strip()))
-        value = float(cell) if _NUMBER.fullmatch(cell) else math.nan
+        value = float(cell) if NUMBER.fullmatch(cell) else math.nan
         low, high = self.bounds.get(name, (-math.inf, math.inf))
         if not (math.isfinite(value) and low <= value <= high):
             within = f" from {low:g} to {high:g}" if name in self.bounds else ""

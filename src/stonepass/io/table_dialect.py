@@ -1,7 +1,6 @@
-"""The cell separator and the decimal mark of a table are read from the table itself.
+"""The decimal mark of a table is read from the table itself.
 
-Spreadsheets and testing machines write tables with commas, semicolons or tabs between cells, and
-with decimal commas where cells are not separated by commas.
+Spreadsheets and testing machines write decimal commas where cells are not separated by commas.
 """
 
 from __future__ import annotations
@@ -11,32 +10,10 @@ from collections.abc import Iterable, Sequence
 
 from stonepass.errors import BadInput
 
-__all__ = ["delimiter_of", "with_decimal_points"]
+__all__ = ["with_decimal_points"]
 
-DELIMITERS = (",", ";", "\t")
-_DECLARED = re.compile(r"sep=(.)\s*", re.IGNORECASE)  # first line of a file made for Excel
 _COMMA = re.compile(r"\s*[-+]?\d*,\d+([eE][-+]?\d+)?\s*", re.ASCII)
 _GROUPED = re.compile(r"\s*[-+]?\d{1,3}(,\d{3})+\s*", re.ASCII)
-
-
-def delimiter_of(text: str) -> tuple[str, int]:
-    """Return what separates the cells, and how many lines declare it instead of being data.
-
-    A line ``sep=;`` declares it. Otherwise the header tells, whose names have none of `DELIMITERS`
-    in them: semicolons or tabs where they stand in it without a comma, else commas.
-    """
-    lines = text.splitlines()
-    first = lines[0] if lines else ""
-    if (declared := _DECLARED.fullmatch(first)) is not None and declared[1] in DELIMITERS:
-        return declared[1], 1
-    header = next(
-        (line for line in lines if line.strip() and not line.lstrip().startswith("#")), ""
-    )
-    if "," not in header:
-        for each in (";", "\t"):
-            if each in header:
-                return each, 0
-    return ",", 0
 
 
 def with_decimal_points(

@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 
 import stonepass
-from stonepass.cli import run
+from stonepass.cli import run, terminal
 from stonepass.cli.curve import size_range
 from stonepass.inputs.case_file import read_case
 from stonepass.paper.inputs import ureter_case
+from stonepass.report.table import significant
 
 pytestmark = pytest.mark.usefixtures("shared_solutions")
 
@@ -430,6 +431,26 @@ def test_size_json(cli):
     no_lengths = json.loads(cli("size", "--eta", 1.3, "--limit", "12kPa", *SMOOTH, "--json")[1])
     assert no_lengths["critical_diameter_mm"] is None
     assert no_lengths["critical_size_ratio"] > 1.2
+
+
+@pytest.mark.parametrize("columns", [30, 50, 80])
+def test_a_narrow_terminal_cuts_no_number(cli, monkeypatch, columns):
+    monkeypatch.setenv("COLUMNS", str(columns))
+    terminal._console.cache_clear()
+    try:
+        arguments = ["curve", "--eta", 1.5, "--material", "latex", "--xi", "1.1:1.2:0.1", *SMOOTH]
+        shown = cli(*arguments)[1]
+        records = json.loads(cli(*arguments, "--json")[1])
+        laws = cli("material", "laws")[1]
+    finally:
+        terminal._console.cache_clear()
+    for record in records:
+        assert f" {significant(record['critical_pressure_kPa'])} " in shown
+        assert f" {significant(record['critical_pressure_kPa'] / 0.1333224)} " in shown
+        assert f" {record['contact_angle_deg']:.2f}° " in shown
+    assert "…" not in shown + laws
+    assert "holzapfel-gasser-ogden" in laws
+    assert columns < 80 or max(map(len, laws.splitlines())) <= 80
 
 
 def test_curve_writes_what_it_shows(cli, tmp_path):

@@ -128,8 +128,12 @@ def require(condition: bool, argument: str, value: Any, allowed: str, remedy: st
         raise BadInput(argument, value, allowed, remedy)
 
 
-def refuse_unknown(argument: str, value: str, known: list[str]) -> NoReturn:
-    """Raise `BadInput` for a name that is not among `known`, naming the nearest one."""
-    near = get_close_matches(value, known, n=1, cutoff=0.4)
-    remedy = f"did you mean '{near[0]}'" if near else ""
+def refuse_unknown(argument: str, value: str, known: list[str], otherwise: str = "") -> NoReturn:
+    """Raise `BadInput` for a name that is not among `known`, naming the nearest one.
+
+    `otherwise` says what to do for something that has no name.
+    """
+    near = get_close_matches(value, known, n=1, cutoff=0.5)
+    remedies = [f"did you mean '{near[0]}'" if near else "", otherwise]
+    remedy = "; ".join(filter(None, remedies))
     raise BadInput(argument, value, "one of " + ", ".join(known), remedy)

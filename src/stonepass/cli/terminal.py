@@ -17,10 +17,12 @@ from stonepass.io.text_file import check_writable
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.table import Table
 
 __all__ = ["FIGURES", "counting", "print_json", "show", "warn", "working", "writable"]
 
 FIGURES = (".svg", ".png", ".pdf")
+WIDEST = 1000  # characters, more than any table has
 PLAIN_INTERVAL = 2.0  # seconds between lines where stderr is not a terminal
 
 
@@ -46,8 +48,44 @@ def print_json(record: Any) -> None:
 def show(*parts: Any) -> None:
     """Print tables and sentences for a person."""
     for part in parts:
-        sentence = isinstance(part, str)
-        _console().print(part, soft_wrap=sentence, markup=not sentence)
+        if isinstance(part, str):
+            _console().print(part, soft_wrap=True, markup=False)
+        else:
+            _console().print(_never_cut(part), crop=False)
+
+
+def _never_cut(table: Table) -> Table:
+    """Let a table be wider than a narrow terminal rather than cut a number or a word.
+
+    Columns that are flush right hold numbers, which never wrap; other cells and the headers wrap
+    between words.
+    """
+    from rich.cells import cell_len
+    from rich.measure import Measurement
+    from rich.text import Text
+
+    texts = [
+        [Text.from_markup(str(cell)).plain for cell in (column.header, *column.cells)]
+        for column in table.columns
+    ]
+    natural = [max(map(cell_len, column)) for column in texts]
+    console = _console()
+    widest = console.options.update(width=WIDEST)
+    borders = Measurement.get(console, widest, table).maximum - sum(natural)
+    if sum(natural) + borders <= console.width:
+        return table
+    widths = []
+    for column, (header, *cells) in zip(table.columns, texts, strict=True):
+        numbers = column.justify == "right"
+        words = [word for text in cells for word in ([text] if numbers else text.split())]
+        widths.append(max(map(cell_len, [*header.split(), *words]), default=0))
+    for _ in range(console.width - borders - sum(widths)):  # what is left goes to the narrowest
+        k = max(range(len(widths)), key=lambda k: natural[k] - widths[k])
+        widths[k] += 1
+    for column, width in zip(table.columns, widths, strict=True):
+        column.width = width
+    table.width = sum(widths) + borders
+    return table
 
 
 def warn(warnings: Iterable[object]) -> None:

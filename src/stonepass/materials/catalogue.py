@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from stonepass.errors import refuse_unknown
+from stonepass.errors import BadInput, refuse_unknown
 from stonepass.materials.fung import Fung
+from stonepass.materials.known_laws import KNOWN_LAWS, ONES_OWN
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.materials.protocol import Material
 
@@ -65,6 +66,13 @@ CATALOGUE = {entry.name: replace(entry, reference=entry.name) for entry in _ENTR
 
 def material(name: str) -> Material:
     """Look up a catalogue entry; an unknown name is refused, naming the nearest one."""
+    if name in KNOWN_LAWS:
+        raise BadInput(
+            "material",
+            name,
+            "a material, and this is a law without its constants",
+            f'write them in a file, law.toml, with law = "{name}", and name that file',
+        )
     if name not in CATALOGUE:
-        refuse_unknown("material", name, list(CATALOGUE))
+        refuse_unknown("material", name, list(CATALOGUE), ONES_OWN)
     return CATALOGUE[name]

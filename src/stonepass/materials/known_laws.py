@@ -15,7 +15,9 @@ from stonepass.materials.ogden import Ogden
 from stonepass.materials.protocol import Law
 from stonepass.materials.yeoh import Yeoh
 
-__all__ = ["KNOWN_LAWS", "constants_by_name", "known_law", "name_of_law"]
+__all__ = ["KNOWN_LAWS", "ONES_OWN", "constants_by_name", "known_law", "name_of_law"]
+
+ONES_OWN = "another law is a Python function, FILE.py:energy, as docs/laws.md shows"
 
 KNOWN_LAWS: dict[str, type[Any]] = {
     "neo-hookean": NeoHookean,
@@ -37,7 +39,7 @@ def known_law(name: str, argument: str = "law") -> type[Any]:
         No law has this name; `argument` is how the caller calls it.
     """
     if name not in KNOWN_LAWS:
-        refuse_unknown(argument, name, list(KNOWN_LAWS))
+        refuse_unknown(argument, name, list(KNOWN_LAWS), ONES_OWN)
     return KNOWN_LAWS[name]
 
 

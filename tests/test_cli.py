@@ -178,6 +178,19 @@ def test_profile_has_both_edges_as_rows(cli, tmp_path):
     assert sigma.max() == pytest.approx(record["peak_contact_pressure_kPa"], rel=1e-6)
 
 
+def test_a_profile_says_where_on_the_stone_its_angles_are(cli, tmp_path):
+    """The angle of a spheroid is parametric: r = sin θ, z = −aspect × cos θ, over its radius."""
+    path = tmp_path / "p.csv"
+    for aspect, name in ((1.0, "theta_deg"), (1.5, "parametric_angle_deg")):
+        assert cli("pressure", *LATEX, *FAST, "--aspect", aspect, "--profile", path)[0] == 0
+        with path.open() as file:
+            header, *rows = csv.reader(file)
+        assert header == [name, "contact_pressure_kPa", "z_over_radius", "r_over_radius"]
+        theta, _, z, r = np.array(rows, dtype=float).T
+        np.testing.assert_allclose(z, -aspect * np.cos(np.radians(theta)), atol=1e-9)
+        np.testing.assert_allclose(r, np.sin(np.radians(theta)), atol=1e-9)
+
+
 @pytest.mark.parametrize("ending", ["svg", "png", "pdf"])
 def test_figures_are_written(cli, tmp_path, ending):
     path = tmp_path / f"f.{ending}"

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.protocol import Material
@@ -122,6 +123,7 @@ def compare(
     return Comparison(friction, tuple(points), tuple(solver.answers(cases)))
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class SizeCurve:
     """P_ucr in Pa over size ratio in one tube under one load; NaN where there is no answer."""

@@ -17,6 +17,7 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.bench.comparison import Setting
 from stonepass.caution import Caution, caution
+from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
@@ -121,6 +122,7 @@ class PressureCurve:
         return replace(self, over=tuple(found))
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class SeriesModel:
     """A series of points as a function of friction and stiffness.

@@ -72,7 +72,7 @@ def _write(answer: Answer, profile: Path | None, figure: Path | None) -> list[st
     if profile is not None:
         from stonepass.records.profile import write_profile
 
-        write_profile(answer.contact, profile)
+        write_profile(answer.contact, answer.case.stone.shape, profile)
     if figure is not None:
         from stonepass.report.answer_figure import answer_figure
         from stonepass.report.style import save

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stonepass.array_types import Bool, Float
+from stonepass.equality import compared_by_value
 
 __all__ = [
     "FEWER",
@@ -56,6 +57,7 @@ class Fraction:
         return "more than 99 %" if low == 100 else f"{low} %"
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class Present:
     """Present urine pressure of every sample.
@@ -75,6 +77,7 @@ class Present:
     opening: Float[np.ndarray, " n"]
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class Samples:
     """The Monte Carlo samples of a patient.

@@ -12,6 +12,7 @@ import numpy as np
 
 from stonepass.about import VERSION
 from stonepass.array_types import Float
+from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 from stonepass.export.checks import checked_value
 from stonepass.export.element_strip import CLEARANCE, element_strip
@@ -48,6 +49,7 @@ KPA, MM = PASCAL_PER["kPa"], METRE_PER_MM
 LONGEST_NAME = 60
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class Seating:
     """Meshes and motions; lengths in inner radii, the stone's widest place at z = 0.

@@ -86,6 +86,11 @@ class Shape:
         return self.outline == ROUND
 
     @property
+    def spherical(self) -> bool:
+        """Whether it is a sphere, of which θ is the angle at the centre."""
+        return self.spheroidal and self.aspect == 1.0
+
+    @property
     def length(self) -> float:
         """Length along the ureter over the diameter across it."""
         _, (upstream, downstream) = self.meridian(np.array([0.0, np.pi]))

@@ -15,7 +15,7 @@ from stonepass.model.states.seated_state import SeatedState
 from stonepass.report.balance import draw_balance
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
 
 __all__ = ["case_figure"]
 
@@ -74,7 +74,9 @@ def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:
             color=COLOURS["orange"],
         )
     axes.set(
-        xlabel="θ from the upstream axis (°)", ylabel="stress on the stone (kPa)", ylim=(0, None)
+        xlabel=angle_label(sphere=answer.case.stone.shape.spherical),
+        ylabel="stress on the stone (kPa)",
+        ylim=(0, None),
     )
     axes.set_title("Contact pressure")
     tidy(axes)

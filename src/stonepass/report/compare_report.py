@@ -8,7 +8,7 @@ from rich import box
 from rich.table import Table
 
 from stonepass.export.comparison import Comparison
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
 from stonepass.report.table import case_title, significant
 
 __all__ = ["compare_figure", "compare_table"]
@@ -69,7 +69,11 @@ def compare_figure(found: Comparison) -> Figure:
     ):
         axes.plot(np.degrees(contact.theta), contact.contact_pressure / KPA, color=colour,
                   label=label, linewidth=width)  # fmt: skip
-    axes.set(xlabel="θ in °", ylabel="contact pressure in kPa", ylim=(0.0, None))
+    axes.set(
+        xlabel=angle_label(sphere=found.answer.case.stone.shape.spherical),
+        ylabel="contact pressure in kPa",
+        ylim=(0.0, None),
+    )
     axes.legend()
     tidy(axes)
     return figure

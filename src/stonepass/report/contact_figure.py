@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stonepass.model.answer import Answer
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
 
 __all__ = ["contact_figure"]
 
@@ -22,7 +22,10 @@ def contact_figure(answer: Answer) -> Figure:
     pressure = contact.pressure_at(theta) / 1e3
     axes.fill_between(np.degrees(theta), pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
     axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"])
-    axes.set(xlabel="θ from the upstream axis (°)", ylabel="pressure on the stone (kPa)")
+    axes.set(
+        xlabel=angle_label(sphere=answer.case.stone.shape.spherical),
+        ylabel="pressure on the stone (kPa)",
+    )
     axes.set_title(f"Contact pressure, model '{answer.model.NAME}'")
     tidy(axes)
     return figure

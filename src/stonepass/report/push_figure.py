@@ -12,7 +12,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.section import draw_section
 from stonepass.report.stone import draw_radii
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
 
 __all__ = ["draw_pressure", "draw_wall", "push_figure"]
 
@@ -105,7 +105,7 @@ def draw_pressure(axes: Axes, pushed: PushedState, leak_pressure: float | None) 
             label=f"leak pressure, {leak_pressure / 1e3:.3g} kPa",
         )
     axes.set(
-        xlabel="θ from the upstream axis (°)",
+        xlabel=angle_label(sphere=pushed.case.stone.shape.spherical),
         ylabel="pressure on the stone (kPa)",
         xlim=(0.0, 180.0),
         ylim=(0.0, None),

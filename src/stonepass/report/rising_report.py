@@ -20,7 +20,7 @@ from stonepass.io.text_file import write_file
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.push_figure import draw_pressure, draw_wall
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
 from stonepass.report.table import case_title, significant
 from stonepass.studies.rising import Rising
 
@@ -155,7 +155,11 @@ def _contact(axes: Axes, rising: Rising) -> None:
             linewidth=1.0,
             label="seated, σ⁰",
         )
-    axes.set(xlabel="θ from the upstream axis (°)", ylabel="contact pressure (kPa)", ylim=(0, None))
+    axes.set(
+        xlabel=angle_label(sphere=rising.critical.case.stone.shape.spherical),
+        ylabel="contact pressure (kPa)",
+        ylim=(0, None),
+    )
     axes.set_title("Contact pressure")
     axes.legend(fontsize=7)
     tidy(axes)

@@ -90,6 +90,11 @@ def add_mmhg_axis(axes: Axes) -> None:
     right.set_ylabel("mmHg")
 
 
+def angle_label(*, sphere: bool) -> str:
+    """Label of an axis of θ, which is parametric for a stone that is no sphere."""
+    return "θ from the upstream axis (°)" if sphere else "parametric angle θ, from upstream (°)"
+
+
 @in_style
 def save(figure: Figure, path: Path) -> None:
     """Write the figure; the ending of `path` says which format, the same bytes every time."""

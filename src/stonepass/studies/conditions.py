@@ -8,6 +8,7 @@ import numpy as np
 from scipy.optimize import elementwise
 
 from stonepass.array_types import Bool, Float
+from stonepass.equality import compared_by_value
 from stonepass.model.case import Case
 from stonepass.model.far_field import (
     SMALLEST_LUMEN,
@@ -19,6 +20,7 @@ from stonepass.model.far_field import (
 __all__ = ["Conditions", "lumen_ratios", "transmural"]
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class Conditions:
     """What differs between many cases.

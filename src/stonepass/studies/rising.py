@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome, require
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -28,6 +29,7 @@ STEPS = (2, 200)
 SAMPLES = 400
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class Rising:
     """States of one held stone under rising pressure.

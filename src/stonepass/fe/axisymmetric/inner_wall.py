@@ -18,7 +18,7 @@ __all__ = ["InnerWall", "contact_edges", "inner_wall", "piecewise_linear", "set_
 TOUCHES = 1e-6  # of the largest contact force, at a point in contact
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class InnerWall:
     """Values at the Gauss–Lobatto points of the inner wall's edges, sorted along the axis.
 

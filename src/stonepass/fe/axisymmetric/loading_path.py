@@ -53,7 +53,7 @@ TOUCHES = 1e-6  # of the largest contact force, at a point in contact
 WrapAt = Callable[[Profile], Wrap]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Moment:
     """The inner wall at the path parameter t: contact, gap, place on the arc; all unknowns."""
 

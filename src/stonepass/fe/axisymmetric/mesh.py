@@ -24,7 +24,7 @@ BOUNDARIES = ("wet", "wetted", "closed", "open", "outer", "middle", "end")
 INNER = "wet|wetted|closed|open"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Layout:
     """Grid lines of a structured mesh, and the boundary to which each column of it belongs.
 

@@ -36,7 +36,7 @@ class Tube:
     tether: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Wrap:
     """First guess of the deformed wall: a uniform tube at every station.
 

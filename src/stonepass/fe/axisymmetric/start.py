@@ -12,7 +12,7 @@ from stonepass.fe.axisymmetric.discretisation import Discretisation
 __all__ = ["Start"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Start:
     """An approximate solution from which a finer solve starts.
 

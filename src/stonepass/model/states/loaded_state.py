@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
+from stonepass.equality import compared_by_value
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
 
@@ -42,13 +43,14 @@ class PushReport:
 
     dofs: int
     newton_steps: int
-    seconds: float
+    seconds: float = field(compare=False)
     residual: float
     volume: Volume
     axial_balance: float
     penetration: float
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class PushedState:
     """The loaded wall round the held stone, in SI.
@@ -149,7 +151,7 @@ class NoPush:
 
     reason: str
     newton_steps: int
-    seconds: float
+    seconds: float = field(compare=False)
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
+from stonepass.equality import compared_by_value
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
@@ -47,7 +48,7 @@ class SolverReport:
 
     dofs: int
     newton_steps: int
-    seconds: float
+    seconds: float = field(compare=False)
     residual: float
     volume: Volume
     axial_balance: float
@@ -55,6 +56,7 @@ class SolverReport:
     dissipated: float
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class Contact:
     """Where stone and wall touch in the seated state, and how hard: all that the balance needs.
@@ -96,6 +98,7 @@ class Contact:
         return np.asarray(np.interp(theta, self.theta, self.contact_pressure, left=0.0, right=0.0))
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class SeatedState(Contact):
     """The solved seated state, in SI.
@@ -153,4 +156,4 @@ class NoSeat:
 
     reason: str
     newton_steps: int
-    seconds: float
+    seconds: float = field(compare=False)

@@ -3,7 +3,10 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: help run test test-slow test-all lint verify bench lock clean
+# Tests that touch every library that is depended on.
+LOWEST := cli fit friction imports invitro micrograph new_laws records seated store user_law
+
+.PHONY: help run test test-slow test-all test-lowest lint verify bench lock clean
 
 help: ## list the commands
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 11
@@ -18,6 +21,9 @@ test-slow: $(VENV)/.dev ## run the tests that `make test` leaves out: fuzzing, o
 	$(BIN)/pytest -n auto --dist worksteal -m slow
 
 test-all: test test-slow ## run all tests
+
+test-lowest: $(VENV)/.lowest ## run tests with the oldest versions allowed: VENV=another-folder
+	$(BIN)/pytest -n auto --dist worksteal -m "not slow" $(LOWEST:%=tests/test_%.py)
 
 lint: $(VENV)/.dev ## format, lint, types, layers
 	$(BIN)/ruff format --check .
@@ -34,6 +40,7 @@ bench: $(VENV)/.dev ## timings against their targets
 lock: ## renew the lock files (needs uv)
 	uv pip compile pyproject.toml --group build --universal --generate-hashes --no-annotate --no-header -o requirements.lock
 	uv pip compile pyproject.toml --group dev --extra imaging --extra laboratory --universal --generate-hashes --no-annotate --no-header -o requirements-dev.lock
+	uv pip compile pyproject.toml --group build --group test --extra imaging --extra laboratory --resolution lowest-direct --python-version 3.11 --generate-hashes --no-annotate --no-header -o requirements-lowest.lock
 
 clean: ## remove the environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
@@ -46,6 +53,11 @@ $(VENV)/.python:
 
 $(VENV)/.run: requirements.lock pyproject.toml | $(VENV)/.python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+$(VENV)/.lowest: requirements-lowest.lock pyproject.toml | $(VENV)/.python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-lowest.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@touch $@
 

@@ -121,7 +121,9 @@ def test_exact_inputs_give_one_number(tmp_path):
     low, median, high = found.critical.low, found.critical.median, found.critical.high
     assert low == median == high == pytest.approx(exact, rel=0.02)
     assert found.sensitivity == ()
-    assert found.below_limit == Fraction(0.0, 0.0)
+    assert found.below_limit == found.below_limit_held == Fraction(0.0, 0.0)
+    assert found.message.startswith("In fewer than 1 % of the Monte Carlo samples the critical")
+    assert found.fraction_noise == 0.0
 
 
 def test_shares_are_those_of_a_plain_simulation(tmp_path):
@@ -142,6 +144,16 @@ def test_shares_are_those_of_a_plain_simulation(tmp_path):
     assert found.loose == pytest.approx(np.mean(over <= 0.0), abs=0.015)
     for ours, share in ((found.critical.median, 0.5), (found.critical.high, 0.95)):
         assert ours == pytest.approx(np.quantile(exact, share), rel=0.06)
+    held = over > 0.0
+    assert found.below_limit_held.low == pytest.approx(np.mean(exact[held] < 6e3), abs=0.02)
+    assert found.message.startswith(f"In {found.below_limit_held.describe()} of the Monte Carlo")
+    assert "in which the stone is held" in found.message
+    # The density of P_ucr at its median gives the standard error of the median, √n/(2 f n).
+    middle = np.quantile(exact, (0.49, 0.51))
+    density = 0.02 / (middle[1] - middle[0])
+    assert found.median_noise == pytest.approx(0.5 / density / 1024**0.5, rel=0.2)
+    below = found.below_limit.low
+    assert found.fraction_noise == pytest.approx((below * (1.0 - below) / 1024) ** 0.5)
     assert found.sensitivity[0].name == "stone diameter"
     assert sum(each.total for each in found.sensitivity) > 0.9
     again, other = (assess(replace(someone, seed=k), MadeUp(4e4)) for k in (1, 2))

@@ -44,7 +44,7 @@ def command(
     from stonepass.clinic.assess import assess
     from stonepass.clinic.patient import read_patient
     from stonepass.records.assess import CAUTION, assess_record
-    from stonepass.report.assess_report import assess_tables
+    from stonepass.report.assess_report import assess_tables, noise_in_words
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
 
@@ -57,7 +57,8 @@ def command(
     if json:
         print_json(assess_record(found, patient_file.name).to_dict())
     else:
-        show(*assess_tables(found), f"{found.message} {CAUTION}", DISCLAIMER)
+        noise = f"Noise of the samples, one standard error: {noise_in_words(found)}."
+        show(*assess_tables(found), f"{found.message} {CAUTION}", noise, DISCLAIMER)
         warn(found.warnings)
         warn([f"at the measured values {each}" for each in found.at_values.warnings])
     if html is not None:

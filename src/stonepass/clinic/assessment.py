@@ -16,7 +16,7 @@ from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
 from stonepass.studies.sensitivity_indices import SensitivityIndex
 
-__all__ = ["Assessment"]
+__all__ = ["FEWEST_OF_A_CLASS", "Assessment"]
 
 FEWEST_OF_A_CLASS = 30  # samples
 
@@ -40,6 +40,9 @@ class Assessment:
         P_ucr, and the present urine pressure where the dilated segment was measured.
     below_limit, below_present : Fraction or None
         Fractions of samples with P_ucr below the pressure limit, and below the present pressure.
+    below_limit_held : Fraction or None
+        The first of these among the samples in which the stone is held, that is, larger than the
+        lumen; None where it is held in too few.
     loose : float
         Fraction of samples in which the stone is no larger than the lumen; they count with
         P_ucr = 0.
@@ -47,6 +50,8 @@ class Assessment:
         Sensitivity indices of the rank of P_ucr, by the names in `patient.INPUTS`; largest first.
     by_size : tuple of (float, Fraction)
         Stone diameters in mm, and the fraction below the limit if the stone had that size.
+    median_noise : float or None
+        Standard error of the median of P_ucr by the number of samples, in Pa.
     samples : Samples or None
     at_present : Present or None
     possible : float
@@ -66,9 +71,11 @@ class Assessment:
     present: Range | None = None
     below_limit: Fraction | None = None
     below_present: Fraction | None = None
+    below_limit_held: Fraction | None = None
     loose: float = 0.0
     sensitivity: tuple[SensitivityIndex, ...] = ()
     by_size: tuple[tuple[float, Fraction], ...] = ()
+    median_noise: float | None = None
     samples: Samples | None = None
     at_present: Present | None = None
     possible: float = 1.0
@@ -89,6 +96,11 @@ class Assessment:
         if chosen.sum() < FEWEST_OF_A_CLASS:
             return None
         return self.samples.below(self.patient.limit, chosen)
+
+    @property
+    def fraction_noise(self) -> float:
+        """Standard error of the fraction below the limit by the number of samples."""
+        return 0.0 if self.below_limit is None else self.below_limit.noise(self.patient.samples)
 
     @property
     def central(self) -> float | None:

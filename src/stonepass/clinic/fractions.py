@@ -18,6 +18,7 @@ __all__ = [
     "Samples",
     "contradiction",
     "interval",
+    "median_noise",
 ]
 
 INTERVAL = (0.05, 0.5, 0.95)
@@ -46,6 +47,10 @@ class Fraction:
 
     low: float
     high: float
+
+    def noise(self, count: int) -> float:
+        """Return its standard error for `count` independent samples, that of the larger end."""
+        return max((each * (1.0 - each) / count) ** 0.5 for each in (self.low, self.high))
 
     def describe(self) -> str:
         """Return it in words: ``60 %``, ``fewer than 1 %``, ``55 to 62 %``."""
@@ -132,6 +137,19 @@ def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) 
     if None not in ends:
         return Range(low, median, high)
     return Range(low, median, high, float(least[ends.index(None)]))
+
+
+def median_noise(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) -> float | None:
+    """Return the standard error in Pa of the median of independent samples; None where unknown.
+
+    The rank of the true median among n values is n/2 ± √n/2, so the error is half of the distance
+    of the values with these ranks. Samples of a Sobol sequence, as here, usually err by less.
+    """
+    count = len(values)
+    ordered = np.sort(np.where(censored, np.inf, values))
+    ranks = np.array([count - count**0.5, count + count**0.5]) / 2.0
+    low, high = ordered[np.clip(ranks.round().astype(int), 0, count - 1)]
+    return float(high - low) / 2.0 if np.isfinite(high) else None
 
 
 def contradiction(passed: float, fraction: Fraction | None) -> str:

@@ -108,6 +108,15 @@ class SurfaceAccuracyRecord(PartRecord):
     surface_error: float = Field(
         description="95th percentile of the response surface's relative error"
     )
+    median_noise_kPa: float | None = Field(
+        description=(
+            "standard error of the median of P_ucr by the number of samples, as if they were "
+            "independent; null where it is not known"
+        )
+    )
+    fraction_noise: float = Field(
+        description="standard error of the fraction below the limit by the number of samples"
+    )
 
 
 class AssessRecord(Record):
@@ -132,6 +141,12 @@ class AssessRecord(Record):
     )
     critical_below_limit: FractionRecord | None = Field(
         description="fraction of samples whose P_ucr is below the pressure limit"
+    )
+    critical_below_limit_where_held: FractionRecord | None = Field(
+        description=(
+            "this fraction among the samples in which the stone is larger than the lumen; null "
+            "where these are too few"
+        )
     )
     critical_below_present: FractionRecord | None = Field(
         description="fraction of samples whose P_ucr is below the present pressure"
@@ -163,6 +178,7 @@ def assess_record(found: Assessment, file: str) -> AssessRecord:
         at_values=answer_record(found.at_values),
         present_pressure_kPa=_range(found.present),
         critical_below_limit=_fraction(found.below_limit),
+        critical_below_limit_where_held=_fraction(found.below_limit_held),
         critical_below_present=_fraction(found.below_present),
         no_larger_than_lumen=found.loose,
         sensitivity={each.name: each.total for each in found.sensitivity},
@@ -173,7 +189,11 @@ def assess_record(found: Assessment, file: str) -> AssessRecord:
         cohorts=[_cohort(row, found.beside(row)) for row in found.cohorts],
         inputs=_inputs(found, file),
         accuracy=SurfaceAccuracyRecord(
-            possible=found.possible, solves=found.solves, surface_error=found.surface_error
+            possible=found.possible,
+            solves=found.solves,
+            surface_error=found.surface_error,
+            median_noise_kPa=kilo(found.median_noise),
+            fraction_noise=found.fraction_noise,
         ),
         level=LEVEL,
         warnings=warning_records(found.warnings),

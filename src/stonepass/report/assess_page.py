@@ -13,7 +13,7 @@ from stonepass.clinic.fractions import FEWER, MORE, contradiction
 from stonepass.clinic.pressure_limits import LIMITS, describe_limit
 from stonepass.records.assess import CAUTION
 from stonepass.report.assess_figure import cohorts_figure, pressures_figure, sensitivity_figure
-from stonepass.report.assess_report import describe_inputs, describe_range
+from stonepass.report.assess_report import describe_inputs, describe_range, noise_in_words
 from stonepass.report.html import inline_svg, write_html
 
 __all__ = ["write_assessment"]
@@ -81,7 +81,11 @@ def _cards(found: Assessment) -> list[str]:
             cards.append((median, f"{name}, median; 90 %: {interval}{beside}"))
     limit = f"{found.patient.limit / 1e3:.4g} kPa"
     for name, fraction in (
-        (f"of samples: critical pressure below the limit, {limit}", found.below_limit),
+        (
+            f"of the samples where the stone is held: critical pressure below the limit, {limit}",
+            found.below_limit_held,
+        ),
+        (f"of all samples: critical pressure below the limit, {limit}", found.below_limit),
         ("of samples: critical pressure below the present one", found.below_present),
     ):
         if fraction is not None:
@@ -192,7 +196,7 @@ def _how(found: Assessment) -> str:
         f"{len(found.samples.critical)} samples, seed {patient.seed}, of a response surface "
         f"through {found.solves} solves, off by up to {found.surface_error:.1%} in 95 of 100 "
         f"places (one solve left out at a time); {found.possible:.0%} of the draws describe a "
-        "possible wall."
+        f"possible wall. Noise of the samples (one standard error): {noise_in_words(found)}."
     )
 
 

@@ -13,7 +13,7 @@ from stonepass.clinic.patient import INPUTS
 from stonepass.records.assess import LENGTHS
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
-__all__ = ["assess_tables", "describe_inputs", "describe_range"]
+__all__ = ["assess_tables", "describe_inputs", "describe_range", "noise_in_words"]
 
 
 def assess_tables(found: Assessment) -> list[Table]:
@@ -64,6 +64,14 @@ def describe_range(found: Range | None, unit: str = "kPa") -> tuple[str, str]:
     )
 
 
+def noise_in_words(found: Assessment) -> str:
+    """Return how far median and fractions would move with other samples of the same number."""
+    fraction = f"fractions ± {max(100.0 * found.fraction_noise, 0.1):.1f} %"
+    if found.median_noise is None:
+        return fraction
+    return f"median ± {found.median_noise / 1e3:.2g} kPa, {fraction}"
+
+
 def _pressures(found: Assessment) -> Table:
     title = " · ".join(f"{name} {text}" for name, text in describe_inputs(found).items())
     table = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left")
@@ -80,16 +88,17 @@ def _pressures(found: Assessment) -> Table:
     table.add_section()
     limit = f"{found.patient.limit / 1e3:.4g} kPa"
     fractions = (
-        (f"critical below the limit, {limit}", found.below_limit),
-        ("critical below the present pressure", found.below_present),
+        (f"critical below {limit}, stone held", found.below_limit_held, "of those held"),
+        (f"critical below {limit}", found.below_limit, "of samples"),
+        ("critical below the present one", found.below_present, "of samples"),
     )
-    for name, fraction in fractions:
+    for name, fraction, of in fractions:
         if fraction is not None:
             words = f"[bold]{_words(fraction)}[/bold]"
-            table.add_row(f"[bold]{name}[/bold]", words, "of samples")
+            table.add_row(f"[bold]{name}[/bold]", words, of)
     if found.critical is not None:
-        table.add_row("of these: no larger than the lumen", f"{round(100 * found.loose)} %",
-                      "of samples")  # fmt: skip
+        loose = Fraction(found.loose, found.loose)
+        table.add_row("stone no larger than the lumen", _words(loose), "of samples")
     return table
 
 

@@ -164,6 +164,22 @@ SENTENCES = {
         "the shear modulus is {modulus_Pa:.3g} Pa, softer than any wall: was the {measured} given "
         "in MPa instead of kPa"
     ),
+    "beyond_sd": (
+        "series and model do not agree: at friction {friction:.3g} residuals are {typical:.2g} "
+        "standard deviations, up to {largest:.2g}, so that no number below describes this series"
+    ),
+    "beyond_repeats": (
+        "series and model do not agree: the model misses the means of repeated points by "
+        "{off_kPa:.2g} kPa, which scatter by {scatter_kPa:.2g} kPa only"
+    ),
+    "stiffness_excluded": (
+        "the series excludes this wall's stiffness: it asks for {stiffness:.3g} times that, with "
+        "friction {jointly:.3g}, so that friction {friction:.3g}, found with the wall's own "
+        "stiffness, does not hold; measure the wall"
+    ),
+    "jointly_at_end": (
+        "with the stiffness unknown, {name} ends where the search ends, at {value:.3g}"
+    ),
     "loose_points": (
         "{count} of {points} stones are no larger than the lumen and say nothing of friction"
     ),

@@ -130,7 +130,8 @@ def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, 
             for other, by in zip(names, shift, strict=True):
                 value = float(result.params[other].value) + by
                 moved[other].set(value=value, min=-np.inf, max=np.inf)
-            reached = float(np.sum(np.square(minimizer.userfcn(moved)))) / max(least, TINY)
+            with np.errstate(all="ignore"):  # no number there is no parabola
+                reached = float(np.sum(np.square(minimizer.userfcn(moved)))) / max(least, TINY)
             if not abs(reached - level) < PARABOLIC * (level - 1.0):
                 return None
         found[name] = (centre - factor * error, centre + factor * error)

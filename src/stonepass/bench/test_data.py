@@ -211,9 +211,10 @@ def read_tension(
 
 
 def _read_strips(path: Path, along: str) -> Columns:
-    others = ("stretch", "extension_mm", "nominal_stress_kPa", "force_N", "axis")
+    others = ("stretch", "nominal_stress_kPa", "force_N", "extension_mm", "axis")
     optional = tuple(name for name in others if name != along)
-    return read_columns(path, (along,), optional, words={"axis": AXES})
+    bounds = {"nominal_stress_kPa": (-1e7, 1e7), "force_N": (-1e6, 1e6)}
+    return read_columns(path, (along,), optional, bounds, words={"axis": AXES})
 
 
 def _has_extensions(path: Path) -> bool:

@@ -404,7 +404,7 @@ def test_a_fit_that_is_none_is_one_sentence_and_no_file(tmp_path, capsys, law, r
         capsys, "tensile", table(tmp_path, rows), "--law", law, "--out", str(out)
     )
     assert (code, shown) == (2, "")
-    assert told.count("\n") == 1
+    assert told.count("stonepass: ") == 1
     with pytest.raises(AssertionError, match=sentence):
         raise AssertionError(told)
     assert not out.exists()
@@ -549,3 +549,13 @@ def test_sixty_points_at_as_many_axial_stretches_are_one_pass():
         for r, a in zip(ratio[::9], axial[::9], strict=True)
     ]
     np.testing.assert_allclose(data.predicted(law)[::9], point_by_point, rtol=1e-10)
+
+
+def test_a_law_in_kPa_is_asked_about(tmp_path, capsys):
+    """An energy of 0.12 (I₁ − 3), meant in kPa, has a shear modulus of 0.24 Pa; of 120, 240 Pa."""
+    path = tmp_path / "mine.py"
+    path.write_text("def energy(C, place, xp):\n    return 120.0 * (C.rr + C.tt + C.zz - 3.0)\n")
+    assert run(["material", "check", f"{path}:energy"]) == 0
+    assert "is 240 Pa, softer than any wall: are its constants in kPa" in capsys.readouterr().err
+    assert run(["material", "check", "latex"]) == 0
+    assert capsys.readouterr().err == ""

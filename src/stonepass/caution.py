@@ -180,6 +180,10 @@ SENTENCES = {
     "jointly_at_end": (
         "with the stiffness unknown, {name} ends where the search ends, at {value:.3g}"
     ),
+    "soft_law": (
+        "the shear modulus of material '{material}' is {modulus_Pa:.3g} Pa, softer than any wall: "
+        "are its constants in kPa? They have to be in Pa, 1 kPa = 1000 Pa"
+    ),
     "loose_points": (
         "{count} of {points} stones are no larger than the lumen and say nothing of friction"
     ),

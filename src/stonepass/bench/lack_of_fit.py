@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from scipy.special import betainc, fdtrc
@@ -37,16 +37,21 @@ FEWEST_OF_TOE = 2  # points without load
 INDISTINCT = 1e-3  # part of a direction that is not a change of the constants already
 
 
+_Amounts: TypeAlias = Float[np.ndarray, " k"]
+_Shift: TypeAlias = Float[np.ndarray, " n"]
+
+
 @dataclass(frozen=True)
 class _Mistake:
     """A direction, or several, in which a mistake shifts the residuals.
 
-    `told` makes the caution from the amounts of the directions and the chance of the test.
+    `told` makes the caution from the amounts of the directions, the part of the residuals that they
+    explain beside the constants, and the chance of the test.
     """
 
     code: str
     directions: Float[np.ndarray, "n k"]
-    told: Callable[[Float[np.ndarray, " k"], float], Caution]
+    told: Callable[[_Amounts, _Shift, float], Caution]
     tried: int = 1  # alike directions, of which this is the one that was looked for
 
 
@@ -56,6 +61,11 @@ class _Verdict:
     chance: float
     criterion: float
     amounts: Float[np.ndarray, " k"]
+    explained: Float[np.ndarray, " n"]
+
+    @property
+    def caution(self) -> Caution:
+        return self.mistake.told(self.amounts, self.explained, self.chance)
 
 
 def lack_of_fit(
@@ -64,8 +74,6 @@ def lack_of_fit(
     off: Float[np.ndarray, " n"],
     sensitivities: Float[np.ndarray, "n p"],
     spread: Float[np.ndarray, " n"],
-    *,
-    outliers: bool = True,
 ) -> list[Caution]:
     """Return what the residuals say against the data or the law.
 
@@ -80,8 +88,6 @@ def lack_of_fit(
         Change of `off` with each fitted constant.
     spread : array (n)
         Expected errors in Pa up to a factor.
-    outliers : bool
-        Whether single points are looked at.
 
     Returns
     -------
@@ -92,11 +98,11 @@ def lack_of_fit(
     if np.sqrt(np.mean((off * spread) ** 2)) < NEGLIGIBLE * scale:
         return []
     mistakes = _mistakes(data, law, spread)
-    level = FALSE_ALARM / (len({each.code for each in mistakes}) + outliers + 1)
+    level = FALSE_ALARM / (len({each.code for each in mistakes}) + 2)
     known, told = sensitivities, []
     for _ in range(LARGEST_EXPLAINED):
         basis = _basis(known)
-        tried = [*mistakes, *([_worst_point(data, off, basis, spread)] if outliers else [])]
+        tried = [*mistakes, _worst_point(data, off, basis, spread)]
         verdicts = [v for each in tried if (v := _verdict(off, basis, each, level)) is not None]
         if not verdicts:
             break
@@ -107,7 +113,7 @@ def lack_of_fit(
             if v.criterion < best.criterion + ALIKE and v is not best
             and code not in ("outlier", "lack_of_fit")
         ]  # fmt: skip
-        told += [v.mistake.told(v.amounts, v.chance) for v in (best, *equal)]
+        told += [each.caution for each in (best, *equal)]
         known = np.column_stack([known, best.mistake.directions])
         gone = {best.mistake.code, *(v.mistake.code for v in equal)}
         mistakes = [each for each in mistakes if each.code not in gone]
@@ -143,7 +149,7 @@ def _verdict(
     if not chance < level:
         return None
     criterion = count * np.log(after / count) + rank * np.log(count)
-    return _Verdict(mistake, chance, criterion, found / sizes)
+    return _Verdict(mistake, chance, criterion, found / sizes, new @ found)
 
 
 def _mistakes(
@@ -158,7 +164,7 @@ def _mistakes(
 
 
 def _offset(spread: Float[np.ndarray, " n"]) -> _Mistake:
-    def told(amounts: Float[np.ndarray, " 1"], chance: float) -> Caution:
+    def told(amounts: _Amounts, shift: _Shift, chance: float) -> Caution:
         # Predicted less observed is −offset.
         return caution("zero_offset", offset_kPa=-float(amounts[0]) / 1e3, chance=chance)
 
@@ -173,7 +179,7 @@ def _sizes(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mista
         if not np.all(np.isfinite(slope)):
             continue
 
-        def told(amounts: Float[np.ndarray, " 1"], chance: float, code: str = code) -> Caution:
+        def told(amounts: _Amounts, shift: _Shift, chance: float, code: str = code) -> Caution:
             # Predicted less observed falls by the slope times what is missing from each size.
             return caution(code, part=-float(amounts[0]), chance=chance)
 
@@ -190,7 +196,7 @@ def _slack(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mista
             continue
         shift = (taut.predicted(law) - predicted) / spread
 
-        def told(amounts: Float[np.ndarray, " 1"], chance: float, x: float = stretch) -> Caution:
+        def told(amounts: _Amounts, shift: _Shift, chance: float, x: float = stretch) -> Caution:
             return caution("slack", stretch=x, chance=chance)
 
         if np.all(np.isfinite(shift)):
@@ -207,7 +213,7 @@ def _of_branches(
         width = np.abs(predicted).max() / spread * found.width
         both = np.column_stack([found.loading * level, found.loading * width])
 
-        def hysteresis(amounts: Float[np.ndarray, " 2"], chance: float) -> Caution:
+        def hysteresis(amounts: _Amounts, shift: _Shift, chance: float) -> Caution:
             gap = both @ amounts * spread
             share = 2.0 * float(np.abs(gap).max() / np.abs(predicted).max())
             return caution("hysteresis", share=share, chance=chance)
@@ -217,7 +223,7 @@ def _of_branches(
     if 2 <= len(runs) <= max(2, len(predicted) // 4):
         apart = np.column_stack([(found.run == k) * level for k in runs[1:]])
 
-        def differ(amounts: Float[np.ndarray, " k"], chance: float) -> Caution:
+        def differ(amounts: _Amounts, shift: _Shift, chance: float) -> Caution:
             share = float(np.ptp(np.append(amounts, 0.0)))
             return caution("runs_differ", runs=len(runs), share=share, chance=chance)
 
@@ -237,8 +243,8 @@ def _shape(
         columns += [predicted * (np.array(data.groups) == name) / spread for name in names[1:]]
     directions = np.column_stack(columns)
 
-    def told(amounts: Float[np.ndarray, " k"], chance: float) -> Caution:
-        return _misses(data, directions @ amounts * spread)
+    def told(amounts: _Amounts, shift: _Shift, chance: float) -> Caution:
+        return _misses(data, shift * spread)
 
     return _Mistake("lack_of_fit", directions, told)
 
@@ -267,7 +273,7 @@ def _worst_point(
     direction = np.zeros((len(off), 1))
     direction[k] = 1.0
 
-    def told(amounts: Float[np.ndarray, " 1"], chance: float) -> Caution:
+    def told(amounts: _Amounts, shift: _Shift, chance: float) -> Caution:
         row = f"row {data.lines[k]}" if data.lines else f"point {k + 1}"
         off = -float(amounts[0]) * float(spread[k])
         return caution("outlier", row=row, observed_kPa=float(data.observed[k]) / 1e3,

@@ -29,7 +29,7 @@ from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, Unit, shown_constant
 from stonepass.materials.known_laws import constants_by_name, known_law, name_of_law
-from stonepass.materials.protocol import Material
+from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import check
 
 __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
@@ -172,9 +172,7 @@ def fit_law(
     fitted = made(**values)
     growing = _growing(off, data.observed, relative)
     inside = [each for each in free if each not in {dict(one.values)["name"] for one in told}]
-    slopes = objective.sensitivities(values, free)
-    doubts = lack_of_fit(data, fitted, objective.off(values), slopes, objective.spread,
-                         outliers=not growing)  # fmt: skip
+    doubts = _doubts(objective, fitted, values, free, proportional=bool(growing))
     bounds, open_ends = intervals(minimizer, result, inside, declared)
     low, high = data.strain_range
     material = Material(
@@ -335,6 +333,23 @@ def _check_fit(objective: Objective, search: _Search, result: Any) -> list[Cauti
         _refuse_blind([n for n, part in zip(inside, np.abs(blind).max(axis=0), strict=True)
                        if part > SHARE])  # fmt: skip
     return told
+
+
+def _doubts(
+    objective: Objective,
+    law: Law,
+    values: Mapping[str, float],
+    free: Sequence[str],
+    *,
+    proportional: bool,
+) -> list[Caution]:
+    """Lack of fit, with errors in proportion where the residuals are so."""
+    spread = objective.spread
+    if proportional:
+        spread = _proportional(objective.predicted(values))
+    ratio = objective.spread / spread
+    slopes = objective.sensitivities(values, free) * ratio[:, None]
+    return lack_of_fit(objective.data, law, objective.off(values) * ratio, slopes, spread)
 
 
 def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:

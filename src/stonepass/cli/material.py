@@ -10,6 +10,8 @@ __all__ = ["app"]
 
 app = typer.Typer(help="List, show and check material laws.", rich_markup_mode=None)
 
+SOFT = 1e3  # Pa: no wall is as soft, constants are probably in kPa
+
 Name = Annotated[
     str, typer.Argument(metavar="NAME", help="Catalogue name, law.toml or file.py:function.")
 ]
@@ -111,12 +113,15 @@ def secant_of_material(
 @app.command("check")
 def check_material(name: Name) -> int:
     """Check that a law describes a solid; exit code 2 and the reason where it does not."""
-    from stonepass.cli.terminal import show
+    from stonepass.caution import caution
+    from stonepass.cli.terminal import show, warn
     from stonepass.inputs.material_file import find_material
     from stonepass.materials.stability import check
 
     entry = find_material(name)
     state = check(entry)
+    if state.shear < SOFT:
+        warn([caution("soft_law", material=entry.name, modulus_Pa=state.shear)])
     show(
         f"{entry.name}: no stress at rest, strongly elliptic over its strain range at axial "
         "stretch 1.",

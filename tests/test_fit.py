@@ -223,8 +223,8 @@ def test_data_from_files(tmp_path):
         ),
         ("stretch,nominal_stress_kPa\n1.1,x\n", r"row 2, column 'nominal_stress_kPa' is x"),
         (
-            "stretch,nominal_stress_kPa\n9,1\n",
-            r"column 'stretch' is 9, but must be a number from 0\.2",
+            "stretch,nominal_stress_kPa\n19,1\n",
+            r"column 'stretch' is 19, but must be a number from 0\.1 to 15; a stretch is a length",
         ),
         ("stretch,nominal_stress_kPa,axis\n1.1,1,axail\n", "column 'axis' is axail.*mean 'axial'"),
         ("", "a table with the columns stretch"),
@@ -323,3 +323,239 @@ def test_the_record_is_whole():
     record = fit_record(fit_law(tension(RUBBER, noise=0.01), "mooney-rivlin"), {"file": "a.csv"})
     assert len(record.constants) == 2
     assert FitRecord.model_validate(json.loads(json.dumps(record.to_dict()))) == record
+
+
+def table(tmp_path, rows, header="stretch,nominal_stress_kPa"):
+    path = tmp_path / "data.csv"
+    path.write_text(header + "\n" + "\n".join(",".join(map(str, row)) for row in rows) + "\n")
+    return str(path)
+
+
+def fitted(capsys, *arguments):
+    code = run(["fit", *arguments])
+    captured = capsys.readouterr()
+    return code, captured.out, captured.err
+
+
+NEGATIVE_C01 = MooneyRivlin(160e3, -28e3)
+
+
+def by_hand(law, stretch):
+    """Stress of a strip with equal stretches across, which is an equilibrium, stable or not."""
+    return 2.0 * (stretch - stretch**-2) * (law.C10 + law.C01 / stretch)
+
+
+@pytest.mark.parametrize("fix", [[], ["--fix", "C10=160kPa"], ["--fix", "C01=-28kPa"]])
+def test_constants_that_are_no_solid_are_given_as_such(tmp_path, capsys, fix):
+    """Mooney–Rivlin data with C01 = −28 kPa: at the stretches across C10 > −C01 λ² fails from 2.4.
+
+    Beyond it a strip does not keep equal stretches across; data that do tell the constants still.
+    """
+    stretch = np.array([1.1, 1.3, 1.6, 2.0, 2.5, 3.0, 3.5])
+    path = table(tmp_path, zip(stretch, by_hand(NEGATIVE_C01, stretch) / 1e3, strict=True))
+    out = tmp_path / "law.toml"
+    arguments = ["tensile", path, "--law", "mooney-rivlin", *fix, "--out", str(out), "--json"]
+    code, shown, told = fitted(capsys, *arguments)
+    assert code == 1
+    record = json.loads(shown)
+    for constant in record["constants"]:
+        true = getattr(NEGATIVE_C01, constant["name"])
+        assert constant["value"] == pytest.approx(true, rel=1e-6)
+        assert constant["given"] or constant["low"] <= true * (1.0 + 1e-6 * np.sign(true))
+    assert record["strain_range"] == [1.1, 3.5]
+    assert "these constants, C10 0.16 MPa, C01 -0.028 MPa, are not a solid" in told
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("law", "rows", "sentence"),
+    [
+        # pulling recorded as negative
+        ("neo-hookean", [(1.0, 0), (1.1, -560), (1.3, -1400)],
+         "row 4, column 'nominal_stress_kPa' is -1400 at stretch 1.3, but must be positive where a "
+         "strip is stretched"),
+        # strains in place of stretches
+        ("neo-hookean", [(0.25, 50), (0.4, 81), (0.6, 120)],
+         "must be negative where a strip is shortened; if the column 'stretch' holds strains, add 1"),
+        ("neo-hookean", [(0, 0), (0.1, 20), (0.3, 60)],
+         "column 'stretch' is 0, but must be a number from 0.1 to 15; a stretch is a length over"),
+        # strains in per cent, without and with a row at rest
+        ("neo-hookean", [(5, 20), (10, 40), (14, 50)], "the smallest stretch is 5, but must be below 2"),
+        ("neo-hookean", [(100, 0), (110, 20), (130, 60)], "1 \\+ per cent/100"),
+        # the columns exchanged
+        ("neo-hookean", [(20, 1.05), (40, 1.1), (60, 1.2)], "the columns look as if they were exchanged"),
+        ("neo-hookean", [(1.1, 20), (1.2, 20), (1.3, 20)],
+         "nominal stress is 20 kPa in every row, but must be one that changes"),
+        ("neo-hookean", [(1.2, 20), (1.2, 20.5), (1.2, 19.8)],
+         "data is at 1.2 times the size at rest in every row"),
+        ("neo-hookean", [(1.1, 0), (1.2, 0), (1.3, 0), (1.4, 1)], "no better than chance"),
+        ("neo-hookean", [(1.1, 90), (1.2, 100), (1.3, 95), (1.4, 92)], "worse than a constant, R² = -"),
+        # exact data of a law with C10 < 0, compressed: C10 ends at zero
+        ("mooney-rivlin", [(0.99, -0.055), (0.97, -0.18), (0.95, -0.33), (0.92, -0.61), (0.9, -0.84)],
+         "constant C10 of the fit of law 'mooney-rivlin' is .* the lower end of the search"),
+        # stress of one term with α = 30, beyond the 20 that are searched
+        ("ogden", [(1.01, 48.17), (1.02, 104.74), (1.03, 173.34), (1.04, 258.47), (1.05, 365.8), (1.06, 502.47), (1.07, 677.55), (1.08, 902.54)],
+         "constant alpha1 of the fit of law 'ogden' is .* end of the search"),
+    ],
+)  # fmt: skip
+def test_a_fit_that_is_none_is_one_sentence_and_no_file(tmp_path, capsys, law, rows, sentence):
+    out = tmp_path / "law.toml"
+    code, shown, told = fitted(
+        capsys, "tensile", table(tmp_path, rows), "--law", law, "--out", str(out)
+    )
+    assert (code, shown) == (2, "")
+    assert told.count("stonepass: ") == 1
+    with pytest.raises(AssertionError, match=sentence):
+        raise AssertionError(told)
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    ("header", "rows", "sizes", "sentence"),
+    [
+        ("inner_diameter_mm", [(10, 1.85), (20, 1.95), (30, 2.05)], ("3.5mm", "4.55mm"),
+         "is 2.05 at 30 kPa, but must be larger than at rest, 3.5 mm \\(--inner\\).*double the values"),
+        ("outer_diameter_mm", [(10, 2.35), (20, 2.45), (30, 2.5)], ("3.5mm", "4.55mm"),
+         "such that the wall has room inside it, 4.55 mm \\(--outer\\) at rest; double the values"),
+        ("inner_diameter_mm", [(-10, 3.7), (-20, 3.9), (-30, 4.1)], ("3.5mm", "4.55mm"),
+         "column 'pressure_kPa' is -30 .* positive where the tube is wider"),
+        ("inner_diameter_mm", [(10, 3.7), (20, 3.9), (30, 4.1)], ("1.75mm", "2.275mm"),
+         "give diameters, not radii, as --inner and --outer"),
+        ("outer_diameter_mm", [(1, 4.7), (1, 4.8), (1, 4.85)], ("3.5mm", "4.55mm"),
+         "transmural pressure is 1 kPa in every row"),
+    ],
+)  # fmt: skip
+def test_tubes_that_are_none(tmp_path, capsys, header, rows, sizes, sentence):
+    path = table(tmp_path, rows, f"pressure_kPa,{header}")
+    arguments = ["--law", "neo-hookean", "--inner", sizes[0], "--outer", sizes[1]]
+    code, shown, told = fitted(capsys, "inflation", path, *arguments)
+    assert (code, shown) == (2, "")
+    with pytest.raises(AssertionError, match=sentence):
+        raise AssertionError(told)
+
+
+def test_compression_is_data_and_a_collapsed_tube_too(tmp_path, capsys):
+    """Signs are asked, not the side of rest: both sides of it obey the law."""
+    stretch = np.array([0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3])
+    found = fit_law(tension(RUBBER, stretch, noise=0.003), "neo-hookean")
+    assert found.constants[0].value == pytest.approx(RUBBER.C10, rel=0.01)
+    ratio = np.array([0.9, 0.95, 1.05, 1.1, 1.15])
+    rows = zip(inflation(ratio, 1.3, RUBBER) / 1e3, 3.5 * ratio, strict=True)
+    path = table(tmp_path, rows, "pressure_kPa,inner_diameter_mm")
+    arguments = ["--law", "neo-hookean", "--inner", "3.5mm", "--outer", "4.55mm", "--json"]
+    code, shown, _ = fitted(capsys, "inflation", path, *arguments)
+    assert code == 0
+    assert json.loads(shown)["constants"][0]["value"] == pytest.approx(RUBBER.C10, rel=1e-4)
+
+
+def test_rubber_is_fitted_beyond_a_stretch_of_five(tmp_path, capsys):
+    """Natural rubber breaks at 7 to 8; only the range of the law file ends at 3."""
+    law, stretch = Yeoh(2e5, -2e3, 60.0), np.linspace(1.1, 7.5, 20)
+    rows = zip(stretch, tension(law, stretch).stress / 1e3, strict=True)
+    out = tmp_path / "rubber.toml"
+    code, shown, _ = fitted(
+        capsys, "tensile", table(tmp_path, rows), "--law", "yeoh", "--json", "--out", str(out)
+    )
+    record = json.loads(shown)
+    assert code == 0
+    assert record["strain_range"] == [1.1, 7.5]
+    assert record["constants"][2]["value"] == pytest.approx(60.0, rel=1e-3)
+    assert record["warnings"][-1]["code"] == "range_cut"
+    assert load_material(str(out)).strain_range == (1.0, 3.0)
+
+
+def test_a_constant_that_is_zero_is_not_blind():
+    """Yeoh data with C30 = 0: the estimate is as near zero as noise leaves it, with an interval."""
+    found = fit_law(tension(Yeoh(1e5, -1e4, 0.0), noise=1e-7), "yeoh")
+    constant = found.constants[2]
+    assert constant.low < 0.0 < constant.high
+    assert constant.high < 10.0
+
+
+def test_a_constant_at_the_bound_of_the_law_has_no_interval():
+    """Fibres that add nothing: k1 = 0 is a law, but k2 and the angle then do nothing."""
+    data = tension(RUBBER, np.linspace(1.05, 1.5, 10), AXES, noise=0.01, seed=4)
+    given = {"k2": 1.0, "angle": 0.7}
+    found = fit_law(Tension(data.stretch, data.stress, data.axis), "holzapfel-gasser-ogden", given)
+    k1 = next(each for each in found.constants if each.name == "k1")
+    codes = {each.code for each in found.warnings}
+    assert ("constant_at_bound" in codes) == (k1.value < 1e-3 * 2.0 * RUBBER.C10)
+    assert k1.value >= 0.0
+    assert k1.low is None
+
+
+def test_intervals_stay_within_what_is_physical():
+    """Noise of a third: Student's interval of C10 would go below zero, where no law is."""
+    generator = np.random.default_rng(3)
+    clean = tension(MooneyRivlin(3e4, 1e5)).stress
+    noisy = Tension(STRETCH, clean + 2e4 * generator.normal(size=12), ("axial",) * 12)
+    found = fit_law(noisy, "mooney-rivlin", {"C01": 1e5})
+    (constant,) = (each for each in found.constants if not each.given)
+    assert constant.low is None or constant.low > 0.0
+    assert constant.high > 3e4
+
+
+def test_extension_and_force_are_stretch_and_stress(tmp_path, capsys):
+    """A strip of 20 mm and 12 mm², pulled: stretch 1 + u/20, stress F/12 in N/mm²."""
+    stretch = np.linspace(1.05, 1.5, 8)
+    force = 2.0 * RUBBER.C10 * (stretch - stretch**-2) * 12e-6
+    rows = list(zip(20.0 * (stretch - 1.0), force, strict=True))
+    path = table(tmp_path, rows, "extension_mm,force_N")
+    law = ["--law", "neo-hookean"]
+    for section in (["--section", "12mm2"], ["--width", "10mm", "--thickness", "1.2mm"]):
+        code, shown, _ = fitted(
+            capsys, "tensile", path, *law, "--gauge-length", "2cm", *section, "--json"
+        )
+        record = json.loads(shown)
+        assert code == 0
+        assert record["constants"][0]["value"] == pytest.approx(RUBBER.C10, rel=1e-6)
+        assert record["inputs"]["gauge_length_m"] == 0.02
+    for more, sentence in (
+        (["--section", "12mm2"], "length of the strip is missing, but must be given as --gauge"),
+        (["--gauge-length", "20mm"], "section of the strip is missing"),
+        (["--gauge-length", "20mm", "--section", "12"], "--section is 12, but must be an area"),
+        (["--gauge-length", "20mm", "--section", "12mm2", "--width", "1mm"], "is given twice"),
+        (["--gauge-length", "2um", "--section", "12mm2"], "such that 1 + extension/length is 0.1"),
+    ):
+        code, _, told = fitted(capsys, "tensile", path, *law, *more)
+        assert code == 2
+        assert sentence in told
+
+
+def test_yeoh_without_its_third_constant_has_two(tmp_path):
+    path = tmp_path / "law.toml"
+    path.write_text(
+        'law = "yeoh"\nC10 = "100 kPa"\nC20 = "5 kPa"\nsource = "s"\nstrain_range = [1, 1.5]\n'
+    )
+    assert load_material(str(path)).law == Yeoh(1e5, 5e3, 0.0)
+    found = fit_law(tension(Yeoh(1e5, 5e3, 0.0)), "yeoh", {"C30": 0.0})
+    assert found.constants[1].value == pytest.approx(5e3, rel=1e-4)
+
+
+def test_stresses_in_the_wrong_unit_are_asked_about():
+    """Data in MPa read as kPa: a shear modulus of 240 Pa."""
+    found = fit_law(tension(NeoHookean(120.0), noise=0.01), "neo-hookean")
+    assert "the shear modulus is 24" in str(found.warnings[0])
+    assert "was the nominal stress given in MPa instead of kPa" in str(found.warnings[0])
+
+
+def test_sixty_points_at_as_many_axial_stretches_are_one_pass():
+    """The pressure of all points at once is that of the far field, point by point."""
+    ratio, axial = np.linspace(1.02, 1.3, 60), np.linspace(1.0, 1.2, 60)
+    law = material("ureter").law
+    data = Inflation(ratio, np.ones(60), 1.3, axial)
+    point_by_point = [
+        float(inflation(np.array(r), 1.3, law, float(a)))
+        for r, a in zip(ratio[::9], axial[::9], strict=True)
+    ]
+    np.testing.assert_allclose(data.predicted(law)[::9], point_by_point, rtol=1e-10)
+
+
+def test_a_law_in_kPa_is_asked_about(tmp_path, capsys):
+    """An energy of 0.12 (I₁ − 3), meant in kPa, has a shear modulus of 0.24 Pa; of 120, 240 Pa."""
+    path = tmp_path / "mine.py"
+    path.write_text("def energy(C, place, xp):\n    return 120.0 * (C.rr + C.tt + C.zz - 3.0)\n")
+    assert run(["material", "check", f"{path}:energy"]) == 0
+    assert "is 240 Pa, softer than any wall: are its constants in kPa" in capsys.readouterr().err
+    assert run(["material", "check", "latex"]) == 0
+    assert capsys.readouterr().err == ""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from options import asking
 
+from stonepass.bench.agreement import disagreement
 from stonepass.bench.comparison import Setting, compare, size_curves
 from stonepass.bench.invitro import fit_friction
 from stonepass.bench.least_squares import profile_level
@@ -221,3 +222,78 @@ def test_figure_shows_every_point_and_curve():
     marks = sum(len(c.lines[0].get_xdata()) for c in series_axes.containers)
     assert marks == len(points)
     assert region.get_xlabel() == "friction"
+
+
+def with_sd(points, share):
+    return [replace(each, sd=Pressure(share * each.pressure)) for each in points]
+
+
+def test_a_wall_that_the_series_excludes_is_told_first():
+    """A wall of 1.5 times the stiffness: friction alone makes up for it, the joint fit does not."""
+    found = fit_friction(
+        with_sd(made_up([*DRY, *WET], 0.3, stiffness=1.5, noise=0.02), 0.02), QUICK, solver=MadeUp()
+    )
+    codes = [each.code for each in found.warnings]
+    assert codes[0] == "stiffness_excluded"
+    told = dict(found.warnings[0].values)
+    assert told["stiffness"] == pytest.approx(1.5, rel=0.15)
+    assert told["jointly"] == pytest.approx(0.3, rel=0.25)
+    assert told["friction"] == found.friction.value
+    own = fit_friction(
+        with_sd(made_up([*DRY, *WET], 0.3, noise=0.02), 0.02), QUICK, solver=MadeUp()
+    )
+    assert own.objections == ()
+
+
+def test_residuals_of_six_standard_deviations_by_hand():
+    """Model 20, 40 kPa beside 18, 44 with 0.5 kPa each: 4 and 8 deviations, χ² 80 of 2."""
+    points = series([18e3, 44e3], [(1.5, 1.1, 0.0), (1.5, 1.2, 0.0)], sd=500.0)
+    comparison = compare(points, 0.5, QUICK, MadeUp(4e5))
+    (told,) = disagreement(comparison, 0)
+    assert dict(told.values) == pytest.approx(
+        {"typical": 40.0**0.5, "largest": 8.0, "friction": 0.5}
+    )
+    wide = series([18e3, 44e3], [(1.5, 1.1, 0.0), (1.5, 1.2, 0.0)], sd=3e3)
+    assert disagreement(compare(wide, 0.5, QUICK, MadeUp(4e5)), 0) == []
+
+
+def test_repeated_points_tell_the_error_of_a_series():
+    """Means are missed by 2 and 4 kPa, repeats scatter by 0.1: F = (20 · 2/2)/(0.02 · 2/2)."""
+    tubes = [(1.5, 1.1, 0.0), (1.5, 1.2, 0.0)] * 2
+    near = compare(series([17.9e3, 43.9e3, 18.1e3, 44.1e3], tubes), 0.5, QUICK, MadeUp(4e5))
+    (told,) = disagreement(near, 0)
+    assert told.code == "beyond_repeats"
+    assert dict(told.values)["off_kPa"] == pytest.approx(10.0**0.5)
+    assert dict(told.values)["scatter_kPa"] == pytest.approx(0.02**0.5)
+    far = compare(series([15e3, 38e3, 21e3, 47e3], tubes), 0.5, QUICK, MadeUp(4e5))
+    assert disagreement(far, 0) == []
+
+
+def test_false_alarms_of_a_series_are_rare():
+    """1 % of χ²; the joint interval of 95 % excludes the true stiffness in 5 %."""
+    told = {"beyond_sd": 0, "stiffness_excluded": 0}
+    for seed in range(12):
+        points = with_sd(made_up([*DRY, *WET], 0.3, noise=0.03, seed=seed), 0.03)
+        for each in fit_friction(points, QUICK, solver=MadeUp()).objections:
+            told[each.code] += 1
+    assert told["beyond_sd"] <= 1
+    assert told["stiffness_excluded"] <= 3
+
+
+def test_the_command_says_first_what_does_not_hold(tmp_path, capsys):
+    data = tmp_path / "series.csv"
+    lines = (EXAMPLES / "latex_series.csv").read_text(encoding="utf-8").splitlines()[:5]
+    stiffer = [lines[0]]
+    for line in lines[1:]:
+        xi, eta, out, pressure, sd = line.split(",")
+        stiffer.append(f"{xi},{eta},{out},{2.0 * float(pressure)},{sd}")
+    data.write_text("\n".join(stiffer), encoding="utf-8")
+    arguments = ["invitro", str(data), "--material", "latex", "--seating", "frictionless",
+                 "--workers", "1", "--friction", "0.475"]  # fmt: skip
+    run(arguments)
+    shown = capsys.readouterr().out
+    assert shown.startswith("This fit does not hold: series and model do not agree: at friction")
+    run([*arguments, "--json"])
+    record = json.loads(capsys.readouterr().out)
+    assert record["holds"] is False
+    assert record["warnings"][0]["code"] == "beyond_sd"

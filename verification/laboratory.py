@@ -23,9 +23,11 @@ from stonepass.clinic.assess import assess
 from stonepass.clinic.patient import read_patient
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.catalogue import material
+from stonepass.materials.demiray import Demiray
 from stonepass.materials.fung import Fung
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.ogden import Ogden
 from stonepass.materials.protocol import Material
 from stonepass.materials.yeoh import Yeoh
 from stonepass.model.case import Case
@@ -42,18 +44,30 @@ from stonepass.units import Pressure
 ROOT = Path(__file__).parents[1]
 SEED = 20260
 CORES = os.cpu_count() or 1
-SERIES = 120  # noisy series of a law: a share of 95 % is then known to 2 %
+SERIES = 300  # noisy series of a law and a kind of noise: a share of 95 % is known to 1.3 %
 NOISE = 0.01
-COVERED = 0.90  # of intervals that say 95 %
+COVERED = (0.93, 0.97)  # of intervals that say 95 %, the mean over laws of a kind of noise
+EACH = (0.91, 0.99)  # of one law, three standard deviations of the count
+ALARMS = 0.04  # of series that obey the law, with a caution
+ONWARD = 0.6  # correlation of neighbours where errors go on
 LAWS = {
     "neo-hookean": (NeoHookean(146.5e3), {}, ("axial",)),
     "mooney-rivlin": (MooneyRivlin(1e5, 3e4), {}, ("axial",)),
     "yeoh": (Yeoh(1e5, -1e4, 2e3), {}, ("axial",)),
+    "demiray": (Demiray(1e5, 1.0), {}, ("axial",)),
+    "ogden": (Ogden(1e5, 3.0), {}, ("axial",)),
     "fung": (
         Fung(C=0.4056e6, a1111=0.7091, a2222=0.8892, a1122=0.1856, G=1.2e4),
         {"G": 1.2e4, "a1122": 0.1856},
         ("axial", "circumferential"),
     ),
+}
+# Points of a strip, whether errors are in proportion, correlation of neighbours.
+NOISES = {
+    "equal": (14, False, 0.0),
+    "in proportion": (14, True, 0.0),
+    "equal, 5 points": (5, False, 0.0),
+    "going on": (30, False, ONWARD),
 }
 TUBES = [(1.5, 1.1, 0.0), (1.5, 1.3, 0.0), (2.0, 1.2, 0.0), (2.0, 1.3, 0.0), (1.5, 1.2, 5.4),
          (2.0, 1.2, 5.4)]  # fmt: skip
@@ -77,49 +91,67 @@ def section() -> Section:
 
 
 TEXT = """Constants are fitted to made-up strips with 1 % of noise, many times over, and the
-95 % intervals are counted that hold the true constant. A series of critical pressures is made by
-the model itself, pressed seating, and its friction fitted, once with the wall's own stiffness and
-once with a wall 1.25 times as stiff as the fit is told. The response surface behind an assessment
-is compared with whole solves at random conditions between the lumen and 1.75 times it."""
+95 % intervals are counted that hold the true constant, and the fits with a caution: these are
+false alarms, but for errors that go on from point to point. A series of critical pressures is
+made by the model itself, pressed seating, and its friction fitted, once with the wall's own
+stiffness and once with a wall 1.25 times as stiff as the fit is told. The response surface behind
+an assessment is compared with whole solves at random conditions between the lumen and 1.75 times
+it."""
 
 
 def _fits():
-    asked = [(law, relative) for law in LAWS for relative in (False, True)]
+    asked = [(law, noise) for noise in NOISES for law in LAWS]
     with ProcessPoolExecutor(CORES, mp_context=get_context("spawn")) as pool:
         found = dict(zip(asked, pool.map(_coverage, *zip(*asked, strict=True)), strict=True))
     checks, rows = [], []
-    for (law, relative), covered in found.items():
-        errors = "in proportion" if relative else "equal"
-        rows += [(law, errors, name, f"{share:.0%}") for name, share in covered.items()]
-        mean = float(np.mean(list(covered.values())))
-        checks.append(Check(f"intervals of {law}, errors {errors}, hold the true constant",
-                            f"{mean:.0%} of {SERIES} series", mean >= COVERED))  # fmt: skip
+    for noise in NOISES:
+        some = {law: found[law, noise] for law in LAWS}
+        for law, (held, told) in some.items():
+            shares = ", ".join(f"{name} {share:.1%}" for name, share in held.items())
+            rows.append((law, noise, shares, f"{told:.1%}"))
+        means = [float(np.mean(list(held.values()))) for held, _ in some.values()]
+        alarms = float(np.mean([told for _, told in some.values()]))
+        if noise == "going on":  # intervals do not hold here: counted, and told of
+            continue
+        mean = float(np.mean(means))
+        within = COVERED[0] <= mean <= COVERED[1] and all(EACH[0] <= m <= EACH[1] for m in means)
+        shown = f"{mean:.1%} ({min(means):.1%} to {max(means):.1%})"
+        checks.append(Check(f"intervals, errors {noise}: hold the true constant", shown, within))
+        checks.append(Check(f"false alarms, errors {noise}", f"{alarms:.1%}", alarms <= ALARMS))
     caption = (
-        f"95 % intervals that hold the true constant, {SERIES} noisy series each: noise of 1 % of "
-        "the largest stress, and of 1 % of each with `--relative`."
+        f"95 % intervals that hold the true constant, and fits with a caution, of {SERIES} noisy "
+        "series each: noise of 1 % of the largest stress, or of 1 % of each with `--relative`; "
+        f"*going on* is noise of 30 points whose neighbours have a correlation of {ONWARD}, for "
+        "which the intervals are not made."
     )
-    return checks, (caption, ("law", "errors", "constant", "held"), rows)
+    return checks, (caption, ("law", "errors", "held", "with a caution"), rows)
 
 
-def _coverage(name: str, relative: bool) -> dict[str, float]:
+def _coverage(name: str, noise: str) -> tuple[dict[str, float], float]:
     law, given, axes = LAWS[name]
-    generator = np.random.default_rng(SEED)
-    stretch = np.linspace(1.04, 1.5, 14)
+    count, relative, onward = NOISES[noise]
+    generator = np.random.default_rng([SEED, list(LAWS).index(name), list(NOISES).index(noise)])
+    stretch = np.linspace(1.04, 1.5, count)
     axis = tuple(each for each in axes for _ in stretch)
     blank = Tension(np.tile(stretch, len(axes)), np.ones(len(axis)), axis)
     exact = blank.predicted(law)
+    size = np.abs(exact) if relative else np.abs(exact).max()
     held: dict[str, list[bool]] = {}
+    told = 0
     for _ in range(SERIES):
-        size = np.abs(exact) if relative else np.abs(exact).max()
-        noisy = exact + NOISE * size * generator.normal(size=len(exact))
+        z = generator.normal(size=len(exact))
+        for k in range(1, len(z)):
+            z[k] = onward * z[k - 1] + np.sqrt(1.0 - onward**2) * z[k]
+        noisy = exact + NOISE * size * z
         fitted = fit_law(replace(blank, stress=noisy), name, given, relative=relative)
+        told += fitted.approximate
         for constant in fitted.constants:
             if not constant.given:
                 low = -np.inf if constant.low is None else constant.low
                 high = np.inf if constant.high is None else constant.high
                 true = getattr(law, constant.name)
                 held.setdefault(constant.name, []).append(low <= true <= high)
-    return {constant: float(np.mean(each)) for constant, each in held.items()}
+    return {constant: float(np.mean(each)) for constant, each in held.items()}, told / SERIES
 
 
 def _series():

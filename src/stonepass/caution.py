@@ -113,6 +113,77 @@ SENTENCES = {
         "residuals grow with the stress, so that intervals are too narrow: fit with relative "
         "errors (--relative)"
     ),
+    "lack_of_fit": (
+        "the law misses the data systematically, by {off_kPa:.3g} kPa ({share:.1%} of the largest) "
+        "about {at:.3g} times the size at rest: the intervals are too narrow, try another law or a "
+        "smaller range"
+    ),
+    "residuals_correlated": (
+        "neighbouring residuals are alike (correlation {alike:.2f}, p = {chance:.1g}): the law "
+        "misses the data in waves, or errors go on from point to point, and the intervals are too "
+        "narrow"
+    ),
+    "zero_offset": (
+        "the data are met better with a zero offset of {offset_kPa:.3g} kPa in what was measured "
+        "(p = {chance:.1g}): subtract what was read without load"
+    ),
+    "rest_size": (
+        "the data are met better if every stretch is {part:+.2%} from what was given "
+        "(p = {chance:.1g}), as with slack, a pre-stretch that was not told or a wrong size at "
+        "rest: measure the size at rest where the load begins"
+    ),
+    "slack": (
+        "the data are met better if the strip hangs loose up to a stretch of {stretch:.3g} "
+        "(p = {chance:.1g}): take its length there as that at rest, and leave the rows before out"
+    ),
+    "axial_rest_length": (
+        "the data are met better if the axial stretch is {part:+.2%} from what was given "
+        "(p = {chance:.1g}): give the axial stretch in column axial_stretch"
+    ),
+    "hysteresis": (
+        "loading and unloading differ by up to {share:.1%} of the largest (p = {chance:.1g}), but "
+        "an elastic law has one curve for both: fit the loading alone"
+    ),
+    "runs_differ": (
+        "the {runs} runs of the data, cycles or specimens, differ by up to {share:.1%} "
+        "(p = {chance:.1g}): fit one at a time, or the last cycle alone"
+    ),
+    "outlier": (
+        "{row} lies {off_kPa:+.3g} kPa off the law, at {observed_kPa:.4g} kPa (p = {chance:.1g}): "
+        "check the measurement, or leave it out"
+    ),
+    "constant_at_bound": (
+        "{name} lies at the end of what the law allows, {value}, so that it has no interval: the "
+        "data ask for a simpler law"
+    ),
+    "range_cut": (
+        "the data reach a stretch of {high:.3g}, but the range of a material ends at {highest:g}: "
+        "its file says {highest:g}"
+    ),
+    "soft_fit": (
+        "the shear modulus is {modulus_Pa:.3g} Pa, softer than any wall: was the {measured} given "
+        "in MPa instead of kPa"
+    ),
+    "beyond_sd": (
+        "series and model do not agree: at friction {friction:.3g} residuals are {typical:.2g} "
+        "standard deviations, up to {largest:.2g}, so that no number below describes this series"
+    ),
+    "beyond_repeats": (
+        "series and model do not agree: the model misses the means of repeated points by "
+        "{off_kPa:.2g} kPa, which scatter by {scatter_kPa:.2g} kPa only"
+    ),
+    "stiffness_excluded": (
+        "the series excludes this wall's stiffness: it asks for {stiffness:.3g} times that, with "
+        "friction {jointly:.3g}, so that friction {friction:.3g}, found with the wall's own "
+        "stiffness, does not hold; measure the wall"
+    ),
+    "jointly_at_end": (
+        "with the stiffness unknown, {name} ends where the search ends, at {value:.3g}"
+    ),
+    "soft_law": (
+        "the shear modulus of material '{material}' is {modulus_Pa:.3g} Pa, softer than any wall: "
+        "are its constants in kPa? They have to be in Pa, 1 kPa = 1000 Pa"
+    ),
     "loose_points": (
         "{count} of {points} stones are no larger than the lumen and say nothing of friction"
     ),

@@ -15,6 +15,7 @@ from scipy.optimize import minimize_scalar
 from scipy.stats import f as f_distribution
 
 from stonepass.array_types import Float
+from stonepass.bench.agreement import OBJECTIONS, disagreement
 from stonepass.bench.comparison import Comparison, Setting, compare
 from stonepass.bench.least_squares import (
     LEVEL,
@@ -96,6 +97,7 @@ class InVitro:
     weighted : bool
         Whether residuals are weighted by the points' standard deviations.
     warnings : tuple of Caution
+        What speaks against the fit comes first.
     """
 
     comparison: Comparison
@@ -105,6 +107,11 @@ class InVitro:
     setting: Setting
     weighted: bool
     warnings: tuple[Caution, ...] = ()
+
+    @property
+    def objections(self) -> tuple[Caution, ...]:
+        """Warnings that say that series and model do not agree, so that no number holds."""
+        return tuple(each for each in self.warnings if each.code in OBJECTIONS)
 
 
 def fit_friction(
@@ -173,8 +180,28 @@ def fit_friction(
             warnings.append(caution("unanswered_at_fit", count=chosen.count(False)))
     joint, about_both = _joint(library, whole, parameters, solver)
     asked = fitted if friction is None else compare(points, friction, setting, solver)
-    warnings = list(dict.fromkeys([*warnings, *about_both]))
-    return InVitro(asked, fitted, estimate, joint, setting, weighted, tuple(warnings))
+    against = disagreement(asked, 1 if friction is None else 0)
+    told = dict.fromkeys([*against, *_excluded(joint, estimate), *warnings, *about_both])
+    ordered = sorted(told, key=lambda each: each.code not in OBJECTIONS)
+    return InVitro(asked, fitted, estimate, joint, setting, weighted, tuple(ordered))
+
+
+def _excluded(joint: JointFit | None, alone: Estimate) -> list[Caution]:
+    """Say where the joint fit excludes the wall's own stiffness, or ends with the search."""
+    if joint is None:
+        return []
+    found = []
+    stiffness = joint.stiffness
+    above = stiffness.low is not None and stiffness.low > 1.0
+    if above or (stiffness.high is not None and stiffness.high < 1.0):
+        found.append(
+            caution("stiffness_excluded", stiffness=stiffness.value, friction=alone.value,
+                    jointly=joint.friction.value)
+        )  # fmt: skip
+    for name, estimate in (("friction", joint.friction), ("stiffness", stiffness)):
+        if any(abs(estimate.value - end) < 1e-3 * end for end in BOUNDS[name]):
+            found.append(caution("jointly_at_end", name=name, value=estimate.value))
+    return found
 
 
 def _minimized(library: Any, series: SeriesModel, parameters: Any) -> tuple[Any, Any]:

@@ -1,23 +1,34 @@
 """Constants of a law from bench data: least squares, with intervals and what the data cannot tell.
 
-The fit and the profile likelihood behind the intervals are lmfit's.
+The fit and the profile likelihood behind the intervals are lmfit's. A fit that is none is refused
+with its reason: constants that the data cannot tell from one another, that end where the search
+ends, or that explain the data no better than no law at all.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from scipy.stats import f as f_distribution
 from scipy.stats import spearmanr
 
 from stonepass.array_types import Float
-from stonepass.bench.least_squares import correlations, intervals, lmfit
+from stonepass.bench.lack_of_fit import lack_of_fit
+from stonepass.bench.least_squares import LEVEL, correlations, intervals, lmfit
+from stonepass.bench.objective import (
+    Data,
+    Objective,
+    at_an_end,
+    starting_parameters,
+    stiffness_guess,
+)
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
-from stonepass.materials.constants import ConstantDeclaration, Unit
-from stonepass.materials.known_laws import constants_by_name, known_law
+from stonepass.materials.constants import ConstantDeclaration, Unit, shown_constant
+from stonepass.materials.known_laws import constants_by_name, known_law, name_of_law
 from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import check
 
@@ -26,39 +37,16 @@ __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 STARTS = (0.1, 1.0, 5.0)  # of the numbers of a law, each tried
 INDISTINCT = 1e-6  # of singular values of the sensitivities, relative
 SMALLEST_SHARE = 0.01  # of the largest stress: below it an error is no longer proportional
+REWEIGHTED = 3  # times that proportional errors are taken anew from what the law predicts
 FEWEST_OF_A_TREND = 8  # points
 UNLIKELY = 0.01  # chance of so clear a trend where there is none
 SHARE = 0.3  # of a constant in what the data cannot tell, for it to be named
-NUMBER = (1e-6, 1e3)  # widest interval of a positive constant that is no modulus
-ANY_SIGN = (-1e2, 1e2)  # widest interval of one that may be negative
-SPAN = 1e6  # of moduli over the first guess
-IMPOSSIBLE = 1e3  # times the data, where a law has no stress
-
-
-@runtime_checkable
-class Data(Protocol):
-    """What was measured, and what a law predicts for it."""
-
-    measured: str
-
-    @property
-    def observed(self) -> Float[np.ndarray, " n"]:
-        """The measured quantity, in Pa."""
-
-    @property
-    def abscissa(self) -> Float[np.ndarray, " n"]:
-        """The quantity on the horizontal axis of a drawing."""
-
-    @property
-    def groups(self) -> tuple[str, ...]:
-        """Name of the curve that each point belongs to."""
-
-    @property
-    def strain_range(self) -> tuple[float, float]:
-        """Smallest and largest stretch."""
-
-    def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
-        """The measured quantity as a law predicts it, in Pa."""
+LARGEST_STRETCH = 3.0  # of the range that a material may state
+SOFT = 1e3  # Pa: no wall is as soft, a shear modulus below is probably in other units
+# Cautions after which 95 % intervals are approximate.
+UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "lack_of_fit",
+          "zero_offset", "rest_size", "slack", "axial_rest_length", "hysteresis", "runs_differ",
+          "outlier")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -91,12 +79,13 @@ class FittedLaw:
     rmse : float
         Root mean square of the residuals in Pa.
     r_squared : float
-        1 − Σ residual²/Σ (observed − mean)².
+        1 − Σ residual²/Σ (observed − mean)²; not negative.
     correlations : dict
         Pairs of fitted constants and the correlation of their estimates.
     unstable : str
         Why the law describes no solid; empty where it does.
     warnings : tuple of Caution
+        What speaks against the fit comes first.
     """
 
     material: Material
@@ -108,6 +97,19 @@ class FittedLaw:
     correlations: dict[tuple[str, str], float]
     unstable: str = ""
     warnings: tuple[Caution, ...] = ()
+
+    @property
+    def told(self) -> str:
+        """The constants in words."""
+        known = constants_by_name(name_of_law(self.material.law))
+        return ", ".join(
+            f"{c.name} {shown_constant(c.value, known[c.name])}" for c in self.constants
+        )
+
+    @property
+    def approximate(self) -> bool:
+        """Whether the residuals are not those that the 95 % intervals assume."""
+        return any(each.code in UNSURE for each in self.warnings)
 
     @property
     def residuals(self) -> Float[np.ndarray, " n"]:
@@ -146,11 +148,11 @@ def fit_law(
     Raises
     ------
     BadInput
-        An unknown law or constant, fewer points than constants, or constants that the data cannot
-        tell from one another, naming them.
+        An unknown law or constant, fewer points than constants, constants that the data cannot
+        tell from one another or that end where the search ends, naming them, and data that no
+        constants meet better than no law would.
     """
-    fitting = lmfit()
-    make, declared, fixed = known_law(law), constants_by_name(law), dict(given or {})
+    made, declared, fixed = known_law(law), constants_by_name(law), dict(given or {})
     for each in (*fixed, *free):
         if each not in declared:
             refuse_unknown(f"constant of law '{law}'", each, list(declared))
@@ -158,56 +160,32 @@ def fit_law(
         if constant.held and constant.default is not None and constant.name not in free:
             fixed.setdefault(constant.name, constant.default)
     free = [each for each in declared if each not in fixed]
-    points = len(data.observed)
-    require(len(free) > 0, "constants", "all given", "some to be fitted")
-    require(points > len(free), "data", f"{points} points", f"more than the {len(free)} constants")
-    scale = float(np.abs(data.observed).max())
-    require(scale > 0.0, "data", "zero throughout", "measured under load")
-
-    spread = np.full(points, scale)
-    if relative:
-        spread = np.maximum(np.abs(data.observed), SMALLEST_SHARE * scale)
-
-    def residuals(parameters: Any) -> Float[np.ndarray, " n"]:
-        """Predicted less observed over what is expected; far off where the law has no stress."""
-        try:
-            found = data.predicted(make(**parameters.valuesdict()))
-        except BadInput:
-            found = np.full(points, np.nan)
-        off = (found - data.observed) / spread
-        return np.where(np.isfinite(off), off, IMPOSSIBLE)
-
-    best = None
-    for start in STARTS:
-        parameters = _parameters(fitting, declared, fixed, _modulus(data), start)
-        minimizer = fitting.Minimizer(residuals, parameters)
-        with np.errstate(all="ignore"):
-            found = minimizer.minimize(method="least_squares")
-        if best is None or found.chisqr < best[1].chisqr:
-            best = (minimizer, found)
-    assert best is not None
-    minimizer, result = best
+    _check_enough(data, free)
+    objective = Objective(data, made, np.full(len(data.observed), float(np.ptp(data.observed))))
+    search = _Search(law, declared, fixed, tuple(free), stiffness_guess(data))
+    _check_told(objective, search)
+    objective, minimizer, result = _best(objective, search, relative)
     values = {each: float(value) for each, value in result.params.valuesdict().items()}
-    _check_told(residuals, result, free)
-    bounds, warnings = intervals(minimizer, result, free)
-    fitted = make(**values)
-    predicted = data.predicted(fitted)
+    predicted = objective.predicted(values)
     off = predicted - data.observed
-    warnings += _growing(off, data.observed, relative)
+    told = _check_fit(objective, search, result)
+    fitted = made(**values)
+    growing = _growing(off, data.observed, relative)
+    inside = [each for each in free if each not in {dict(one.values)["name"] for one in told}]
+    doubts = _doubts(objective, fitted, values, free, proportional=bool(growing))
+    bounds, open_ends = intervals(minimizer, result, inside, declared)
     low, high = data.strain_range
     material = Material(
         name=name,
         law=fitted,
-        source=f"fitted to {points} points of {data.measured}",
+        source=f"fitted to {len(off)} points of {data.measured}",
         test=data.measured,
         verified="fitted, not verified",
-        strain_range=(min(1.0, low), min(max(high, 1.0 + 1e-3), 3.0)),
+        strain_range=(min(1.0, low), min(max(high, 1.0 + 1e-3), LARGEST_STRETCH)),
     )
-    try:
-        check(material)
-        unstable = ""
-    except UnstableLaw as problem:
-        unstable = problem.allowed
+    if high > LARGEST_STRETCH:
+        open_ends.append(caution("range_cut", high=high, highest=LARGEST_STRETCH))
+    unstable, soft = _unstable(material, data)
     return FittedLaw(
         material=material,
         constants=tuple(
@@ -218,65 +196,181 @@ def fit_law(
         data=data,
         predicted=predicted,
         rmse=float(np.sqrt(np.mean(off**2))),
-        r_squared=1.0 - float(np.sum(off**2) / np.sum((data.observed - data.observed.mean()) ** 2)),
+        r_squared=_r_squared(off, data.observed),
         correlations=correlations(result, free),
         unstable=unstable,
-        warnings=tuple(warnings),
+        warnings=(*(doubts or growing), *told, *soft, *open_ends),
     )  # fmt: skip
 
 
-def _modulus(data: Data) -> float:
-    """First guess of a shear modulus in Pa: what was measured over the strain, the median of it."""
-    strain = np.abs(data.abscissa - 1.0)
-    loaded = strain > 0.2 * strain.max()
-    return float(max(np.median(np.abs(data.observed[loaded]) / strain[loaded]) / 3.0, 1.0))
+@dataclass(frozen=True)
+class _Search:
+    """Which constants are looked for, and where it begins."""
+
+    law: str
+    declared: Mapping[str, ConstantDeclaration]
+    fixed: Mapping[str, float]
+    free: tuple[str, ...]
+    modulus: float
+
+    def parameters(self, start: float) -> Any:
+        return starting_parameters(lmfit(), self.declared, self.fixed, self.modulus, start)
 
 
-def _parameters(
-    fitting: Any,
-    declared: Mapping[str, ConstantDeclaration],
-    fixed: Mapping[str, float],
-    modulus: float,
-    start: float,
-) -> Any:
-    parameters = fitting.Parameters()
-    for name, each in declared.items():
-        if name in fixed:
-            parameters.add(name, fixed[name], vary=False)
-        elif each.unit == "Pa":
-            low = modulus / SPAN if each.positive else -SPAN * modulus
-            parameters.add(name, each.guess * modulus, min=low, max=SPAN * modulus)
-        else:
-            low, high = NUMBER if each.positive else ANY_SIGN
-            low, high = max(low, each.low), min(high, each.high)
-            # A first guess beyond a bound would be put on it, where nothing changes any more.
-            guess = each.guess * start
-            inside = guess if low < guess < high else (low + high) / 2.0
-            parameters.add(name, inside, min=low, max=high)
-    return parameters
+def _check_enough(data: Data, free: Sequence[str]) -> None:
+    """Refuse data that say nothing of any law."""
+    points, observed = len(data.observed), data.observed
+    require(len(free) > 0, "constants", "all given", "some to be fitted")
+    require(points > len(free), "data", f"{points} points", f"more than the {len(free)} constants",
+            "add points, or give constants with --fix NAME=VALUE")  # fmt: skip
+    require(float(np.abs(observed).max()) > 0.0, "data", "zero throughout", "measured under load")
+    require(float(np.ptp(data.abscissa)) > 1e-6, "data", f"at {data.abscissa[0]:.4g} times the "
+            "size at rest in every row", "measured at two stretches or more")  # fmt: skip
+    require(float(np.ptp(observed)) > 1e-9 * float(np.abs(observed).max()), data.measured,
+            f"{observed[0] / 1e3:.4g} kPa in every row", "one that changes with the stretch"
+            )  # fmt: skip
 
 
-def _check_told(residuals: Any, result: Any, free: list[str]) -> None:
-    """Refuse constants whose changes cancel: the data cannot tell them from one another."""
-    columns = []
-    for name in free:
-        sides = []
-        for sign in (1.0, -1.0):
-            moved = result.params.copy()
-            moved[name].set(value=moved[name].value * (1.0 + sign * 1e-4) + sign * 1e-9)
-            sides.append(residuals(moved))
-        columns.append((sides[0] - sides[1]) / 2e-4)
-    _, sizes, directions = np.linalg.svd(np.array(columns).T, full_matrices=False)
-    blind = directions[sizes <= INDISTINCT * sizes[0]]
-    if not len(blind):
-        return
-    named = [n for n, shares in zip(free, blind.T, strict=True) if np.abs(shares).max() > SHARE]
+def _check_told(objective: Objective, search: _Search) -> None:
+    """Refuse constants whose changes cancel wherever the search begins: no data of this kind tell.
+
+    The sensitivities are to relative changes; columns without any are those of constants that do
+    nothing.
+    """
+    smallest: Float[np.ndarray, " free"] | None = None
+    for start in STARTS:
+        values = search.parameters(start).valuesdict()
+        slopes = objective.sensitivities(values, search.free)
+        _, sizes, directions = np.linalg.svd(slopes, full_matrices=False)
+        blind = directions[sizes <= INDISTINCT * sizes[0]]
+        if not len(blind):
+            return
+        smallest = np.abs(blind).max(axis=0)
+    assert smallest is not None
+    _refuse_blind([n for n, part in zip(search.free, smallest, strict=True) if part > SHARE])
+
+
+def _refuse_blind(named: Sequence[str]) -> None:
     raise BadInput(
         "data",
         f"blind to {' and '.join(named)}",
         "such that every constant changes what is predicted",
         f"give one of them, e.g. --fix {named[-1]}=VALUE, or another test",
     )
+
+
+def _best(objective: Objective, search: _Search, relative: bool) -> tuple[Objective, Any, Any]:
+    """The best of the fits from several starts; proportional errors follow what it predicts."""
+    data = objective.data
+    if relative:
+        objective = replace(objective, spread=_proportional(data.observed))
+    starts = [search.parameters(start) for start in STARTS]
+    alike = starts[0].valuesdict() == starts[-1].valuesdict()  # where no number is looked for
+    found = [_minimized(objective, each) for each in (starts[:1] if alike else starts)]
+    minimizer, result = min(found, key=lambda each: float(each[1].chisqr))
+    for _ in range(REWEIGHTED if relative else 0):
+        predicted = objective.predicted(result.params.valuesdict())
+        if not np.all(np.isfinite(predicted)):
+            break
+        objective = replace(objective, spread=_proportional(predicted))
+        minimizer, result = _minimized(objective, result.params)
+    return objective, minimizer, result
+
+
+def _minimized(objective: Objective, parameters: Any) -> tuple[Any, Any]:
+    minimizer = lmfit().Minimizer(objective.residuals, parameters)
+    with np.errstate(all="ignore"):
+        return minimizer, minimizer.minimize(method="least_squares")
+
+
+def _proportional(level: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    size = np.abs(level)
+    return np.maximum(size, SMALLEST_SHARE * float(size.max()))
+
+
+def _check_fit(objective: Objective, search: _Search, result: Any) -> list[Caution]:
+    """Refuse a fit that is none; say where a constant is zero, or another end of its own range."""
+    law, data, told = search.law, objective.data, []
+    values = {each: float(value) for each, value in result.params.valuesdict().items()}
+    predicted = objective.predicted(values)
+    law_of = f"fit of law '{law}'"
+    remedy = "check signs, units and sizes at rest, or fit another law"
+    if not np.all(np.isfinite(predicted)):
+        raise BadInput(law_of, "without a prediction for some of the data",
+                       "one that meets all of them", "fit another law")  # fmt: skip
+    r_squared = _r_squared(predicted - data.observed, data.observed)
+    if r_squared < 0.0:
+        raise BadInput(law_of, f"worse than a constant, R² = {r_squared:.3g}",
+                       "better than one", remedy)  # fmt: skip
+    for name in search.free:
+        each = search.declared[name]
+        end = at_an_end(result.params[name], each, search.modulus)
+        if not end:
+            continue
+        shown = shown_constant(values[name], each)
+        limit = each.low if end == "lower" else each.high
+        own = each.low_allowed if end == "lower" else each.high_allowed
+        if own and each.positive and abs(limit - values[name]) < 1e-2 * max(abs(limit), 1.0):
+            told.append(caution("constant_at_bound", name=name, value=shown))
+            continue
+        raise BadInput(f"constant {name} of the {law_of}", f"{shown}, the {end} end of the search",
+                       "one that the data bound", f"give it, --fix {name}=VALUE, or fit another "
+                       "law, which these data obey")  # fmt: skip
+    off = objective.off(values)
+    level = predicted / objective.spread
+    count = len(search.free)
+    explained = float(level @ level) / count
+    noise = float(off @ off) / (len(off) - count)
+    if explained < noise * float(f_distribution.ppf(LEVEL, count, len(off) - count)):
+        raise BadInput(law_of, f"no better than chance, R² = {r_squared:.3g}",
+                       "clearer than the scatter of the data", remedy)  # fmt: skip
+    named = {dict(each.values)["name"] for each in told}
+    inside = [each for each in search.free if each not in named]
+    _, sizes, directions = np.linalg.svd(objective.sensitivities(values, inside),
+                                         full_matrices=False)  # fmt: skip
+    blind = directions[sizes <= INDISTINCT * sizes[0]]
+    if len(blind):
+        _refuse_blind([n for n, part in zip(inside, np.abs(blind).max(axis=0), strict=True)
+                       if part > SHARE])  # fmt: skip
+    return told
+
+
+def _doubts(
+    objective: Objective,
+    law: Law,
+    values: Mapping[str, float],
+    free: Sequence[str],
+    *,
+    proportional: bool,
+) -> list[Caution]:
+    """Lack of fit, with errors in proportion where the residuals are so."""
+    spread = objective.spread
+    if proportional:
+        spread = _proportional(objective.predicted(values))
+    ratio = objective.spread / spread
+    slopes = objective.sensitivities(values, free) * ratio[:, None]
+    return lack_of_fit(objective.data, law, objective.off(values) * ratio, slopes, spread)
+
+
+def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
+    """Why the law is no solid, if so, and whether it is suspiciously soft."""
+    try:
+        state = check(material)
+    except UnstableLaw as problem:
+        return problem.allowed, []
+    except BadInput as problem:
+        raise BadInput(problem.argument, problem.value, problem.allowed,
+                       f"check the unit of the {data.measured}") from problem  # fmt: skip
+    at = data.unstable_at(material.law)
+    if at is not None:
+        return f"at stretch {at:.3g} a strip would not keep its shape", []
+    if state.shear < SOFT:
+        return "", [caution("soft_fit", modulus_Pa=state.shear, measured=data.measured)]
+    return "", []
+
+
+def _r_squared(off: Float[np.ndarray, " n"], observed: Float[np.ndarray, " n"]) -> float:
+    return 1.0 - float(np.sum(off**2) / np.sum((observed - observed.mean()) ** 2))
 
 
 def _growing(

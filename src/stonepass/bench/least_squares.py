@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 from warnings import catch_warnings, simplefilter
 
@@ -29,6 +29,8 @@ LEVEL = 0.95
 FARTHER = 1.5  # each step outwards over the last one
 STEPS = 60
 SMALLEST = 1e-9  # step, relative
+PARABOLIC = 0.02  # of the growth of χ², by which a parabola may miss it
+TINY = np.finfo(float).tiny
 
 # Both ends of an interval; None where the data set no bound on that side.
 Interval = tuple[float | None, float | None]
@@ -40,16 +42,54 @@ def lmfit() -> Any:
 
 
 def intervals(
+    minimizer: Any,
+    result: Any,
+    free: Sequence[str],
+    declared: Mapping[str, Any] | None = None,
+) -> tuple[dict[str, Interval], list[Caution]]:
+    """95 % intervals of the free parameters, and what there is to say.
+
+    The scatter is that of the residuals. Where χ² is a parabola as far as the intervals go, they
+    are Student's, which are exact for a model that is linear in its parameters and Gaussian errors;
+    else the likelihood is profiled. Where a profile cannot be followed the curvature at the best
+    fit stands in, and that is said. Every interval stays within the bounds of its parameter.
+
+    Parameters
+    ----------
+    minimizer, result : lmfit.Minimizer, lmfit.minimizer.MinimizerResult
+    free : sequence of str
+        Parameters to bound; others that vary have none, as those that lie on a bound.
+    declared : mapping, optional
+        Objects with `low` and `high`, the bounds that are physical, by name of the parameter.
+
+    Returns
+    -------
+    bounds : dict
+        Ends by name; None where an end is not bounded before the end of the search.
+    told : list of Caution
+    """
+    told: list[Caution] = []
+    bounds = _by_parabola(minimizer, result, free)
+    if bounds is None and len(free) == 1 and result.nvarys == 1:
+        bounds = {free[0]: _profile_of_one(minimizer, result, free[0])}
+    if bounds is None:
+        bounds, told = _profiled(minimizer, result, free)
+    within = {name: _within(each, result.params[name]) for name, each in bounds.items()}
+    return within, [*told, *open_ended(within)]
+
+
+def _within(interval: Interval, parameter: Any) -> Interval:
+    """The interval, open where it goes to the end of the search or of what is physical."""
+    low, high = interval
+    return (
+        None if low is None or low <= parameter.min else low,
+        None if high is None or high >= parameter.max else high,
+    )
+
+
+def _profiled(
     minimizer: Any, result: Any, free: Sequence[str]
 ) -> tuple[dict[str, Interval], list[Caution]]:
-    """95 % intervals of the free parameters by profile likelihood, and what there is to say.
-
-    The scatter is that of the residuals. Where a profile cannot be followed the curvature at the
-    best fit stands in.
-    """
-    if len(free) == 1:
-        bounds = {free[0]: _profile_of_one(minimizer, result, free[0])}
-        return bounds, open_ended(bounds)
     fitting = lmfit()
     try:
         with np.errstate(all="ignore"), catch_warnings():
@@ -61,8 +101,41 @@ def intervals(
     except (fitting.minimizer.MinimizerException, ValueError, RuntimeError, UserWarning):
         found, told = _by_curvature(result, free)
         return found, [*told, caution("interval_by_curvature")]
-    bounds = {name: (_end(rows[0][1]), _end(rows[-1][1])) for name, rows in profiles.items()}
-    return bounds, open_ended(bounds)
+    return {name: (_end(rows[0][1]), _end(rows[-1][1])) for name, rows in profiles.items()}, []
+
+
+def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, Interval] | None:
+    """Student's intervals, or None where χ² at their ends is not what a parabola says.
+
+    At the ends of the interval of one parameter, the others moved along with it by their
+    covariance, a parabola has the χ² of `profile_level`. The bounds of the others do not count
+    here, so that an interval may be wider than it has to be, but not narrower.
+    """
+    if result.covar is None or not np.all(np.isfinite(result.covar)):
+        return None
+    names, covariance = list(result.var_names), np.array(result.covar)
+    factor = float(t_distribution.ppf(0.5 + LEVEL / 2.0, result.nfree))
+    least = float(np.sum(np.square(minimizer.userfcn(result.params))))
+    level = profile_level(result.nfree)
+    found: dict[str, Interval] = {}
+    for name in free:
+        k = names.index(name)
+        error, centre = float(np.sqrt(covariance[k, k])), float(result.params[name].value)
+        if error == 0.0:  # the data are met exactly
+            found[name] = (centre, centre)
+            continue
+        for sign in (-1.0, 1.0):
+            moved = result.params.copy()
+            shift = sign * factor * covariance[k] / error
+            for other, by in zip(names, shift, strict=True):
+                value = float(result.params[other].value) + by
+                moved[other].set(value=value, min=-np.inf, max=np.inf)
+            with np.errstate(all="ignore"):  # no number there is no parabola
+                reached = float(np.sum(np.square(minimizer.userfcn(moved)))) / max(least, TINY)
+            if not abs(reached - level) < PARABOLIC * (level - 1.0):
+                return None
+        found[name] = (centre - factor * error, centre + factor * error)
+    return found
 
 
 def correlations(result: Any, free: Sequence[str]) -> dict[tuple[str, str], float]:

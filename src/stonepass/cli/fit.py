@@ -55,6 +55,14 @@ def tensile(
     thickness: Annotated[
         str | None, typer.Option("--thickness", metavar="LENGTH", help="Of the strip.")
     ] = None,
+    section: Annotated[
+        str | None,
+        typer.Option("--section", metavar="AREA", help="Of the strip, e.g. 12mm2, for force_N."),
+    ] = None,
+    gauge_length: Annotated[
+        str | None,
+        typer.Option("--gauge-length", metavar="LENGTH", help="At rest, for extension_mm."),
+    ] = None,
     fix: Fix = None,
     free: Free = None,
     relative: Relative = False,
@@ -62,16 +70,23 @@ def tensile(
     figure: Drawn = None,
     json: Json = False,
 ) -> int:
-    """Fit to strips in tension: stretch, nominal_stress_kPa or force_N[, axis]."""
+    """Fit to strips: stretch or extension_mm, nominal_stress_kPa or force_N[, axis]."""
     from stonepass.bench.test_data import read_tension
     from stonepass.units import length
 
-    sides = [
-        None if side is None else length(side, name)
-        for name, side in (("--width", width), ("--thickness", thickness))
-    ]
-    inputs = {"file": data.name, "width_m": sides[0], "thickness_m": sides[1]}
-    return _fit(read_tension(data, *sides), law, fix, free, relative, out, figure, json, inputs)
+    sizes = {
+        key: None if text is None else length(text, option)
+        for key, option, text in (
+            ("width", "--width", width),
+            ("thickness", "--thickness", thickness),
+            ("gauge_length", "--gauge-length", gauge_length),
+        )
+    }
+    area = None if section is None else _area(section)
+    asked = {"file": data.name, **{f"{key}_m": size for key, size in sizes.items()}}
+    inputs = {**asked, "section_m2": area}
+    read = read_tension(data, **sizes, section=area)
+    return _fit(read, law, fix, free, relative, out, figure, json, inputs)
 
 
 @app.command("inflation")
@@ -133,9 +148,10 @@ def _fit(
     if json:
         print_json(fit_record(found, inputs | {"relative": relative}).to_dict())
     else:
+        warn(found.warnings)  # before the numbers, which they may speak against
         show(fit_table(found), DISCLAIMER)
-        warn(found.warnings)
     if found.unstable:
+        warn([f"these constants, {found.told}, are not a solid: {found.unstable}"])
         if out is not None:
             warn([f"{out} is not written, since the law is not stable"])
         return 1
@@ -144,6 +160,18 @@ def _fit(
 
         write_law(found.material, out)
     return 0
+
+
+def _area(text: str) -> float:
+    """Read an area, e.g. "12 mm2", in m²."""
+    import re
+
+    from stonepass.errors import BadInput
+
+    match = re.fullmatch(r"\s*(\d+\.?\d*|\.\d+)\s*(mm|cm|m)(?:2|²|\^2)\s*", text)
+    if match is None:
+        raise BadInput("--section", text, "an area in mm2, cm2 or m2", "write it like 12mm2")
+    return float(match[1]) * {"mm": 1e-6, "cm": 1e-4, "m": 1.0}[match[2]]
 
 
 def _given(law: str, fix: list[str]) -> dict[str, float]:

@@ -92,6 +92,7 @@ def command(
     if json:
         print_json(invitro_record(found, data.name).to_dict())
     else:
+        show(*(f"This fit does not hold: {each}." for each in found.objections))
+        warn(each for each in series_warnings(found) if each not in found.objections)
         show(*invitro_table(found), DISCLAIMER)
-        warn(series_warnings(found))
     return 0 if all(answer.outcome.answered for answer in found.comparison.answers) else 1

@@ -23,12 +23,12 @@ class Yeoh:
     C10 : float
         Pa, positive.
     C20, C30 : float
-        Pa, of the second and third power.
+        Pa, of the second and third power; C30 is 0 where it is left out.
     """
 
     C10: float = constant("C₁₀", "Pa", "factor of I₁ − 3", guess=0.5)
     C20: float = constant("C₂₀", "Pa", "factor of (I₁ − 3)²", low=-math.inf, guess=0.1)
-    C30: float = constant("C₃₀", "Pa", "factor of (I₁ − 3)³", low=-math.inf, guess=0.1)
+    C30: float = constant("C₃₀", "Pa", "factor of (I₁ − 3)³", low=-math.inf, guess=0.1, default=0.0)
 
     def __post_init__(self) -> None:
         check_constants(self)

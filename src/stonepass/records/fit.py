@@ -65,6 +65,12 @@ class TensileInputsRecord(FitInputsRecord):
     thickness_m: float | None = Field(
         default=None, description="thickness of the strip at rest, where given"
     )
+    section_m2: float | None = Field(
+        default=None, description="section of the strip at rest in m², where given"
+    )
+    gauge_length_m: float | None = Field(
+        default=None, description="length at rest that extensions belong to, where given"
+    )
 
 
 class InflationInputsRecord(FitInputsRecord):
@@ -82,13 +88,21 @@ class FitRecord(Record):
     constants: list[FittedConstantRecord] = Field(description="its constants, moduli in Pa")
     rmse_kPa: float = Field(description="root mean square of the residuals")
     r_squared: float = Field(description="1 − Σ residual²/Σ (observed − mean)²")
+    intervals_approximate: bool = Field(
+        description=(
+            "whether the residuals are not those that the 95 % intervals assume: independent, "
+            "Gaussian and of equal spread about the law"
+        )
+    )
     correlations: dict[str, float] = Field(
         description="of pairs `one,other` of estimates; near ±1 they trade off"
     )
     points: int = Field(description="how many points were fitted")
     measured: str = Field(description="what was measured")
     strain_range: list[float] = Field(description="smallest and largest stretch of the data")
-    stable: bool = Field(description="whether the law describes a solid over that range")
+    stable: bool = Field(
+        description="whether the law describes a solid over the range of its law file"
+    )
     stability: str = Field(description="why it does not; empty where it does")
     warnings: list[CautionRecord] = Field(description="where the fit must be read with care")
 
@@ -121,10 +135,11 @@ def fit_record(found: FittedLaw, inputs: Mapping[str, Any]) -> FitRecord:
         ],
         rmse_kPa=found.rmse / 1e3,
         r_squared=found.r_squared,
+        intervals_approximate=found.approximate,
         correlations={",".join(pair): value for pair, value in found.correlations.items()},
         points=len(found.predicted),
         measured=found.data.measured,
-        strain_range=list(found.material.strain_range),
+        strain_range=list(found.data.strain_range),
         stable=not found.unstable,
         stability=found.unstable,
         warnings=warning_records(found.warnings),

@@ -88,6 +88,12 @@ class InVitroInputsRecord(PartRecord):
 class InVitroRecord(AgreementRecord, Record):
     """A measured series beside the model, and the friction coefficient that fits."""
 
+    holds: bool = Field(
+        description=(
+            "false where series and model do not agree, or the joint fit excludes the wall's "
+            "stiffness; the first warnings say which"
+        )
+    )
     friction: float = Field(description="friction at which model and points are compared")
     fitted_friction: EstimateRecord = Field(
         description="friction that fits, with the material's own stiffness"
@@ -112,6 +118,7 @@ def invitro_record(found: InVitro, file: str) -> InVitroRecord:
     joint, setting = found.joint, found.setting
     return InVitroRecord(
         **dict(_agreement(found.comparison)),
+        holds=not found.objections,
         friction=found.comparison.friction,
         fitted_friction=_estimate(found.friction),
         fitted_agreement=_agreement(found.fitted),

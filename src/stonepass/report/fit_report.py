@@ -21,17 +21,18 @@ def fit_table(found: FittedLaw) -> Table:
     """Constants with their intervals, and how well they meet the data."""
     title = f"{name_of_law(found.material.law)}, {len(found.predicted)} points"
     table = Table(box=box.SIMPLE_HEAD, title=Text(title), title_justify="left")
-    for name in ("", "value", "95 % interval"):
+    interval = "95 % interval" + ", approximate" * found.approximate
+    for name in ("", "value", interval):
         table.add_column(name)
     for each in found.constants:
-        interval = "given" if each.given else _interval(each)
-        table.add_row(each.name, _shown(each.value, each.unit), interval)
+        ends = "given" if each.given else _interval(each)
+        table.add_row(each.name, _shown(each.value, each.unit), ends)
     table.add_row("RMSE", f"{found.rmse / 1e3:.3g} kPa", "")
     table.add_row("R²", f"{found.r_squared:.4f}", "")
     for (one, other), value in found.correlations.items():
         if abs(value) > CLOSE:
             table.add_row(f"{one}, {other}", f"{value:+.3f}", "correlation: they trade off")
-    low, high = found.material.strain_range
+    low, high = found.data.strain_range
     table.add_row("stretches", f"{low:.4g} to {high:.4g}", "")
     table.add_row("stable", "no" if found.unstable else "yes", found.unstable)
     return table

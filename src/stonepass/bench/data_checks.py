@@ -1,0 +1,200 @@
+"""Do bench data make sense at all: signs, sizes at rest, strains in place of stretches.
+
+Every solid at rest resists: a strip that is longer than at rest pulls, a tube that is wider than at
+rest has the higher pressure inside. Data that say otherwise are given in another convention, and no
+constants can mend that.
+"""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+import numpy as np
+
+from stonepass.array_types import Float
+from stonepass.errors import BadInput
+from stonepass.io.csv_file import Columns
+from stonepass.model.ureter import Ureter
+
+__all__ = ["check_inflation", "check_tension", "inner_ratio"]
+
+STRETCH = (0.1, 15.0)  # that any rubber survives
+LARGEST_STRESS = 1e10  # Pa
+WRONG_SHARE = 0.05  # of Σ |load × strain|, that noise and an offset near rest may take
+WRONG_SHARE_STRETCHED = 0.2  # of a tube under axial stretch, whose width without load is a guess
+FARTHEST_START = 2.0  # stretch that data from rest do not begin at
+FARTHEST_TUBE = 1.7  # radius over that at rest
+STRAINS = "a stretch is a length over that at rest: 1 + strain, or 1 + per cent/100"
+
+
+def check_tension(
+    file: str,
+    columns: Columns,
+    along: str,
+    stretch: Float[np.ndarray, " n"],
+    stress: Float[np.ndarray, " n"],
+) -> None:
+    """Refuse strips that no solid behaves like, with what was probably meant.
+
+    Parameters
+    ----------
+    file : str
+        Its name.
+    columns : Columns
+        What was read; `along` is the column of stretches or extensions.
+    along : str
+    stretch, stress : array (n)
+        Of the strips; stress in Pa.
+
+    Raises
+    ------
+    BadInput
+    """
+    _check_stretches(file, columns, along, stretch)
+    measured = "force_N" if "force_N" in columns else "nominal_stress_kPa"
+    if not np.all(np.abs(stress) <= LARGEST_STRESS):
+        row = int(np.argmax(~(np.abs(stress) <= LARGEST_STRESS)))
+        raise BadInput(f"in {file}, {columns.place(row, measured)}",
+                       f"{columns[measured][row]:g}", "a stress below 1e7 kPa")  # fmt: skip
+    wrong = _wrong(stress * (stretch - 1.0), WRONG_SHARE)
+    if wrong is None:
+        return
+    row = wrong
+    place = f"in {file}, {columns.place(row, measured)}"
+    shown = f"{columns[measured][row]:g} at stretch {stretch[row]:.4g}"
+    if stretch[row] > 1.0:
+        raise BadInput(place, shown, "positive where a strip is stretched",
+                       "change the sign of the column if pulling was recorded as negative"
+                       )  # fmt: skip
+    strains = f"if the column '{along}' holds strains, add 1 to them; " * (along == "stretch")
+    raise BadInput(place, shown, "negative where a strip is shortened",
+                   f"{strains}change the sign of the column if compression was recorded as positive"
+                   )  # fmt: skip
+
+
+def _check_stretches(
+    file: str, columns: Columns, along: str, stretch: Float[np.ndarray, " n"]
+) -> None:
+    low, high = STRETCH
+    outside = ~((low <= stretch) & (stretch <= high))
+    if outside.any():
+        row = int(np.argmax(outside))
+        place, value = f"in {file}, {columns.place(row, along)}", columns[along][row]
+        if along == "extension_mm":
+            raise BadInput(place, f"{value:g}", f"such that 1 + extension/length is {low:g} to "
+                           f"{high:g}", "check the unit of the extensions and --gauge-length"
+                           )  # fmt: skip
+        raise BadInput(place, f"{value:g}", f"a number from {low:g} to {high:g}",
+                       _swapped(columns) or STRAINS)  # fmt: skip
+    if stretch.min() > FARTHEST_START:
+        remedy = f"{STRAINS}; if these are stretches, add the row at rest (1, 0)"
+        raise BadInput(f"in {file}, the smallest stretch", f"{stretch.min():.4g}",
+                       f"below {FARTHEST_START:g}, as of data that begin at rest", remedy
+                       )  # fmt: skip
+
+
+def _swapped(columns: Columns) -> str:
+    """Say so where the other column looks like stretches."""
+    other = columns.get("nominal_stress_kPa", columns.get("force_N"))
+    if other is None or np.ptp(other) < 0.01 or not 0.8 <= other.min() < other.max() < 4.0:
+        return ""
+    return "the columns look as if they were exchanged"
+
+
+def check_inflation(
+    file: str,
+    columns: Columns,
+    given: str,
+    ureter: Ureter,
+    axial: Float[np.ndarray, " n"],
+) -> None:
+    """Refuse tubes that no solid behaves like, with what was probably meant.
+
+    Parameters
+    ----------
+    file : str
+        Its name.
+    columns : Columns
+        What was read.
+    given : str
+        Name of the column of diameters.
+    ureter : Ureter
+        The tube at rest.
+    axial : array (n)
+        Axial stretch of each row.
+
+    Raises
+    ------
+    BadInput
+    """
+    ratio = inner_ratio(columns[given], given, ureter, axial)
+    doubled = inner_ratio(2.0 * columns[given], given, ureter, axial)
+    option, rest = ("--outer", ureter.outer_diameter) if given[0] == "o" else (
+        "--inner", ureter.inner_diameter)  # fmt: skip
+    at_rest = f"{1e3 * (rest or 0.0):.4g} mm ({option})"
+    radii = bool(np.all(doubled > 1.0))
+    remedy = "double the values if they are radii" if radii else f"check {option} and the unit"
+    if not np.all(ratio > 0.0):
+        row = int(np.argmin(ratio > 0.0))
+        raise BadInput(f"in {file}, {columns.place(row, given)}", f"{columns[given][row]:g}",
+                       f"such that the wall has room inside it, {at_rest} at rest", remedy
+                       )  # fmt: skip
+    pressure, widening = columns["pressure_kPa"], ratio * np.sqrt(axial) - 1.0
+    allowed = WRONG_SHARE if np.all(axial == 1.0) else WRONG_SHARE_STRETCHED
+    wrong = _wrong(pressure * widening, allowed)
+    if wrong is not None:
+        _refuse_tube(file, columns, given, wrong, at_rest, remedy)
+    if widening.min() > FARTHEST_TUBE - 1.0:
+        raise BadInput(f"in {file}, the smallest diameter",
+                       f"{1.0 + widening.min():.3g} times that at rest, {at_rest}",
+                       f"below {FARTHEST_TUBE:g} times, as of data that begin at rest",
+                       "give diameters, not radii, as --inner and --outer; if these are, add the "
+                       "row at rest, without pressure")  # fmt: skip
+
+
+def _refuse_tube(
+    file: str, columns: Columns, given: str, row: int, at_rest: str, remedy: str
+) -> NoReturn:
+    pressure, diameter = columns["pressure_kPa"][row], columns[given][row]
+    if pressure > 0.0:
+        raise BadInput(f"in {file}, {columns.place(row, given)}",
+                       f"{diameter:g} at {pressure:g} kPa",
+                       f"larger than at rest, {at_rest}, where the pressure is positive",
+                       remedy)  # fmt: skip
+    raise BadInput(f"in {file}, {columns.place(row, 'pressure_kPa')}",
+                   f"{pressure:g} at a diameter of {diameter:g} mm",
+                   f"positive where the tube is wider than at rest, {at_rest}",
+                   "a transmural pressure is that inside less that outside")  # fmt: skip
+
+
+def inner_ratio(
+    diameter_mm: Float[np.ndarray, " n"], given: str, ureter: Ureter, axial: Float[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"]:
+    """Inner radius over that at rest, by the volume of the wall where the outer one was measured.
+
+    Parameters
+    ----------
+    diameter_mm : array (n)
+        In mm, of the column `given`, ``inner_diameter_mm`` or ``outer_diameter_mm``.
+    given : str
+    ureter : Ureter
+        The tube at rest.
+    axial : array (n)
+        Axial stretch.
+
+    Returns
+    -------
+    array (n)
+        NaN where the wall has no room within the outer diameter.
+    """
+    ratio = 1e-3 * diameter_mm / (ureter.inner_diameter or np.nan)
+    if given == "outer_diameter_mm":
+        with np.errstate(invalid="ignore"):
+            ratio = np.sqrt(ratio**2 - (ureter.wall_ratio**2 - 1.0) / axial)
+    return ratio
+
+
+def _wrong(work: Float[np.ndarray, " n"], allowed: float) -> int | None:
+    """Row of the most negative work, where more of it is negative than `allowed`."""
+    negative = float(np.sum(-work[work < 0.0]))
+    return int(np.argmin(work)) if negative > allowed * float(np.sum(np.abs(work))) else None

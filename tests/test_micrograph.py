@@ -327,13 +327,15 @@ def test_the_text_file_beside_a_picture(tmp_path, name):
 
 
 def test_the_size_of_a_zeiss_screen_pixel_is_taken_at_its_own_width_alone():
-    tags = {"ap_pixel_size": ("Pixel Size", 0.5, "µm")}
-    assert zeiss_scan(tags, 1024) == ((pytest.approx(5e-7), pytest.approx(5e-7)), 0)
-    assert zeiss_scan(tags, 2048) is None
-    assert zeiss_scan({"ap_image_pixel_size": ("Image Pixel Size", 0.0, "nm")}, 1024) is None
-    assert zeiss_scan({"ap_image_pixel_size": ("Image Pixel Size", "?", "nm")}, 1024) is None
-    assert tescan_scan("PixelSizeX=1e-7") == ((1e-7, 1e-7), 0)
-    assert tescan_scan("PixelSizeX=abc") is None
+    scan = zeiss_scan({"ap_pixel_size": ("Pixel Size", 0.5, "µm")})
+    assert scan.pixel_for(1024) == ((pytest.approx(5e-7), pytest.approx(5e-7)), "")
+    assert scan.pixel_for(2048)[0] is None
+    for wrong in (0.0, "?"):
+        tags = {"ap_image_pixel_size": ("Image Pixel Size", wrong, "nm")}
+        assert zeiss_scan(tags).pixel is None
+    scan = tescan_scan("PixelSizeX=1e-7")
+    assert (scan.pixel, scan.bar) == ((1e-7, 1e-7), 0)
+    assert tescan_scan("PixelSizeX=abc").pixel is None
 
 
 def test_print_resolution_is_no_pixel_size(tmp_path):
@@ -522,12 +524,12 @@ def test_the_size_of_a_picture_that_was_made_smaller_is_asked_for(tmp_path):
     path = save_tiff(tmp_path / "half.tif", some_grey(), extratags=[(34682, "s", 0, fei, True)])
     assert read_surface_image(path).pixel is None
     stored = {"ap_image_pixel_size": ("Image Pixel Size", 250.0, "nm")}
-    assert (
-        zeiss_scan(stored | {"dp_image_store": ("Store resolution", "2048 * 1536")}, 1024) is None
-    )
-    assert zeiss_scan(stored | {"dp_image_store": ("Store resolution", "1024 * 768")}, 1024)
-    assert tescan_scan(TESCAN + "ViewFieldsCountX=2\n") is None
-    assert tescan_scan("\n" * 200_000 + "PixelSizeX=1e-7") == ((1e-7, 1e-7), 0)
+    twice = zeiss_scan(stored | {"dp_image_store": ("Store resolution", "2048 * 1536")})
+    assert twice.pixel_for(1024)[0] is None
+    same = zeiss_scan(stored | {"dp_image_store": ("Store resolution", "1024 * 768")})
+    assert same.pixel_for(1024)[0] == pytest.approx((2.5e-7, 2.5e-7))
+    assert tescan_scan(TESCAN + "ViewFieldsCountX=2\n").pixel is None
+    assert tescan_scan("\n" * 200_000 + "PixelSizeX=1e-7").pixel == (1e-7, 1e-7)
 
 
 def test_an_impossible_pixel_is_not_taken_and_may_be_given(tmp_path):
@@ -536,7 +538,9 @@ def test_an_impossible_pixel_is_not_taken_and_may_be_given(tmp_path):
         path = save_tiff(tmp_path / "odd.tif", some_grey(), extratags=[(34682, "s", 0, fei, True)])
         found = read_surface_image(path)
         assert found.pixel is None
-        assert found.notes == ("pixel size of the FEI tag is impossible and not taken",)
+        (note,) = (each for each in found.notes if "pixel size" in each)
+        assert note.startswith("no pixel size is taken from the file: the FEI tag says")
+        assert note.endswith("which is impossible")
         assert found.with_pixel(1e-6).pixel == (1e-6, 1e-6)
     with pytest.raises(BadInput, match="pixel is 1e-06 m × 1e-08 m"):
         SurfaceImage(some_grey(), (1e-6, 1e-8), 255, Area(0, 0, 80, 60))

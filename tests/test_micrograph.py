@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import os
 import struct
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from picture_files import (
     ZEISS,
     al3d_file,
     hostile,
+    packed_sur,
     save_tiff,
     some_grey,
     sur_file,
@@ -31,6 +33,7 @@ from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.io import optional_imports
 from stonepass.report.friction_figure import friction_figure
+from stonepass.sandbox.sandbox import Limits, parse_in_child
 from stonepass.surface import worker
 from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.friction import friction_of_slopes, surface_friction
@@ -717,3 +720,69 @@ def test_the_examples_are_what_their_script_makes(tmp_path, maker):
         made, shipped = read_surface_image(tmp_path / name), read_surface_image(EXAMPLES / name)
         np.testing.assert_allclose(made.values, shipped.values, atol=1 if made.full_scale else 1e-9)
         assert made.pixel == shipped.pixel
+
+
+# Sizes that are documented
+
+
+def largest_maps(folder):
+    """Height maps of 20 million points: as 32-bit floats, and packed."""
+    z = np.random.default_rng(1).normal(size=(4472, 4472)).astype(np.float32)
+    al3d_file(folder / "large.al3d", z, 1.0)
+    plain = sur_file(folder / "large.sur", z[:3300, :3300], 1.0).read_bytes()
+    packed_sur(folder / "packed.sur", plain)
+    return ["large.al3d", "large.sur", "packed.sur"]
+
+
+def largest_pictures(folder):
+    """Pictures of 40 million pixels, or of 90 MB."""
+    y, x = np.mgrid[:6320, :6320]
+    grey = (120 + 60 * np.sin(x / 70.0) + 40 * np.sin(y / 90.0)).astype(np.uint8)
+    deep = grey.astype(np.uint16) * 257
+    save_tiff(folder / "deep.tif", deep, photometric="miniswhite")
+    Image.fromarray(deep).save(folder / "deep.png", compress_level=1)
+    Image.fromarray(deep).save(folder / "lzw.tif", compression="tiff_lzw")
+    colormap = np.stack([np.arange(256) * 257] * 3).astype(np.uint16)
+    palette = folder / "palette.tif"
+    save_tiff(palette, grey[:4608, :6144], photometric="palette", colormap=colormap)
+    colours = np.stack([grey[:5400, :5500]] * 3, axis=-1)
+    save_tiff(folder / "rgb.tif", colours, photometric="rgb")
+    Image.fromarray(colours).save(folder / "rgb.jpg")
+    Image.fromarray(colours).save(folder / "rgb.png", compress_level=1)
+    return ["deep.tif", "deep.png", "lzw.tif", "palette.tif", "rgb.tif", "rgb.jpg", "rgb.png"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("make", [largest_maps, largest_pictures])
+def test_what_is_as_large_as_documented_is_read(tmp_path, make):
+    for name in make(tmp_path):
+        assert read_untrusted(tmp_path / name).values.size > 10_000_000, name
+
+
+def test_what_is_larger_is_refused_with_the_limit_and_the_way_out(tmp_path):
+    path = al3d_file(tmp_path / "map.al3d", np.zeros((40, 40)), 1.0)
+    raw = path.read_bytes()
+    for name in (b"Rows", b"Cols"):
+        tag = name.ljust(20, b"\0") + b"40".ljust(30, b"\0")
+        raw = raw.replace(tag, name.ljust(20, b"\0") + b"4473".ljust(30, b"\0"))
+    path.write_bytes(raw)
+    os.truncate(path, len(raw) + 4474 * 4473 * 4)
+    with pytest.raises(BadInput, match="at most 20 million points; cut out the part"):
+        read_surface_image(path)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits are Linux's")
+def test_the_limit_that_was_met_is_named(tmp_path):
+    path = tmp_path / "large.png"
+    Image.fromarray(np.tile(some_grey(500, 600), (8, 9))).save(path, compress_level=1)
+    sentence = "large.png, but must be readable within 105 MB; cut out the part that matters"
+    with pytest.raises(BadInput, match=sentence):
+        read_untrusted(path, memory=105_000_000)
+    module = "from stonepass.sandbox.worker import serve\n"
+    module += "def parse(request):\n    while True: pass\n"
+    (tmp_path / "endless.py").write_text(module + "serve(lambda request: None, parse)\n")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+        patch.setattr("stonepass.sandbox.sandbox.PATIENCE", 300.0)
+        with pytest.raises(BadInput, match=r"readable in 0.2 s of processor time; cut out"):
+            parse_in_child("endless", {}, Limits(seconds=0.2), "image", "a.png")

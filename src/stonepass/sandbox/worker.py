@@ -36,7 +36,10 @@ def serve(
         header, body = parse(asked["request"])
     except BadInput as problem:
         value = problem.value if isinstance(problem.value, str) else repr(problem.value)
-        parts = (problem.argument, value, problem.allowed, problem.remedy)
+        allowed = problem.allowed
+        if isinstance(problem.__cause__, MemoryError):
+            allowed = f"readable within {asked['memory'] // 1_000_000} MB"
+        parts = (problem.argument, value, allowed, problem.remedy)
         _send({"refused": [text[:LONGEST] for text in parts]})
         return 0
     _send({"header": header})

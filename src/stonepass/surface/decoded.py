@@ -68,4 +68,7 @@ class Decoded:
         if values.ndim == 2 or values.shape[2] < 3:
             return None
         full = int(np.iinfo(values.dtype).max)
-        return np.ptp(values[..., :3].astype(np.int32), axis=2) > COLOURED * (full // 255)
+        red, green, blue = (values[..., channel] for channel in range(3))
+        brightest = np.maximum(np.maximum(red, green), blue)
+        darkest = np.minimum(np.minimum(red, green), blue)
+        return brightest - darkest > COLOURED * (full // 255)

@@ -207,7 +207,7 @@ def _picture(
         "" if pixel is None else scan.source,
         tuple(notes),
         why,
-        None if decoded.coloured(whole) is None else area,
+        None if area == whole or decoded.coloured(whole) is None else area,
     )
 
 

@@ -52,12 +52,20 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
             return reader(path, area)
     except StonepassError:
         raise
-    except MemoryError as problem:
-        allowed = "readable in the memory it may take"
-        raise BadInput("image", short_name(path), allowed, MEMORY_REMEDY) from problem
     except Exception as problem:  # a decoder may raise anything at all over a damaged file
+        shortage = _memory_error(problem)
+        if shortage is not None:
+            allowed = "readable in the memory it may take"
+            raise BadInput("image", short_name(path), allowed, MEMORY_REMEDY) from shortage
         allowed = f"undamaged and of a kind that can be read ({said_of(path, problem)})"
         raise BadInput("image", short_name(path), allowed) from problem
+
+
+def _memory_error(problem: BaseException | None) -> MemoryError | None:
+    """The lack of memory behind what a decoder raised; None where there was none."""
+    while problem is not None and not isinstance(problem, MemoryError):
+        problem = problem.__cause__ or problem.__context__
+    return problem
 
 
 def _reader(path: Path) -> Callable[[Path, Area | None], SurfaceImage]:

@@ -12,6 +12,7 @@ from SurfaceTopography import Topography
 
 from stonepass.cli import run
 from stonepass.errors import BadInput
+from stonepass.surface.friction import surface_friction
 from stonepass.surface.pixel_size import imagej_scan, jeol_scan, ome_scan
 from stonepass.surface.readers import read_surface_image
 from stonepass.surface.surface_image import Area
@@ -118,10 +119,11 @@ def resized(tmp_path, kind):
 
 
 @pytest.mark.parametrize("kind", ["FEI tag", "Zeiss tag", "JEOL text file", "Hitachi text file"])
-def test_a_resized_picture_says_so_and_what_to_do(tmp_path, capsys, kind):
+def test_a_resized_picture_says_so_and_what_to_do(tmp_path, kind):
     path = resized(tmp_path, kind)
-    assert run(["friction", str(path), "--crystal", "1um"]) == 2
-    told = capsys.readouterr().err
+    with pytest.raises(BadInput) as refused:
+        surface_friction(read_untrusted(path), "1 um")
+    told = str(refused.value)
     size, double = ("0.248", "0.4961") if kind.startswith("Hitachi") else ("0.25", "0.5")
     assert "pixel size is missing, but must be given as --pixel; the" in told
     assert (
@@ -230,7 +232,7 @@ def test_a_file_without_a_channel_of_heights(tmp_path):
 # Names of files
 
 
-def test_a_long_name_never_hides_the_reason(tmp_path, capsys):
+def test_a_long_name_never_hides_the_reason(tmp_path):
     stem = "a_specimen_with_a_long_story_" * 8
     colours = np.stack([some_grey(), some_grey()[::-1], some_grey()], axis=-1)
     Image.fromarray(colours).save(tmp_path / f"{stem}.png")
@@ -245,8 +247,9 @@ def test_a_long_name_never_hides_the_reason(tmp_path, capsys):
         ("x3p", "undamaged and of a kind that can be read (FileFormatMismatch"),
         ("sur", "undamaged and of a kind that can be read (FileFormatMismatch"),
     ):
-        assert run(["friction", str(tmp_path / f"{stem}.{ending}")]) == 2
-        told = capsys.readouterr().err
+        with pytest.raises(BadInput) as refused:
+            read_surface_image(tmp_path / f"{stem}.{ending}")
+        told = str(refused.value)
         assert reason in told, told
         assert "a_specimen" in told
         assert len(told) < 400

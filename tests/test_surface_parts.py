@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import tifffile
-from picture_files import FEI, al3d_file, save_tiff
+from picture_files import FEI, save_tiff
 from PIL import Image
 
 from stonepass.cli import run
@@ -82,6 +82,16 @@ def test_a_surface_is_no_data_bar():
     smooth = np.tile(np.round(127 + 100 * np.sin(np.arange(COLUMNS) / 90)), (ROWS, 1))
     for grey in (surface(), low, dark.astype(np.uint8), smooth.astype(np.uint8)):
         assert find_bar(grey) == (0, 0)
+
+
+def test_the_margins_of_a_figure_cut_from_a_page_are_left_out(tmp_path):
+    page = np.full((ROWS + 30, COLUMNS + 45), 255, np.uint8)
+    page[10 : 10 + ROWS, 20 : 20 + COLUMNS] = surface()
+    Image.fromarray(page).save(tmp_path / "figure.png")
+    found = read_surface_image(tmp_path / "figure.png")
+    assert found.area == Area(20, 10, 20 + COLUMNS, 10 + ROWS)
+    np.testing.assert_array_equal(found.surface, surface())
+    assert "the last 25 columns look like a data bar or a margin" in found.notes[-1]
 
 
 def test_a_bar_of_an_fei_file_without_a_pixel_size(tmp_path):
@@ -214,24 +224,21 @@ def test_a_row_with_a_long_gap_is_replaced_by_the_nearest_without():
     assert found.friction == pytest.approx(surface_friction(heights_of(wave())).friction, rel=1e-2)
 
 
-def test_a_border_without_heights_is_named_with_the_area_that_helps(tmp_path, capsys):
+def test_a_border_without_heights_is_named_with_the_area_that_helps():
     z = wave()
     z[:, :12] = z[:, -7:] = np.nan
     z[:5] = z[-9:] = np.nan
     z[np.random.default_rng(3).random(z.shape) < 0.03] = np.nan
     assert known_area(z, Area(0, 0, 400, 120)) == Area(12, 5, 393, 111)
-    path = al3d_file(tmp_path / "border.al3d", z, 1.0)
-    assert run(["friction", str(path)]) == 2
-    told = capsys.readouterr().err
-    assert "leave out the border, where heights are missing, with --area 12,5,393,111" in told
-    assert run(["friction", str(path), "--area", "12,5,393,111", "--json"]) == 0
-    record = json.loads(capsys.readouterr().out)
+    sentence = "leave out the border, where heights are missing, with --area 12,5,393,111"
+    with pytest.raises(BadInput, match=sentence):
+        surface_friction(heights_of(z))
+    found = surface_friction(heights_of(z).with_area(12, 5, 393, 111))
     whole = surface_friction(heights_of(wave()).with_area(12, 5, 393, 111))
-    assert record["friction_coefficient"] == pytest.approx(whole.friction, rel=0.01)
-    assert run(["friction", str(path), "--path", "0,60,399,60"]) == 2
-    assert (
-        "clear of places without a height at its ends; shorten it to 1" in capsys.readouterr().err
-    )
+    assert found.friction == pytest.approx(whole.friction, rel=0.01)
+    sentence = "clear of places without a height at its ends; shorten it to 1"
+    with pytest.raises(BadInput, match=sentence):
+        surface_friction(heights_of(z), paths=[StraightPath(0, 60, 399, 60)])
     z[:, 50:] = np.nan
     z[:, ::3] = np.nan
     with pytest.raises(BadInput, match="give paths that avoid the gaps with --path"):
@@ -307,13 +314,19 @@ def test_the_margin_is_an_option_and_its_effect_is_told(tmp_path, capsys):
     by_margin = dict(found.spread.margins)
     expected = {0.0: 1.0, 0.25: 15 / 16, 0.5: 7 / 8, 1.0: 3 / 4}
     assert by_margin == pytest.approx(expected, rel=1e-6)
-    path = al3d_file(tmp_path / "bowl.al3d", heights.values / MICRO, 1.0)
-    assert run(["friction", str(path), "--margin", "0.25", "--json"]) == 0
+    path = tmp_path / "bowl.png"
+    Image.fromarray(np.tile(np.round(x**2 * 65535 / 250000), (20, 1)).astype(np.uint16)).save(path)
+    command = ["friction", str(path), "--pixel", "1um", "--height-range", "250um"]
+    assert run([*command, "--margin", "0.25", "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
     assert record["margin"] == 0.25
     assert record["looked_at"]["k0"] == pytest.approx([1 / 16, 15 / 16])
-    assert record["spread"]["margin"]["0"] == pytest.approx(1.0, rel=1e-3)
-    assert run(["friction", str(path), "--margin", "0.25"]) == 0
-    assert "by margin at the ends" in capsys.readouterr().out
-    assert run(["friction", str(path), "--margin", "3"]) == 2
+    assert record["spread"]["margin"]["0"] == pytest.approx(1.0, rel=0.01)
+    assert record["tilt_deg"] == pytest.approx(26.6, abs=0.5)
+    assert record["levelled"] is False
+    assert run([*command, "--margin", "0.25", "--level"]) == 0
+    shown = capsys.readouterr().out
+    assert "by margin at the ends" in shown
+    assert "the least-squares plane is" in shown
+    assert run([*command, "--margin", "3"]) == 2
     assert "margin is 3.0, but must be a number from 0 to 2" in capsys.readouterr().err

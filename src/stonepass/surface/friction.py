@@ -254,7 +254,7 @@ def surface_friction(
     surface = _surface(picture, sampled, scale, plane if level else None)
     mean = surface.heights.mean(axis=0)
     first, rest, friction = _fit(sampled.distance, mean, choices)
-    spread = _spread(sampled.distance, surface, scale, choices)
+    spread = _spread(sampled.distance, surface, scale, choices, (first, rest))
     found = SurfaceFriction(
         picture,
         friction,
@@ -399,7 +399,11 @@ def _fit(
 
 
 def _spread(
-    distance: Float[np.ndarray, " n"], surface: _Surface, scale: float | None, choices: _Choices
+    distance: Float[np.ndarray, " n"],
+    surface: _Surface,
+    scale: float | None,
+    choices: _Choices,
+    fitted: tuple[Baseline, Baseline],
 ) -> Spread:
     heights = surface.heights
     count = len(heights)
@@ -422,11 +426,14 @@ def _spread(
     for how, greys in surface.ranges:
         flat = not greys[1] > greys[0]
         by_scale.append((how, np.nan if flat else friction(to_heights(raw, scale, greys)[0])))
-    by_margin = [
-        (margin, friction(total / count, replace(choices, margin=margin)))
-        for margin in sorted({*MARGINS, choices.margin})
-    ]
+    by_margin = [(margin, _at_margin(*fitted, margin)) for margin in {*MARGINS, choices.margin}]
     return Spread(tuple(map(friction, without)), tuple(by_order), tuple(by_scale), tuple(by_margin))
+
+
+def _at_margin(first: Baseline, rest: Baseline, margin: float) -> float:
+    """μ_f with another margin; NaN where it does not exist."""
+    steep = [replace(each, margin=margin).steepest for each in (first, rest)]
+    return friction_of_slopes(*steep) if steep[0] * steep[1] < 1.0 else np.nan
 
 
 def _most(samples: int) -> int:

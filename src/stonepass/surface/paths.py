@@ -238,7 +238,7 @@ def _bilinear(
     for row, down in ((top, 1.0 - to_bottom), (bottom, to_bottom)):
         for column, across in ((left, 1.0 - to_right), (right, to_right)):
             weight = down * across
-            found += np.where(weight > 0.0, weight * values[row, column], 0.0)
+            found += weight * np.where(weight > 0.0, values[row, column], 0.0)
     return found
 
 

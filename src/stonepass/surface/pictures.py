@@ -219,9 +219,14 @@ def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]
         notes.append(f"the lowest {bar} rows are the data bar and left out")
         return Area(0, 0, columns, rows - bar)
     top, bottom = find_bar(grey)
-    for count, where in ((top, "uppermost"), (bottom, "lowest")):
+    # A margin at the sides: a figure cut from a page, or a panel beside the picture.
+    left, right = find_bar(np.ascontiguousarray(grey[top : rows - bottom].T))
+    counts = {"uppermost {} rows": top, "lowest {} rows": bottom, "first {} columns": left,
+              "last {} columns": right}  # fmt: skip
+    for where, count in counts.items():
         if count:
             notes.append(
-                f"the {where} {count} rows look like a data bar and are left out; --area takes any"
+                f"the {where.format(count)} look like a data bar or a margin and are left out; "
+                "--area takes any part"
             )
-    return Area(0, top, columns, rows - bottom)
+    return Area(left, top, columns - right, rows - bottom)

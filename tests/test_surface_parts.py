@@ -84,6 +84,14 @@ def test_a_surface_is_no_data_bar():
         assert find_bar(grey) == (0, 0)
 
 
+@pytest.mark.parametrize("bits", [8, 16])
+def test_a_bar_of_cells_with_backgrounds_of_their_own_is_found(bits):
+    cells = np.repeat([0, 128, 255], COLUMNS // 3)[None].repeat(40, axis=0)
+    cells[12:24, 10:100:7] = 200
+    grey = np.vstack([surface(), cells]).astype(np.uint8 if bits == 8 else np.uint16)
+    assert find_bar(grey * (1 if bits == 8 else 257)) == (0, 40)
+
+
 def test_the_margins_of_a_figure_cut_from_a_page_are_left_out(tmp_path):
     page = np.full((ROWS + 30, COLUMNS + 45), 255, np.uint8)
     page[10 : 10 + ROWS, 20 : 20 + COLUMNS] = surface()

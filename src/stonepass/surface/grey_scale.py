@@ -62,7 +62,7 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     gaps = np.diff(greys) > GAP * (high - low)
     if gaps[0] or gaps[-1]:
         told.append(caution("isolated_grey"))
-    drawn = float(np.mean(drawn_rows(values, high - low)))
+    drawn = float(np.mean(drawn_rows(values)))
     if drawn > DRAWN_ROWS:
         told.append(caution("plain_rows", fraction=drawn))
     return told

@@ -40,8 +40,10 @@ def read_height_map(path: Path, area: Area | None) -> SurfaceImage:
     stream: BytesIO | None = MENDED[ending](path) if ending in MENDED else None
     opened = str(path) if stream is None else stream
     with reading.open_topography(opened, format=HEIGHT_MAPS[ending]) as reader:
-        index = _channel_of_heights(path, list(reader.channels), reader._default_channel_index)
-        columns, rows = (int(count) for count in reader.channels[index].nb_grid_pts)
+        channels = list(reader.channels)
+        default = reader.default_channel.index if channels else 0
+        index = _channel_of_heights(path, channels, default)
+        columns, rows = (int(count) for count in channels[index].nb_grid_pts)
         check_points(short_name(path), rows, columns)
         topography = reader.topography(channel_index=index)
         sizes, metre = topography.physical_sizes, _metre(topography.unit)

@@ -43,6 +43,31 @@ def sur_file(path, heights, step):
     return path
 
 
+def packed_sur(path, plain, streams=2):
+    """A compressed Digital Surf file of the bytes of a plain one, whose comment is empty."""
+    body = plain[512:]
+    step = -(-len(body) // streams)
+    parts = [body[start : start + step] for start in range(0, len(body), step)]
+    packed = [zlib.compress(part, 1) for part in parts]
+    head = b"DSCOMPRESSED" + plain[12:512] + struct.pack("<I", len(parts))
+    for part, short in zip(parts, packed, strict=True):
+        head += struct.pack("<II", len(part), len(short))
+    path.write_bytes(head + b"".join(packed))
+    return path
+
+
+def moved_x3p(path, source, prefix="", revision="ISO5436 – 2000", slash="/"):
+    """An X3P file as other programs write it: parts in a folder, another dash, backslashes."""
+    with zipfile.ZipFile(source) as old, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as new:
+        for name in old.namelist():
+            body = old.read(name)
+            if name == "main.xml":
+                body = body.replace(b"ISO5436 - 2000", revision.encode())
+                body = body.replace(b"bindata/", f"bindata{slash}".encode())
+            new.writestr((prefix + name).replace("/", slash), body)
+    return path
+
+
 def al3d_file(path, heights, step):
     """An Alicona file: heights in µm as 32-bit floats in m, `step` µm apart."""
     rows, columns = heights.shape
@@ -157,4 +182,9 @@ def valid(folder):
     al3d_file(folder / "a.al3d", heights, 1.0)
     sizes = (24 * MICRO, 20 * MICRO)
     Topography(heights.T * MICRO, sizes, unit="m").to_x3p(str(folder / "a.x3p"), dtype="I")
+    packed_sur(folder / "packed.sur", (folder / "a.sur").read_bytes())
+    moved_x3p(folder / "moved.x3p", folder / "a.x3p", "scan/")
+    with tifffile.TiffWriter(folder / "pages.tif") as file:
+        file.write(some_grey(16, 16), photometric="minisblack", subfiletype=1)
+        file.write(some_grey(20, 24), photometric="minisblack")
     return {path.name: path.read_bytes() for path in sorted(folder.iterdir())}

@@ -111,14 +111,14 @@ def test_a_circle_would_be_found():
 
 # Libraries that take long to load, or that exist on some systems only, and who asks for them late.
 LATE_LIBRARIES = {
-    "PIL": ("surface.readers",),
+    "PIL": ("surface.pictures",),
     "resource": ("sandbox.worker",),
     "scipy.optimize": ("model.energy_balance", "model.shape_fit"),
     "autograd": ("materials.derivatives", "materials.secant"),
     "autograd.numpy": ("inputs.material_file", "materials.derivatives", "materials.secant"),
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
-    "scipy.ndimage": ("surface.friction", "surface.paths"),
+    "scipy.ndimage": ("surface.grey_scale",),
 }
 
 

@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import os
 import struct
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from picture_files import (
     ZEISS,
     al3d_file,
     hostile,
+    packed_sur,
     save_tiff,
     some_grey,
     sur_file,
@@ -31,6 +33,7 @@ from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.io import optional_imports
 from stonepass.report.friction_figure import friction_figure
+from stonepass.sandbox.sandbox import Limits, parse_in_child
 from stonepass.surface import worker
 from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.friction import friction_of_slopes, surface_friction
@@ -327,13 +330,15 @@ def test_the_text_file_beside_a_picture(tmp_path, name):
 
 
 def test_the_size_of_a_zeiss_screen_pixel_is_taken_at_its_own_width_alone():
-    tags = {"ap_pixel_size": ("Pixel Size", 0.5, "µm")}
-    assert zeiss_scan(tags, 1024) == ((pytest.approx(5e-7), pytest.approx(5e-7)), 0)
-    assert zeiss_scan(tags, 2048) is None
-    assert zeiss_scan({"ap_image_pixel_size": ("Image Pixel Size", 0.0, "nm")}, 1024) is None
-    assert zeiss_scan({"ap_image_pixel_size": ("Image Pixel Size", "?", "nm")}, 1024) is None
-    assert tescan_scan("PixelSizeX=1e-7") == ((1e-7, 1e-7), 0)
-    assert tescan_scan("PixelSizeX=abc") is None
+    scan = zeiss_scan({"ap_pixel_size": ("Pixel Size", 0.5, "µm")})
+    assert scan.pixel_for(1024) == ((pytest.approx(5e-7), pytest.approx(5e-7)), "")
+    assert scan.pixel_for(2048)[0] is None
+    for wrong in (0.0, "?"):
+        tags = {"ap_image_pixel_size": ("Image Pixel Size", wrong, "nm")}
+        assert zeiss_scan(tags).pixel is None
+    scan = tescan_scan("PixelSizeX=1e-7")
+    assert (scan.pixel, scan.bar) == ((1e-7, 1e-7), 0)
+    assert tescan_scan("PixelSizeX=abc").pixel is None
 
 
 def test_print_resolution_is_no_pixel_size(tmp_path):
@@ -522,12 +527,12 @@ def test_the_size_of_a_picture_that_was_made_smaller_is_asked_for(tmp_path):
     path = save_tiff(tmp_path / "half.tif", some_grey(), extratags=[(34682, "s", 0, fei, True)])
     assert read_surface_image(path).pixel is None
     stored = {"ap_image_pixel_size": ("Image Pixel Size", 250.0, "nm")}
-    assert (
-        zeiss_scan(stored | {"dp_image_store": ("Store resolution", "2048 * 1536")}, 1024) is None
-    )
-    assert zeiss_scan(stored | {"dp_image_store": ("Store resolution", "1024 * 768")}, 1024)
-    assert tescan_scan(TESCAN + "ViewFieldsCountX=2\n") is None
-    assert tescan_scan("\n" * 200_000 + "PixelSizeX=1e-7") == ((1e-7, 1e-7), 0)
+    twice = zeiss_scan(stored | {"dp_image_store": ("Store resolution", "2048 * 1536")})
+    assert twice.pixel_for(1024)[0] is None
+    same = zeiss_scan(stored | {"dp_image_store": ("Store resolution", "1024 * 768")})
+    assert same.pixel_for(1024)[0] == pytest.approx((2.5e-7, 2.5e-7))
+    assert tescan_scan(TESCAN + "ViewFieldsCountX=2\n").pixel is None
+    assert tescan_scan("\n" * 200_000 + "PixelSizeX=1e-7").pixel == (1e-7, 1e-7)
 
 
 def test_an_impossible_pixel_is_not_taken_and_may_be_given(tmp_path):
@@ -536,7 +541,9 @@ def test_an_impossible_pixel_is_not_taken_and_may_be_given(tmp_path):
         path = save_tiff(tmp_path / "odd.tif", some_grey(), extratags=[(34682, "s", 0, fei, True)])
         found = read_surface_image(path)
         assert found.pixel is None
-        assert found.notes == ("pixel size of the FEI tag is impossible and not taken",)
+        (note,) = (each for each in found.notes if "pixel size" in each)
+        assert note.startswith("no pixel size is taken from the file: the FEI tag says")
+        assert note.endswith("which is impossible")
         assert found.with_pixel(1e-6).pixel == (1e-6, 1e-6)
     with pytest.raises(BadInput, match="pixel is 1e-06 m × 1e-08 m"):
         SurfaceImage(some_grey(), (1e-6, 1e-8), 255, Area(0, 0, 80, 60))
@@ -713,3 +720,69 @@ def test_the_examples_are_what_their_script_makes(tmp_path, maker):
         made, shipped = read_surface_image(tmp_path / name), read_surface_image(EXAMPLES / name)
         np.testing.assert_allclose(made.values, shipped.values, atol=1 if made.full_scale else 1e-9)
         assert made.pixel == shipped.pixel
+
+
+# Sizes that are documented
+
+
+def largest_maps(folder):
+    """Height maps of 20 million points: as 32-bit floats, and packed."""
+    z = np.random.default_rng(1).normal(size=(4472, 4472)).astype(np.float32)
+    al3d_file(folder / "large.al3d", z, 1.0)
+    plain = sur_file(folder / "large.sur", z[:3300, :3300], 1.0).read_bytes()
+    packed_sur(folder / "packed.sur", plain)
+    return ["large.al3d", "large.sur", "packed.sur"]
+
+
+def largest_pictures(folder):
+    """Pictures of 40 million pixels, or of 90 MB."""
+    y, x = np.mgrid[:6320, :6320]
+    grey = (120 + 60 * np.sin(x / 70.0) + 40 * np.sin(y / 90.0)).astype(np.uint8)
+    deep = grey.astype(np.uint16) * 257
+    save_tiff(folder / "deep.tif", deep, photometric="miniswhite")
+    Image.fromarray(deep).save(folder / "deep.png", compress_level=1)
+    Image.fromarray(deep).save(folder / "lzw.tif", compression="tiff_lzw")
+    colormap = np.stack([np.arange(256) * 257] * 3).astype(np.uint16)
+    palette = folder / "palette.tif"
+    save_tiff(palette, grey[:4608, :6144], photometric="palette", colormap=colormap)
+    colours = np.stack([grey[:5400, :5500]] * 3, axis=-1)
+    save_tiff(folder / "rgb.tif", colours, photometric="rgb")
+    Image.fromarray(colours).save(folder / "rgb.jpg")
+    Image.fromarray(colours).save(folder / "rgb.png", compress_level=1)
+    return ["deep.tif", "deep.png", "lzw.tif", "palette.tif", "rgb.tif", "rgb.jpg", "rgb.png"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("make", [largest_maps, largest_pictures])
+def test_what_is_as_large_as_documented_is_read(tmp_path, make):
+    for name in make(tmp_path):
+        assert read_untrusted(tmp_path / name).values.size > 10_000_000, name
+
+
+def test_what_is_larger_is_refused_with_the_limit_and_the_way_out(tmp_path):
+    path = al3d_file(tmp_path / "map.al3d", np.zeros((40, 40)), 1.0)
+    raw = path.read_bytes()
+    for name in (b"Rows", b"Cols"):
+        tag = name.ljust(20, b"\0") + b"40".ljust(30, b"\0")
+        raw = raw.replace(tag, name.ljust(20, b"\0") + b"4473".ljust(30, b"\0"))
+    path.write_bytes(raw)
+    os.truncate(path, len(raw) + 4474 * 4473 * 4)
+    with pytest.raises(BadInput, match="at most 20 million points; cut out the part"):
+        read_surface_image(path)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits are Linux's")
+def test_the_limit_that_was_met_is_named(tmp_path):
+    path = tmp_path / "large.png"
+    Image.fromarray(np.tile(some_grey(500, 600), (8, 9))).save(path, compress_level=1)
+    sentence = "large.png, but must be readable within 105 MB; cut out the part that matters"
+    with pytest.raises(BadInput, match=sentence):
+        read_untrusted(path, memory=105_000_000)
+    module = "from stonepass.sandbox.worker import serve\n"
+    module += "def parse(request):\n    while True: pass\n"
+    (tmp_path / "endless.py").write_text(module + "serve(lambda request: None, parse)\n")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+        patch.setattr("stonepass.sandbox.sandbox.PATIENCE", 300.0)
+        with pytest.raises(BadInput, match=r"readable in 0.2 s of processor time; cut out"):
+            parse_in_child("endless", {}, Limits(seconds=0.2), "image", "a.png")

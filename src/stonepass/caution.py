@@ -99,8 +99,8 @@ SENTENCES = {
         "heights; cut it off with --area"
     ),
     "plain_rows": (
-        "{fraction:.0%} of the rows have one grey: a data bar, or a part that is missing; cut it "
-        "off with --area"
+        "{fraction:.0%} of the rows have one grey at half of their pixels or more: a data bar, or "
+        "a part that is missing; cut it off with --area"
     ),
     # --- laboratory
     "not_bounded": "the data do not bound {name}",
@@ -246,6 +246,20 @@ SENTENCES = {
         "are known too badly, and what is left is narrower than they say"
     ),
     "surface_error": "the response surface is off by up to {error:.0%}",
+    # --- surface images, continued
+    "gaps_bridged": (
+        "{fraction:.1%} of the heights along the paths are missing; straight lines bridge the "
+        "gaps, of up to {length_um:.3g} µm: instruments miss steep flanks first, so that the "
+        "friction coefficient may be too low"
+    ),
+    "paths_moved": (
+        "{moved} of {paths} paths are moved to the nearest rows whose missing heights can be "
+        "bridged"
+    ),
+    "tilted": (
+        "the surface is tilted by {tilt_deg:.1f}° against the picture: with its least-squares "
+        "plane subtracted (--level) the friction coefficient is {levelled:.3f}"
+    ),
 }
 
 

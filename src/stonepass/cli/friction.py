@@ -12,6 +12,7 @@ from stonepass.cli.options import Json
 
 if TYPE_CHECKING:
     from stonepass.surface.paths import StraightPath
+    from stonepass.surface.surface_image import Area
     from stonepass.units import Length
 
 __all__ = ["command"]
@@ -62,6 +63,21 @@ def command(
             "--deviation-order", help="Of the deviation's baseline.  [default: twice as many]"
         ),
     ] = None,
+    level: Annotated[
+        bool,
+        typer.Option(
+            "--level", help="Subtract the least-squares plane first: the tilt of a specimen."
+        ),
+    ] = False,
+    margin: Annotated[
+        float,
+        typer.Option(
+            "--margin",
+            metavar="WAVES",
+            help="Ends of the paths where the steepest slope is not looked for, in shortest waves "
+            "of each baseline, 0 to 2; a quarter of the path at most.",
+        ),
+    ] = 0.5,
     json: Json = False,
     figure: Annotated[
         Path | None,
@@ -84,12 +100,12 @@ def command(
     size = None if pixel is None else length(pixel, "--pixel")
     part = None if area is None else _area(area)
     with working("reading the picture"):
-        picture = read_untrusted(image)
+        picture = read_untrusted(image, area=part)
         if size is not None:
             picture = picture.with_pixel(size)
-        if part is not None:
-            picture = picture.with_area(*part)
-        found = surface_friction(picture, scale, lines, baseline_order, deviation_order)
+        found = surface_friction(
+            picture, scale, lines, baseline_order, deviation_order, level, margin
+        )
     from stonepass.records.friction import friction_record
     from stonepass.report.friction_report import friction_table
 
@@ -132,11 +148,12 @@ def _paths(count: int | None, given: list[str] | None) -> int | list[StraightPat
     return 6 if count is None else count
 
 
-def _area(text: str) -> list[int]:
+def _area(text: str) -> Area:
     from stonepass.errors import BadInput
+    from stonepass.surface.surface_image import Area
 
     parts = text.split(",")
     whole = all(part.strip().isdecimal() and len(part) < 9 for part in parts)
     if len(parts) != 4 or not whole:
         raise BadInput("--area", text, "four whole numbers LEFT,TOP,RIGHT,BOTTOM in pixels")
-    return [int(part) for part in parts]
+    return Area(*(int(part) for part in parts))

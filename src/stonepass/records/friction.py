@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import degrees
+
 from pydantic import Field
 
 from stonepass.records.base import CautionRecord, PartRecord, Record, warning_records
@@ -40,6 +42,12 @@ class FrictionSpreadRecord(PartRecord):
     height_range_scaling: dict[str, float | None] = Field(
         description="μ_f by how grey is scaled to the height range; empty for a height map"
     )
+    margin: dict[str, float | None] = Field(
+        description=(
+            "μ_f by the margin at the ends of the paths in shortest waves; not part of "
+            "`friction_sd`"
+        )
+    )
 
 
 class FrictionRecord(Record):
@@ -64,6 +72,25 @@ class FrictionRecord(Record):
     )
     deviation_wavelength_um: float = Field(
         description="2L/N in µm, the shortest wave that the second baseline follows"
+    )
+    margin: float = Field(
+        description=(
+            "how far from the ends of the paths the steepest slopes are looked for, in shortest "
+            "waves of each baseline; a quarter of the path at most"
+        )
+    )
+    looked_at: dict[str, list[float]] = Field(
+        description="from and to which fraction of the path `k0` and `k1` are looked for"
+    )
+    tilt_deg: float = Field(
+        description="angle between the least-squares plane of the surface and the picture's"
+    )
+    levelled: bool = Field(description="whether that plane was subtracted (`--level`)")
+    friction_levelled: float | None = Field(
+        description=(
+            "μ_f with the plane subtracted; null where that was not tried, because the plane "
+            "changes by less than 1 % of the height range, or has no answer"
+        )
     )
     height_range_um: float | None = Field(
         description="height from black to white in µm; null for a height map"
@@ -103,6 +130,14 @@ def friction_record(found: SurfaceFriction, image: str) -> FrictionRecord:
         deviation_order=found.deviation_baseline.order,
         baseline_wavelength_um=found.baseline.wavelength * MICRO,
         deviation_wavelength_um=found.deviation_baseline.wavelength * MICRO,
+        margin=found.baseline.margin,
+        looked_at={
+            "k0": list(found.baseline.looked_at),
+            "k1": list(found.deviation_baseline.looked_at),
+        },
+        tilt_deg=degrees(found.tilt),
+        levelled=found.levelled,
+        friction_levelled=found.friction_levelled,
         height_range_um=None if found.height_range is None else found.height_range * MICRO,
         pixel_um=across if across == down else [across, down],
         paths=[[path.x0, path.y0, path.x1, path.y1] for path in found.paths],
@@ -115,6 +150,7 @@ def friction_record(found: SurfaceFriction, image: str) -> FrictionRecord:
             without_one_path=[_number(mu) for mu in spread.paths],
             baseline_order={str(order): _number(mu) for order, mu in spread.orders},
             height_range_scaling={how: _number(mu) for how, mu in spread.height_range},
+            margin={f"{margin:g}": _number(mu) for margin, mu in spread.margins},
         ),
         image=image,
         pixel_source=picture.pixel_source,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import degrees
+
 from rich import box
 from rich.table import Table
 from rich.text import Text
@@ -40,6 +42,7 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
         ("friction by RMS slope", f"{rough.RdeltaQ:.3f}", "of single profiles, pixel by pixel"),
         ("Ra, Rq", f"{rough.Ra * MICRO:.3g}, {rough.Rq * MICRO:.3g} µm", "of single profiles"),
         ("height range", _height_range(found), ""),
+        ("tilt", f"{degrees(found.tilt):.2f}°", _levelled(found)),
         ("pixel", pixel, "; ".join((found.picture.pixel_source, *found.picture.notes))),
         ("paths", f"{len(found.paths)}", f"of {found.distance[-1] * MICRO:.4g} µm"),
     ]  # fmt: skip
@@ -52,7 +55,19 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
         rows.append(
             ("by scaling of grey", _between([mu for _, mu in spread.height_range]), scalings)
         )
+    margins = ", ".join(f"{margin:g}: {_shown(mu)}" for margin, mu in spread.margins)
+    rows.append(("by margin at the ends", _between([mu for _, mu in spread.margins]),
+                 f"{margins} (in shortest waves; used: {first.margin:g})"))  # fmt: skip
     return rows
+
+
+def _levelled(found: SurfaceFriction) -> str:
+    """What was done about the tilt."""
+    if found.levelled:
+        return "the least-squares plane is subtracted"
+    if found.friction_levelled is None:
+        return "not levelled"
+    return f"not levelled; with --level the friction coefficient is {found.friction_levelled:.3f}"
 
 
 def _between(values: list[float] | tuple[float, ...]) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -24,12 +25,16 @@ from stonepass.sandbox.protocol import Refusal
 
 __all__ = ["MEMORY", "SECONDS", "Limits", "parse_in_child"]
 
-SECONDS = 2.0  # of processor time that reading a file may take
-MEMORY = 420_000_000  # bytes of data that the process may use while it reads
+SECONDS = 6.0  # of processor time that reading a file may take
+MEMORY = 1_000_000_000  # bytes of data that the process may use, its libraries included
 LONGEST_HEADER = 65_536  # bytes
 START = 30.0  # s that the libraries of the task may take to load
 # Wall-clock time over the allowed processor time: a busy machine is no fault of the file.
 PATIENCE = 10.0
+# Exit code of a process that has spent its processor time; Windows has no such signal.
+OUT_OF_TIME = (-signal.SIGXCPU,) if hasattr(signal, "SIGXCPU") else ()
+SIMPLER = "cut out the part that matters, or save it without compression"
+BUSY = "try again when the machine is less busy, or cut out the part that matters"
 LIMITS_PROCESSOR_TIME = importlib.util.find_spec("resource") is not None  # not on Windows
 
 
@@ -113,11 +118,14 @@ def parse_in_child(
         finally:
             process.kill()
     if late.is_set():
-        raise BadInput(what, name, f"readable in {limits.seconds:g} s")
+        raise BadInput(what, name, f"readable in {limits.seconds * patience:g} s", BUSY)
+    if code in OUT_OF_TIME:
+        allowed = f"readable in {limits.seconds:g} s of processor time"
+        raise BadInput(what, name, allowed, SIMPLER)
     allowed = f"readable within {limits.memory // 1_000_000} MB and {limits.seconds:g} s"
     if code != 0:
         how = f"signal {-code}" if code < 0 else f"exit {code}"
-        raise BadInput(what, name, f"{allowed} (its reader ended with {how})")
+        raise BadInput(what, name, f"{allowed} (its reader ended with {how})", SIMPLER)
     try:
         answer = _Answer.model_validate_json(first)
     except (ValidationError, RecursionError) as problem:

@@ -36,7 +36,10 @@ def serve(
         header, body = parse(asked["request"])
     except BadInput as problem:
         value = problem.value if isinstance(problem.value, str) else repr(problem.value)
-        parts = (problem.argument, value, problem.allowed, problem.remedy)
+        allowed = problem.allowed
+        if isinstance(problem.__cause__, MemoryError):
+            allowed = f"readable within {asked['memory'] // 1_000_000} MB"
+        parts = (problem.argument, value, allowed, problem.remedy)
         _send({"refused": [text[:LONGEST] for text in parts]})
         return 0
     _send({"header": header})
@@ -50,16 +53,20 @@ def _limit(memory: int, seconds: float) -> None:
         import resource
     except ImportError:  # Windows: the parent's clock is the only limit
         return
+    processor = int(_used(resource) + seconds) + 1
+    # A second below the hard limit, which kills: the signal for processor time can be told apart.
     wanted = (
-        (resource.RLIMIT_DATA, memory),
-        (resource.RLIMIT_CPU, int(_used(resource) + seconds) + 1),
-        (resource.RLIMIT_FSIZE, 0),
-        (resource.RLIMIT_CORE, 0),
+        (resource.RLIMIT_DATA, memory, memory),
+        (resource.RLIMIT_CPU, processor, processor + 1),
+        (resource.RLIMIT_FSIZE, 0, 0),
+        (resource.RLIMIT_CORE, 0, 0),
     )
-    for which, value in wanted:
-        _, hard = resource.getrlimit(which)
-        bound = value if hard == resource.RLIM_INFINITY else min(value, hard)
-        resource.setrlimit(which, (bound, bound))
+    for which, soft, hard in wanted:
+        _, most = resource.getrlimit(which)
+        bounds = (soft, hard)
+        if most != resource.RLIM_INFINITY:
+            bounds = (min(soft, most), min(hard, most))
+        resource.setrlimit(which, bounds)
 
 
 def _used(resource: Any) -> float:

@@ -13,11 +13,12 @@ import numpy as np
 
 from stonepass.array_types import Float
 
-__all__ = ["POWERS", "Baseline", "fit_baseline"]
+__all__ = ["MARGIN", "POWERS", "Baseline", "fit_baseline"]
 
 POWERS = 3  # 1, t, t²
 PER_HALF_WAVE = 100  # places where the slope is looked at
-ENDS, MOST = 0.5, 0.25  # of the shortest wave, of the length: at each end, where it is not
+MARGIN = 0.5  # of the shortest wave: at each end, where the slope is not looked at
+MOST = 0.25  # of the length: the widest margin at each end
 
 
 @dataclass(frozen=True)
@@ -32,11 +33,15 @@ class Baseline:
         L in m.
     coefficients : array (N + 3)
         Of 1, t, t² and the cosines.
+    margin : float
+        How far from each end its steepest slope is looked for, in shortest waves; a quarter of the
+        length at most.
     """
 
     order: int
     length: float
     coefficients: Float[np.ndarray, " terms"]
+    margin: float = MARGIN
 
     @property
     def wavelength(self) -> float:
@@ -45,9 +50,9 @@ class Baseline:
 
     @property
     def steepest(self) -> float:
-        """The largest slope |dz/dx|, half the shortest wave away from the ends and more.
+        """The largest slope |dz/dx| outside the margins.
 
-        Nearer to them the slope is several times less certain, as that of every fit is, and waves
+        Near the ends the slope is several times less certain, as that of every fit is, and waves
         that the baseline cannot follow come out too steep.
         """
         return float(self.slopes()[1].max())
@@ -58,10 +63,15 @@ class Baseline:
         steep = int(np.argmax(self.slopes()[1]))
         return steep in (0, PER_HALF_WAVE * max(self.order, 2))
 
+    @property
+    def looked_at(self) -> tuple[float, float]:
+        """Where the steepest slope is looked for, from and to a fraction of the length."""
+        away = min(self.margin * 2.0 / self.order, MOST)
+        return away, 1.0 - away
+
     def slopes(self) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
         """Distances from the start in m where slopes are looked at, and |dz/dx| there."""
-        away = min(ENDS * 2.0 / self.order, MOST)
-        t = np.linspace(away, 1.0 - away, PER_HALF_WAVE * max(self.order, 2) + 1)
+        t = np.linspace(*self.looked_at, PER_HALF_WAVE * max(self.order, 2) + 1)
         return t * self.length, np.abs(_slopes(t, self.order) @ self.coefficients) / self.length
 
     def at(self, distance: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
@@ -70,7 +80,10 @@ class Baseline:
 
 
 def fit_baseline(
-    distance: Float[np.ndarray, " n"], heights: Float[np.ndarray, " n"], order: int
+    distance: Float[np.ndarray, " n"],
+    heights: Float[np.ndarray, " n"],
+    order: int,
+    margin: float = MARGIN,
 ) -> Baseline:
     """Fit a baseline of order N to heights at even distances: least squares along the length."""
     length = float(distance[-1])
@@ -78,7 +91,7 @@ def fit_baseline(
     weights[[0, -1]] = np.sqrt(0.5)  # of squares, half at both ends: the trapezoidal rule
     terms = _terms(distance / length, order)
     found, *_ = np.linalg.lstsq(weights[:, None] * terms, weights * heights, rcond=None)
-    return Baseline(order, length, found)
+    return Baseline(order, length, found, margin)
 
 
 def _terms(t: Float[np.ndarray, " n"], order: int) -> Float[np.ndarray, "n terms"]:

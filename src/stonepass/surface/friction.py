@@ -8,18 +8,27 @@ from it a richer baseline, whose largest slope is k₁; μ_f = tan(arctan k₀ +
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from math import sqrt
-from numbers import Integral
+from dataclasses import dataclass, replace
+from math import degrees, sqrt, tan
+from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
 
-from stonepass.array_types import Float, Num
+from stonepass.array_types import Bool, Float
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
-from stonepass.surface.baseline import POWERS, Baseline, fit_baseline
-from stonepass.surface.paths import Profiles, StraightPath, evenly_spaced, profiles_along
+from stonepass.surface.baseline import MARGIN, POWERS, Baseline, fit_baseline
+from stonepass.surface.gaps import BRIDGED
+from stonepass.surface.grey_scale import Greys, check_surface, grey_ranges, to_heights
+from stonepass.surface.levelling import Plane, fit_plane
+from stonepass.surface.paths import (
+    Profiles,
+    StraightPath,
+    evenly_spaced,
+    profiles_along,
+    rows_moved,
+)
 from stonepass.surface.surface_image import SurfaceImage
 from stonepass.units import Length, length
 
@@ -37,18 +46,13 @@ CRYSTAL_DIAGONAL = sqrt(3.0)  # height range over the edge of a cubic crystal (s
 RELIEF = (1e-9, 1e-2)  # m
 ORDER = (1, 200)
 RICHER = 2  # order of the deviation's baseline over that of the first
+WIDEST = 2.0  # shortest waves: the widest margin that may be asked for
 SAMPLES = 4  # least number of samples for each term of a baseline
-ROWS = 512  # looked at together
-LEVELS = 16  # least number of grey levels of a picture that is not flat
-SATURATED = 0.25  # of the pixels at the ends of the greys, at which heights are cut off
-TELL_SATURATED = 0.1  # more than the tops and bottoms of a smooth surface take
-GAP = 0.1  # of the greys, empty beside the brightest or darkest: what writing leaves
-PLAIN_ROWS = 0.01  # of the rows, of one grey or two: a bar, or a part that is missing
-SMOOTHED = 5  # pixels along each side, over which grey is averaged before its range is taken
-PERCENTILES = (0.1, 99.9)
 FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # of the first order, both together
-SCALINGS = ("smoothed range", "range", "percentiles")
+MARGINS = (0.0, 0.25, MARGIN, 1.0)  # shortest waves, for the spread
 LARGEST = 2.0  # μ_f that a case takes
+DRIFT = 0.01  # of the height range over the area, from which levelling is tried
+TELL_TILT = 0.02  # slope of the plane over μ_f, from which a tilt is told of
 
 
 @dataclass(frozen=True)
@@ -76,15 +80,22 @@ class Spread:
         Order of the first baseline and μ_f, the second one as much richer.
     height_range : tuple of (str, float)
         How grey is scaled to the height range, and μ_f; empty for heights.
+    margins : tuple of (float, float)
+        Margin at the ends of the paths in shortest waves, and μ_f.
     """
 
     paths: tuple[float, ...]
     orders: tuple[tuple[int, float], ...]
     height_range: tuple[tuple[str, float], ...]
+    margins: tuple[tuple[float, float], ...] = ()
 
     @property
     def sd(self) -> float | None:
         """Standard deviation of μ_f: jackknife over paths, orders and scalings, put together.
+
+        Margins do not count: with none at all the ends of the paths are looked at, where a slope
+        is several times less certain.
+
 
         None where μ_f does not exist for one of the choices.
         """
@@ -113,6 +124,13 @@ class SurfaceFriction:
         Distance from the start of the paths in m, heights along each, and their mean.
     roughness : Roughness
     spread : Spread
+    tilt : float
+        Angle in rad between the least-squares plane of the surface and the picture's.
+    levelled : bool
+        Whether that plane was subtracted.
+    friction_levelled : float or None
+        μ_f with the plane subtracted; None where it was not tried, because the plane changes by
+        less than 1 % of the height range over the area, or has no answer.
     warnings : tuple of Caution
     """
 
@@ -126,6 +144,9 @@ class SurfaceFriction:
     profiles: Float[np.ndarray, "paths n"]
     roughness: Roughness
     spread: Spread
+    tilt: float = 0.0
+    levelled: bool = False
+    friction_levelled: float | None = None
     warnings: tuple[Caution, ...] = ()
 
     @property
@@ -164,12 +185,32 @@ def friction_of_slopes(k0: float, k1: float) -> float:
     return (k0 + k1) / (1.0 - k0 * k1)
 
 
+@dataclass(frozen=True)
+class _Choices:
+    """Orders of both baselines, and the margin at the ends of the paths in shortest waves."""
+
+    first: int
+    second: int
+    margin: float
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """Profiles as they are sampled, and as heights; how grey becomes height, by each scaling."""
+
+    sampled: Float[np.ndarray, "paths n"]
+    heights: Float[np.ndarray, "paths n"]
+    ranges: list[tuple[str, Greys]]
+
+
 def surface_friction(
     picture: SurfaceImage,
     height_range: str | Length | None = None,
     paths: int | Sequence[StraightPath] = 6,
     baseline_order: int = 8,
     deviation_order: int | None = None,
+    level: bool = False,
+    margin: float = MARGIN,
 ) -> SurfaceFriction:
     """Find the friction coefficient of a surface from its picture.
 
@@ -181,47 +222,40 @@ def surface_friction(
         Height from the darkest to the brightest grey, both of means over 5 × 5 pixels, 1 nm to
         10 mm; the paper takes √3 edges of its cubic crystals. Left out for a height map.
     paths : int or sequence of StraightPath
-        A number of horizontal paths, evenly spaced; or the paths themselves.
+        A number of horizontal paths, evenly spaced; or the paths themselves. In a height map gaps
+        of up to a quarter of the deviation's shortest wave are bridged, and a row with longer ones
+        is replaced by the nearest row without.
     baseline_order : int
         N of the mean profile's baseline: it follows waves down to 2L/N. 1 to 200.
     deviation_order : int, optional
         That of the deviation's baseline, larger; twice as large by default. In the same basis
         a least-squares residual has no baseline, so its slope would be zero.
+    level : bool
+        Whether the least-squares plane of the area is subtracted first, which takes out the tilt of
+        a specimen on its stage. Without it a tilt that matters is told of.
+    margin : float
+        How far from the ends of the paths the steepest slopes are looked for, in shortest waves of
+        each baseline, 0 to 2; a quarter of the path at most.
 
     Raises
     ------
     BadInput
         A flat or saturated picture, a height range that is missing or too much, paths too short
-        for the baselines, or slopes with k₀ k₁ ≥ 1.
+        for the baselines or with gaps too long, or slopes with k₀ k₁ ≥ 1.
     """
     scale = _height_range(picture, height_range)
-    first_order, second_order = _orders(baseline_order, deviation_order)
-    warnings = _look_at(picture)
-    chosen = _chosen(picture, paths)
-    sampled = profiles_along(picture, chosen)
-    samples = len(sampled.distance)
-    require(
-        second_order <= _most(samples),
-        "order of the deviation's baseline",
-        second_order,
-        f"at most {_most(samples)} for paths of {samples} pixels",
-        "choose longer paths or a smaller order",
-    )
-    ranges = [] if scale is None else _grey_ranges(picture)
-    heights = _heights(sampled.values, scale, ranges[0][1] if ranges else (0.0, 1.0))
-    first, rest, friction = _fit(sampled.distance, heights.mean(axis=0), first_order, second_order)
-    spread = _spread(sampled, heights, scale, ranges, (first_order, second_order))
-    if len(chosen) == 1:
-        warnings.append(caution("single_path"))
-    if spread.sd is None:
-        warnings.append(caution("friction_spread_missing"))
-    if len(spread.orders) < len(FACTORS):
-        warnings.append(caution("paths_too_short"))
-    if any(part.at_edge for part in (first, rest)):
-        warnings.append(caution("baseline_at_path_end"))
-    if friction > LARGEST:
-        warnings.append(caution("friction_beyond_range", largest=LARGEST))
-    return SurfaceFriction(
+    choices = _choices(baseline_order, deviation_order, margin)
+    warnings = check_surface(picture)
+    longest_gap = BRIDGED * 2.0 / choices.second
+    chosen, moved = _chosen(picture, paths, longest_gap)
+    sampled = profiles_along(picture, chosen, longest_gap)
+    _check_samples(len(sampled.distance), choices)
+    plane = fit_plane(picture)
+    surface = _surface(picture, sampled, scale, plane if level else None)
+    mean = surface.heights.mean(axis=0)
+    first, rest, friction = _fit(sampled.distance, mean, choices)
+    spread = _spread(sampled.distance, surface, scale, choices, (first, rest))
+    found = SurfaceFriction(
         picture,
         friction,
         first,
@@ -229,20 +263,93 @@ def surface_friction(
         scale,
         tuple(chosen),
         sampled.distance,
-        heights,
-        _roughness(sampled.distance, heights),
+        surface.heights,
+        _roughness(sampled.distance, surface.heights, sampled.known),
         spread,
-        (*warnings, *sampled.warnings),
+        _tilt(picture, plane, scale, surface),
+        level,
+        friction if level else _friction_levelled(picture, sampled, scale, plane, choices),
+    )
+    return replace(found, warnings=(*warnings, *_warnings(found), *moved, *sampled.warnings))
+
+
+def _warnings(found: SurfaceFriction) -> list[Caution]:
+    """What must be told of a result."""
+    told, spread, levelled = [], found.spread, found.friction_levelled
+    if len(found.paths) == 1:
+        told.append(caution("single_path"))
+    if spread.sd is None:
+        told.append(caution("friction_spread_missing"))
+    if len(spread.orders) < len(FACTORS):
+        told.append(caution("paths_too_short"))
+    if any(part.at_edge for part in (found.baseline, found.deviation_baseline)):
+        told.append(caution("baseline_at_path_end"))
+    if found.friction > LARGEST:
+        told.append(caution("friction_beyond_range", largest=LARGEST))
+    tilted = not found.levelled and tan(found.tilt) > TELL_TILT * found.friction
+    if tilted and levelled is not None:
+        told.append(caution("tilted", tilt_deg=degrees(found.tilt), levelled=levelled))
+    return told
+
+
+def _surface(
+    picture: SurfaceImage, sampled: Profiles, scale: float | None, plane: Plane | None
+) -> _Surface:
+    """Profiles as heights, less a plane where one is given."""
+    values = sampled.values
+    if plane is not None:
+        values = values - plane.at(sampled.columns, sampled.rows)
+    ranges = [] if scale is None else grey_ranges(picture, plane)
+    heights = to_heights(values, scale, ranges[0][1] if ranges else (0.0, 1.0))
+    return _Surface(values, heights, ranges)
+
+
+def _tilt(picture: SurfaceImage, plane: Plane, scale: float | None, surface: _Surface) -> float:
+    """Angle of the surface's plane in rad."""
+    assert picture.pixel is not None
+    if scale is None:
+        return plane.tilt(picture.pixel, 1.0)
+    low, high = surface.ranges[0][1]
+    return plane.tilt(picture.pixel, scale / (high - low))
+
+
+def _friction_levelled(
+    picture: SurfaceImage, sampled: Profiles, scale: float | None, plane: Plane, choices: _Choices
+) -> float | None:
+    """μ_f less the plane; None where that changes next to nothing, or has no answer."""
+    values = sampled.values
+    drift = np.ptp(plane.at(sampled.columns, sampled.rows))
+    if drift < DRIFT * np.ptp(values):
+        return None
+    try:
+        levelled = _surface(picture, sampled, scale, plane)
+        return _fit(sampled.distance, levelled.heights.mean(axis=0), choices)[2]
+    except BadInput:
+        return None
+
+
+def _check_samples(samples: int, choices: _Choices) -> None:
+    require(
+        choices.second <= _most(samples),
+        "order of the deviation's baseline",
+        choices.second,
+        f"at most {_most(samples)} for paths of {samples} pixels",
+        "choose longer paths or a smaller order",
     )
 
 
-def _chosen(picture: SurfaceImage, paths: Any) -> list[StraightPath]:
+def _chosen(
+    picture: SurfaceImage, paths: Any, longest_gap: float
+) -> tuple[list[StraightPath], list[Caution]]:
+    """The paths; whether some of the evenly spaced ones were moved."""
     if isinstance(paths, Integral) and not isinstance(paths, bool):
-        return evenly_spaced(picture, int(paths))
+        chosen = evenly_spaced(picture, int(paths), longest_gap)
+        moved = rows_moved(picture.area, chosen)
+        return chosen, [caution("paths_moved", moved=moved, paths=len(chosen))] if moved else []
     listed = list(paths) if isinstance(paths, Iterable) else [paths]
     for each in listed:
         require(isinstance(each, StraightPath), "paths", each, "a whole number, or paths")
-    return listed
+    return listed, []
 
 
 def _height_range(picture: SurfaceImage, height_range: str | Length | None) -> float | None:
@@ -262,7 +369,7 @@ def _height_range(picture: SurfaceImage, height_range: str | Length | None) -> f
     return float(scale)
 
 
-def _orders(first: int, second: int | None) -> tuple[int, int]:
+def _choices(first: int, second: int | None, margin: float) -> _Choices:
     low, high = ORDER
     found: list[int] = []
     for name, order in (("baseline", first), ("deviation's baseline", second)):
@@ -276,107 +383,57 @@ def _orders(first: int, second: int | None) -> tuple[int, int]:
     why = "in the same basis the deviation has no slope"
     require(found[1] > found[0], "order of the deviation's baseline", found[1],
             f"larger than that of the first, {found[0]}", why)  # fmt: skip
-    return found[0], found[1]
-
-
-def _look_at(picture: SurfaceImage) -> list[Caution]:
-    """Refuse what is flat or cut off; warn of what looks like no surface."""
-    values = picture.surface
-    if picture.has_heights:
-        known = values[np.isfinite(values)]
-        flat = known.size == 0 or not float(np.ptp(known)) > 0.0
-        require(not flat, "height map", "flat or empty", "of a rough surface")
-        return []
-    counts = np.zeros(picture.full_scale + 1, int)
-    for start in range(0, len(values), ROWS):  # each number becomes eight bytes here
-        counts += np.bincount(values[start : start + ROWS].ravel(), minlength=len(counts))
-    greys = np.flatnonzero(counts)
-    low, high = int(greys[0]), int(greys[-1])
-    shown = f"flat, with greys from {low} to {high}"
-    require(high - low >= LEVELS, "picture", shown, f"of at least {LEVELS} grey levels")
-    ends = float(counts[low] + counts[high]) / values.size
-    allowed = f"less than {SATURATED:.0%} of it"
-    require(ends < SATURATED, "darkest or brightest grey", f"{ends:.0%} of the picture", allowed,
-            "take one that is not saturated")  # fmt: skip
-    told = []
-    if ends > TELL_SATURATED:
-        told.append(caution("saturated_greys", fraction=ends))
-    gaps = np.diff(greys) > GAP * (high - low)
-    if gaps[0] or gaps[-1]:
-        told.append(caution("isolated_grey"))
-    plain = float(np.mean(np.ptp(values, axis=1) <= 1))
-    if plain > PLAIN_ROWS:
-        told.append(caution("plain_rows", fraction=plain))
-    return told
-
-
-def _grey_ranges(picture: SurfaceImage) -> list[tuple[str, tuple[float, float]]]:
-    """Greys of height nought and of the whole height range, by each of `SCALINGS`.
-
-    Single pixels reach further than the surface does, by their noise; their mean over a few does so
-    less.
-    """
-    from scipy.ndimage import uniform_filter
-
-    values: Num[np.ndarray, "rows columns"] = picture.surface
-    smoothed = uniform_filter(values, SMOOTHED, np.float32)
-    low, high = np.percentile(values, PERCENTILES)
-    ends = (
-        (float(smoothed.min()), float(smoothed.max())),
-        (float(values.min()), float(values.max())),
-        (float(low), float(high)),
-    )
-    return list(zip(SCALINGS, ends, strict=True))
-
-
-def _heights(
-    values: Float[np.ndarray, "paths n"], height_range: float | None, greys: tuple[float, float]
-) -> Float[np.ndarray, "paths n"]:
-    if height_range is None:
-        return values
-    low, high = greys
-    require(high > low, "picture", "flat", "of a rough surface")
-    return height_range * (values - low) / (high - low)
+    number = isinstance(margin, Real) and not isinstance(margin, bool)
+    within = number and 0.0 <= margin <= WIDEST
+    require(within, "margin", margin, f"a number from 0 to {WIDEST:g}, in shortest waves")
+    return _Choices(found[0], found[1], float(margin))
 
 
 def _fit(
-    distance: Float[np.ndarray, " n"], mean: Float[np.ndarray, " n"], first: int, second: int
+    distance: Float[np.ndarray, " n"], mean: Float[np.ndarray, " n"], choices: _Choices
 ) -> tuple[Baseline, Baseline, float]:
-    baseline = fit_baseline(distance, mean, first)
-    rest = fit_baseline(distance, mean - baseline.at(distance), second)
+    baseline = fit_baseline(distance, mean, choices.first, choices.margin)
+    left = mean - baseline.at(distance)
+    rest = fit_baseline(distance, left, choices.second, choices.margin)
     return baseline, rest, friction_of_slopes(baseline.steepest, rest.steepest)
 
 
 def _spread(
-    sampled: Profiles,
-    heights: Float[np.ndarray, "paths n"],
-    height_range: float | None,
-    ranges: Sequence[tuple[str, tuple[float, float]]],
-    orders: tuple[int, int],
+    distance: Float[np.ndarray, " n"],
+    surface: _Surface,
+    scale: float | None,
+    choices: _Choices,
+    fitted: tuple[Baseline, Baseline],
 ) -> Spread:
-    distance, count = sampled.distance, len(heights)
-    first, second = orders
+    heights = surface.heights
+    count = len(heights)
 
-    def friction(profile: Float[np.ndarray, " n"], order: int = first, rest: int = second) -> float:
+    def friction(profile: Float[np.ndarray, " n"], other: _Choices = choices) -> float:
         """μ_f by other choices; NaN where it does not exist."""
         try:
-            return _fit(distance, profile, order, rest)[2]
+            return _fit(distance, profile, other)[2]
         except BadInput:
             return np.nan
 
-    total, raw = heights.sum(axis=0), sampled.values.mean(axis=0)[None]
+    total, raw = heights.sum(axis=0), surface.sampled.mean(axis=0)[None]
     without = [(total - row) / (count - 1) for row in heights] if count > 1 else []
     by_order = []
-    for order in dict.fromkeys(round(first * factor) for factor in FACTORS):
-        rest = round(order * second / first)
+    for order in dict.fromkeys(round(choices.first * factor) for factor in FACTORS):
+        rest = round(order * choices.second / choices.first)
         if ORDER[0] <= order < rest <= min(_most(len(distance)), ORDER[1]):
-            by_order.append((order, friction(total / count, order, rest)))
+            by_order.append((order, friction(total / count, _Choices(order, rest, choices.margin))))
     by_scale = []
-    for how, greys in ranges:
+    for how, greys in surface.ranges:
         flat = not greys[1] > greys[0]
-        scaled = np.nan if flat else friction(_heights(raw, height_range, greys)[0])
-        by_scale.append((how, scaled))
-    return Spread(tuple(map(friction, without)), tuple(by_order), tuple(by_scale))
+        by_scale.append((how, np.nan if flat else friction(to_heights(raw, scale, greys)[0])))
+    by_margin = [(margin, _at_margin(*fitted, margin)) for margin in {*MARGINS, choices.margin}]
+    return Spread(tuple(map(friction, without)), tuple(by_order), tuple(by_scale), tuple(by_margin))
+
+
+def _at_margin(first: Baseline, rest: Baseline, margin: float) -> float:
+    """μ_f with another margin; NaN where it does not exist."""
+    steep = [replace(each, margin=margin).steepest for each in (first, rest)]
+    return friction_of_slopes(*steep) if steep[0] * steep[1] < 1.0 else np.nan
 
 
 def _most(samples: int) -> int:
@@ -385,19 +442,31 @@ def _most(samples: int) -> int:
 
 
 def _roughness(
-    distance: Float[np.ndarray, " n"], heights: Float[np.ndarray, "paths n"]
+    distance: Float[np.ndarray, " n"],
+    heights: Float[np.ndarray, "paths n"],
+    known: Bool[np.ndarray, "paths n"],
 ) -> Roughness:
+    """Roughness where heights are known; slopes where those of all seven samples are."""
     powers = np.column_stack([np.ones_like(distance), distance / distance[-1]])
     lines = powers @ np.linalg.lstsq(powers, heights.T, rcond=None)[0]
     levelled = heights - lines.T
     step = float(distance[1] - distance[0])
     weights = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / (60.0 * step)
     slopes = np.array([np.correlate(row, weights, "valid") for row in levelled])
+    all_known = np.array([np.correlate(row, np.ones(7), "valid") > 6.5 for row in known * 1.0])
+    if not all_known.any(axis=1).all():  # gaps so many that bridged ones are all there is
+        all_known[:] = True
     return Roughness(
-        float(np.abs(levelled).mean()),
-        float(np.sqrt((levelled**2).mean(axis=1)).mean()),
-        float(np.sqrt((slopes**2).mean(axis=1)).mean()),
+        float(
+            np.mean([np.abs(row[have]).mean() for row, have in zip(levelled, known, strict=True)])
+        ),
+        float(np.mean([_rms(row[have]) for row, have in zip(levelled, known, strict=True)])),
+        float(np.mean([_rms(row[have]) for row, have in zip(slopes, all_known, strict=True)])),
     )
+
+
+def _rms(values: Float[np.ndarray, " n"]) -> float:
+    return float(np.sqrt((values**2).mean()))
 
 
 def _sd(values: Sequence[float]) -> float:

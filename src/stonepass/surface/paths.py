@@ -8,15 +8,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stonepass.array_types import Float
+from stonepass.array_types import Bool, Float, Num
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
-from stonepass.surface.surface_image import SurfaceImage
+from stonepass.surface.gaps import bridge, bridgeable, gap_length, known_area
+from stonepass.surface.surface_image import Area, SurfaceImage
 
-__all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path"]
+__all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path", "rows_moved"]
 
 COUNT = (1, 100)
 UNEVEN = 0.01  # of the shortest length, by which paths may differ in silence
+SNAP = 1e-9  # pixels: places nearer to the centre of a pixel than this have its number alone
+MICRO = 1e6  # µm per m
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,13 @@ class StraightPath:
         """Length in m."""
         return math.hypot((self.x1 - self.x0) * pixel[0], (self.y1 - self.y0) * pixel[1])
 
+    def part(self, begin: float, end: float) -> StraightPath:
+        """Return the part between two fractions of the path."""
+        x, y = self.x1 - self.x0, self.y1 - self.y0
+        return StraightPath(
+            self.x0 + begin * x, self.y0 + begin * y, self.x0 + end * x, self.y0 + end * y
+        )
+
 
 @dataclass(frozen=True)
 class Profiles:
@@ -46,11 +56,18 @@ class Profiles:
         From the start of each path, in m.
     values : array (paths, n)
         Grey values or heights.
+    columns, rows : array (paths, n)
+        Where in the picture they were taken, in pixels.
+    known : array (paths, n)
+        Whether the number is the picture's own; False where a gap between heights was bridged.
     warnings : tuple of Caution
     """
 
     distance: Float[np.ndarray, " n"]
     values: Float[np.ndarray, "paths n"]
+    columns: Float[np.ndarray, "paths n"]
+    rows: Float[np.ndarray, "paths n"]
+    known: Bool[np.ndarray, "paths n"]
     warnings: tuple[Caution, ...] = ()
 
 
@@ -66,54 +83,189 @@ def read_path(text: str) -> StraightPath:
     return StraightPath(*numbers)
 
 
-def evenly_spaced(picture: SurfaceImage, count: int) -> list[StraightPath]:
-    """Horizontal paths across the whole area, along rows evenly spaced."""
+def evenly_spaced(
+    picture: SurfaceImage, count: int, longest_gap: float = 0.0
+) -> list[StraightPath]:
+    """Horizontal paths across the whole area, along rows evenly spaced.
+
+    In a height map with gaps, a row that cannot be bridged (see `profiles_along`) is replaced by
+    the nearest row that can, and each row is used once.
+
+    Parameters
+    ----------
+    picture : SurfaceImage
+    count : int
+        1 to 100, and at most the number of rows.
+    longest_gap : float
+        As in `profiles_along`.
+
+    Raises
+    ------
+    BadInput
+        Another count, or a height map with too few rows that can be bridged; the sentence names the
+        area that leaves its border out, where that helps.
+    """
     low, high = COUNT
     area = picture.area
     height = area.bottom - area.top
     high = min(high, height)
     require(low <= count <= high, "paths", count, f"a whole number from {low} to {high}")
-    rows = [area.top + round(height * (k + 0.5) / count - 0.5) for k in range(count)]
+    rows = _even_rows(area, count)
+    if picture.has_heights:
+        found = _complete_rows(picture, area, rows, longest_gap)
+        if found is None:
+            raise _too_many_gaps(picture, count, longest_gap)
+        rows = found
     return [StraightPath(area.left, row, area.right - 1.0, row) for row in rows]
 
 
-def profiles_along(picture: SurfaceImage, paths: Sequence[StraightPath]) -> Profiles:
+def rows_moved(area: Area, paths: Sequence[StraightPath]) -> int:
+    """Number of paths of `evenly_spaced` that are not on their own rows, because of gaps."""
+    rows = _even_rows(area, len(paths))
+    return sum(path.y0 != row for path, row in zip(paths, rows, strict=True))
+
+
+def _even_rows(area: Area, count: int) -> list[int]:
+    height = area.bottom - area.top
+    return [area.top + round(height * (k + 0.5) / count - 0.5) for k in range(count)]
+
+
+def _complete_rows(
+    picture: SurfaceImage, area: Area, wanted: Sequence[int], longest_gap: float
+) -> list[int] | None:
+    """The nearest rows to those wanted that can be bridged; None where there are too few."""
+    part = picture.values[:, area.left : area.right]
+    longest = longest_gap * (area.right - area.left)
+    good: dict[int, bool] = {}
+    found: list[int] = []
+    for row in wanted:
+        for near in sorted(range(area.top, area.bottom), key=lambda each: abs(each - row)):
+            if near not in good:
+                good[near] = bridgeable(np.isfinite(part[near]), longest)
+            if good[near] and near not in found:
+                found.append(near)
+                break
+        else:
+            return None
+    return sorted(found)
+
+
+def _too_many_gaps(picture: SurfaceImage, count: int, longest_gap: float) -> BadInput:
+    """The refusal of a map whose rows cannot be bridged, and the area that helps."""
+    missing = float(np.mean(~np.isfinite(picture.surface)))
+    width = picture.area.right - picture.area.left
+    allowed = (
+        f"such that {count} rows have heights at both ends and gaps of at most "
+        f"{int(longest_gap * width)} pixels between"
+    )
+    remedy = "give paths that avoid the gaps with --path"
+    part = known_area(picture.values, picture.area)
+    helps = (
+        part is not None
+        and part != picture.area
+        and part.bottom - part.top >= count
+        and _complete_rows(picture, part, _even_rows(part, count), longest_gap) is not None
+    )
+    if part is not None and helps:
+        remedy = f"leave out the border, where heights are missing, with {part.option}"
+    shown = f"without a height at {missing:.1%} of its places"
+    return BadInput("height map", shown, allowed, remedy)
+
+
+def profiles_along(
+    picture: SurfaceImage, paths: Sequence[StraightPath], longest_gap: float = 0.0
+) -> Profiles:
     """Sample a picture along paths, bilinearly, about a pixel apart.
 
-    Paths longer than the shortest one are cut to its length, so that they can be averaged.
+    Paths longer than the shortest one are cut to its length, so that they can be averaged. Gaps
+    between heights are bridged by straight lines, with a warning.
+
+    Parameters
+    ----------
+    picture : SurfaceImage
+    paths : sequence of StraightPath
+        1 to 100.
+    longest_gap : float
+        Length of the longest gap that is bridged over the length of the path; none by default.
 
     Raises
     ------
     BadInput
-        No pixel size; no path; one that leaves the picture's area, is shorter than two pixels, or
-        meets heights that are missing.
+        No pixel size; no path; one that leaves the picture's area, is shorter than two pixels, has
+        no height at an end, or meets a gap that is longer.
     """
-    from scipy.ndimage import map_coordinates  # half a second, after a file is known to be good
-
     pixel = picture.pixel
     if pixel is None:
-        raise BadInput("pixel size", "missing", "given as --pixel", "the file does not say it")
+        remedy = picture.pixel_hint or "the file does not say it"
+        raise BadInput("pixel size", "missing", "given as --pixel", remedy)
     low, high = COUNT
     require(low <= len(paths) <= high, "paths", len(paths), f"{low} to {high} of them")
     for path in paths:
         _check(picture, path)
-    lengths = [path.length(pixel) for path in paths]
-    shortest = min(lengths)
+    lengths = np.array([path.length(pixel) for path in paths])
     across = min(math.hypot(path.x1 - path.x0, path.y1 - path.y0) for path in paths)
-    count = 1 + math.floor(across + 1e-9)
-    distance = np.linspace(0.0, shortest, count)
-    rows = []
-    for path, length in zip(paths, lengths, strict=True):
-        share = distance / length
-        x, y = path.x0 + share * (path.x1 - path.x0), path.y0 + share * (path.y1 - path.y0)
-        values = map_coordinates(picture.values, [y, x], np.float64, order=1, mode="nearest")
-        if not np.all(np.isfinite(values)):
-            raise BadInput("path", _shown(path), "clear of places without a height",
-                           "choose other paths")  # fmt: skip
-        rows.append(values)
-    uneven = max(lengths) > (1.0 + UNEVEN) * shortest
-    told = caution("uneven_paths", ratio=max(lengths) / shortest)
-    return Profiles(distance, np.array(rows), (told,) if uneven else ())
+    distance = np.linspace(0.0, lengths.min(), 1 + math.floor(across + 1e-9))
+    share = distance / lengths[:, None]
+    ends = np.array([[path.x0, path.y0, path.x1, path.y1] for path in paths])[:, :, None]
+    columns = ends[:, 0] + share * (ends[:, 2] - ends[:, 0])
+    rows = ends[:, 1] + share * (ends[:, 3] - ends[:, 1])
+    values = _bilinear(picture.values, columns, rows)
+    known = np.isfinite(values)
+    told = []
+    if lengths.max() > (1.0 + UNEVEN) * lengths.min():
+        told.append(caution("uneven_paths", ratio=float(lengths.max() / lengths.min())))
+    if not known.all():
+        for path, each in zip(paths, known, strict=True):
+            _check_gaps(path, each, longest_gap)
+        values = np.array([bridge(*pair) for pair in zip(values, known, strict=True)])
+        length_um = max(map(gap_length, known)) * float(distance[1]) * MICRO
+        told.append(caution("gaps_bridged", fraction=float(np.mean(~known)), length_um=length_um))
+    return Profiles(distance, values, columns, rows, known, tuple(told))
+
+
+def _bilinear(
+    values: Num[np.ndarray, "rows columns"],
+    columns: Float[np.ndarray, "paths n"],
+    rows: Float[np.ndarray, "paths n"],
+) -> Float[np.ndarray, "paths n"]:
+    """Interpolate between the four pixels around a place.
+
+    A pixel whose weight is zero does not count, so that a missing height spoils no neighbour.
+    """
+    found = np.zeros(columns.shape)
+    left, right, to_right = _neighbours(columns, values.shape[1])
+    top, bottom, to_bottom = _neighbours(rows, values.shape[0])
+    for row, down in ((top, 1.0 - to_bottom), (bottom, to_bottom)):
+        for column, across in ((left, 1.0 - to_right), (right, to_right)):
+            weight = down * across
+            found += weight * np.where(weight > 0.0, values[row, column], 0.0)
+    return found
+
+
+def _neighbours(
+    places: Float[np.ndarray, "paths n"], count: int
+) -> tuple[Num[np.ndarray, "paths n"], Num[np.ndarray, "paths n"], Float[np.ndarray, "paths n"]]:
+    """The pixels before and after each place, and the weight of the one after it."""
+    nearest = np.round(places)
+    places = np.where(np.abs(places - nearest) < SNAP, nearest, places)
+    before = np.clip(np.floor(places), 0, count - 1).astype(int)
+    return before, np.minimum(before + 1, count - 1), places - before
+
+
+def _check_gaps(path: StraightPath, known: Bool[np.ndarray, " n"], longest_gap: float) -> None:
+    """Refuse a path with gaps that cannot be bridged."""
+    steps = len(known) - 1
+    if bridgeable(known, longest_gap * len(known)):
+        return
+    where = np.flatnonzero(known)
+    if len(where) > 2 and not (known[0] and known[-1]):
+        part = _shown(path.part(where[0] / steps, where[-1] / steps))
+        raise BadInput("path", _shown(path), "clear of places without a height at its ends",
+                       f"shorten it to {part}")  # fmt: skip
+    longest = int(longest_gap * len(known))
+    more = f" over more than {longest} pixels" if longest else ""
+    raise BadInput("path", _shown(path), f"clear of places without a height{more}",
+                   "choose other paths")  # fmt: skip
 
 
 def _check(picture: SurfaceImage, path: StraightPath) -> None:

@@ -25,6 +25,24 @@ class Area:
     right: int
     bottom: int
 
+    def __str__(self) -> str:
+        """``left, top, right, bottom``."""
+        return f"{self.left}, {self.top}, {self.right}, {self.bottom}"
+
+    @property
+    def option(self) -> str:
+        """The command's option that asks for this area."""
+        return f"--area {self.left},{self.top},{self.right},{self.bottom}"
+
+    def lies_in(self, other: Area) -> bool:
+        """Whether it lies within another area."""
+        return (
+            other.left <= self.left
+            and other.top <= self.top
+            and self.right <= other.right
+            and self.bottom <= other.bottom
+        )
+
 
 @dataclass(frozen=True)
 class SurfaceImage:
@@ -44,6 +62,10 @@ class SurfaceImage:
         Who says how large a pixel is.
     notes : tuple of str
         What was left out, and how the file was read.
+    pixel_hint : str
+        Where `pixel` is None although the file says something of it: what it says and what to do.
+    grey : Area or None
+        The part whose pixels are known to be grey; the area must lie within it. None: everywhere.
 
     Raises
     ------
@@ -58,6 +80,8 @@ class SurfaceImage:
     area: Area
     pixel_source: str = ""
     notes: tuple[str, ...] = ()
+    pixel_hint: str = ""
+    grey: Area | None = None
 
     def __post_init__(self) -> None:
         rows, columns = self.values.shape
@@ -68,9 +92,11 @@ class SurfaceImage:
         area = self.area
         across = 0 <= area.left <= area.right - 2 <= columns - 2
         down = 0 <= area.top <= area.bottom - 2 <= rows - 2
-        shown = f"{area.left}, {area.top}, {area.right}, {area.bottom}"
+        shown = str(area)
         allowed = f"left, top, right, bottom within 0, 0, {columns}, {rows}"
         require(across and down, "area", shown, allowed)
+        within = self.grey is None or area.lies_in(self.grey)
+        require(within, "area", shown, f"within {self.grey}, the part that is known to be grey")
         if self.pixel is not None and not possible_pixel(self.pixel):
             shown = " × ".join(f"{side:g} m" for side in self.pixel)
             raise BadInput("pixel", shown, "1e-11 m to 1e-3 m, and not oblong by more than ten")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -11,7 +12,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from stonepass.errors import BadInput
 from stonepass.sandbox.protocol import Text
 from stonepass.sandbox.sandbox import MEMORY, SECONDS, Limits, parse_in_child
-from stonepass.surface.limits import DECODED, SIDE, check_file
+from stonepass.surface.file_name import short_name
+from stonepass.surface.limits import BODY, SIDE, check_file
 from stonepass.surface.surface_image import Area, SurfaceImage
 
 __all__ = ["read_untrusted"]
@@ -21,7 +23,10 @@ TYPES = {"uint8": 1, "uint16": 2, "float64": 8}  # bytes of a number
 
 
 def read_untrusted(
-    path: str | Path, seconds: float = SECONDS, memory: int = MEMORY
+    path: str | Path,
+    seconds: float = SECONDS,
+    memory: int = MEMORY,
+    area: Area | None = None,
 ) -> SurfaceImage:
     """Read a picture as `readers.read_surface_image` does, in a child process that may be stopped.
 
@@ -32,6 +37,8 @@ def read_untrusted(
         Time that reading may take, once the process and its libraries have started.
     memory : int
         Bytes of data it may use; enforced on Linux.
+    area : Area, optional
+        The part that is surface, as in `read_surface_image`.
 
     Raises
     ------
@@ -42,14 +49,15 @@ def read_untrusted(
     """
     path = Path(path)
     check_file(path)
-    limits = Limits(seconds, memory, body=DECODED)
-    request = {"path": str(path.resolve())}
-    header, body = parse_in_child(TASK, request, limits, "image", path.name)
+    limits = Limits(seconds, memory, body=BODY)
+    request = {"path": str(path.resolve()), "area": None if area is None else astuple(area)}
+    name = short_name(path)
+    header, body = parse_in_child(TASK, request, limits, "image", name)
     try:
         return _picture(header, body)
     except ValidationError as problem:
         allowed = f"readable within {memory // 1_000_000} MB and {seconds:g} s"
-        raise BadInput("image", path.name, f"{allowed} (its reader made no sense)") from problem
+        raise BadInput("image", name, f"{allowed} (its reader made no sense)") from problem
 
 
 def _picture(header: dict[str, Any], body: bytes) -> SurfaceImage:
@@ -66,6 +74,8 @@ def _picture(header: dict[str, Any], body: bytes) -> SurfaceImage:
         Area(*described.area),
         described.pixel_source,
         described.notes,
+        described.pixel_hint,
+        None if described.grey is None else Area(*described.grey),
     )
 
 
@@ -83,3 +93,5 @@ class _Header(BaseModel):
     area: tuple[Side, Side, Side, Side] = (0, 0, 0, 0)
     pixel_source: Text = ""
     notes: Annotated[tuple[Text, ...], Field(max_length=10)] = ()
+    pixel_hint: Text = ""
+    grey: tuple[Side, Side, Side, Side] | None = None

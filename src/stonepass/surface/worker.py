@@ -9,13 +9,15 @@ from typing import Any
 
 from stonepass.sandbox.worker import serve
 from stonepass.surface.readers import load_libraries, read_surface_image
+from stonepass.surface.surface_image import Area
 
 __all__ = ["parse"]
 
 
 def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
     """Read the picture of a request; its header and its numbers."""
-    picture = read_surface_image(Path(request["path"]))
+    asked = request.get("area")
+    picture = read_surface_image(Path(request["path"]), None if asked is None else Area(*asked))
     header = {
         "shape": picture.values.shape,
         "type": picture.values.dtype.name,
@@ -24,6 +26,8 @@ def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
         "area": astuple(picture.area),
         "pixel_source": picture.pixel_source,
         "notes": picture.notes,
+        "pixel_hint": picture.pixel_hint,
+        "grey": None if picture.grey is None else astuple(picture.grey),
     }
     return header, picture.values.data
 

@@ -1,0 +1,232 @@
+"""Micrographs: TIFF, PNG and JPEG files to surface images."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from stonepass.array_types import Num
+from stonepass.errors import BadInput
+from stonepass.io.optional_imports import library
+from stonepass.surface.data_bar import find_bar
+from stonepass.surface.decoded import Decoded
+from stonepass.surface.file_name import short_name
+from stonepass.surface.limits import SIDE, check_size, too_large
+from stonepass.surface.pixel_size import (
+    TESCAN_TAG,
+    fei_scan,
+    imagej_scan,
+    ome_scan,
+    tescan_scan,
+    zeiss_scan,
+)
+from stonepass.surface.scan import Scan
+from stonepass.surface.side_files import scan_beside
+from stonepass.surface.surface_image import Area, SurfaceImage
+
+__all__ = ["EXTRA", "JPEG", "PNG", "READ", "TIFF", "read_plain", "read_tiff"]
+
+TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+PNG, JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
+ORIENTATION = 274  # tag of TIFF and EXIF
+SUBFILE, OLD_SUBFILE = 254, 255  # tags that say what a page is
+REDUCED, MASK, OLD_REDUCED = 1, 4, 2  # bits of the one, value of the other
+RESOLUTION = (282, 283)  # tags: pixels per unit, across and down
+PAGES = 200  # looked at
+PLAIN = (1, 8, 32946)  # compressions of TIFF that need no codec: none, and deflate
+WHITE_IS_ZERO, PALETTE = 0, 3  # photometric interpretations
+READ, EXTRA = "read this file", "imaging"
+
+
+def read_tiff(path: Path, area: Area | None) -> SurfaceImage:
+    """Read a TIFF file: its largest page that is no reduced image and no mask."""
+    tifffile = library("tifffile", READ, EXTRA)
+    with tifffile.TiffFile(path) as file:
+        index, notes = _page(file)
+        page = file.pages[index]
+        bits, kind = page.bitspersample, int(page.photometric)
+        _check_samples(path, page)
+        tag = page.tags.get(ORIENTATION)
+        _check_upright(path, 1 if tag is None else tag.value)
+        scan = _scan_of_tiff(file, page, path)
+        plain = int(page.compression) in PLAIN and kind in (0, 1, 2, 3) and page.imagedepth == 1
+        decoded = _decoded_by_tifffile(page) if plain else _decoded(path, index)
+    values = decoded.values
+    if decoded.palette is None and values.dtype.itemsize * 8 != bits:
+        shown = f"{short_name(path)}, whose {bits} bits are read as {values.dtype.itemsize * 8}"
+        raise BadInput("image", shown, "saved without compression, as grey")
+    # Pillow turns 8 bits round, and leaves 16 as they are.
+    if kind == WHITE_IS_ZERO and (plain or bits == 16):
+        decoded = Decoded(np.iinfo(values.dtype).max - values)
+    return _picture(path, decoded, scan, notes, area)
+
+
+def _page(file: Any) -> tuple[int, list[str]]:
+    """Index of the page to take, and what is said of it."""
+    count = len(file.pages)
+    if count == 1:
+        return 0, []
+    pages = [file.pages[index] for index in range(min(count, PAGES))]
+    whole = [index for index, page in enumerate(pages) if not _is_reduced(page)]
+    sizes = {index: pages[index].imagewidth * pages[index].imagelength for index in whole or [0]}
+    taken = max(sizes, key=lambda index: sizes[index])  # the first among equals
+    if taken == 0:
+        return 0, ["the first of several pages is taken"]
+    return taken, [f"page {taken + 1} of {count} is taken, the largest that is no reduced image"]
+
+
+def _is_reduced(page: Any) -> bool:
+    """Whether a page is a thumbnail or a mask of another one."""
+    new, old = (page.tags.get(code) for code in (SUBFILE, OLD_SUBFILE))
+    value = 0 if new is None else int(new.value)
+    return bool(value & (REDUCED | MASK)) or (old is not None and int(old.value) == OLD_REDUCED)
+
+
+def _check_samples(path: Path, page: Any) -> None:
+    bits, unsigned = page.bitspersample, int(page.sampleformat or 1) == 1
+    if bits not in (8, 16) or not unsigned:
+        shown = f"{short_name(path)} of {bits}{'' if unsigned else ' signed or floating'} bits"
+        raise BadInput("image", shown, "of 8 or 16 bits a sample")
+    shape = (page.imagelength, page.imagewidth, page.samplesperpixel)
+    check_size(short_name(path), shape, bits // 8)
+
+
+def _decoded_by_tifffile(page: Any) -> Decoded:
+    values = page.asarray()
+    if values.ndim == 3 and int(page.planarconfig) == 2:
+        values = np.moveaxis(values, 0, -1)
+    if int(page.photometric) == PALETTE:
+        return Decoded(values, (np.asarray(page.colormap).T >> 8).astype(np.uint8))
+    return Decoded(values)
+
+
+def _scan_of_tiff(file: Any, page: Any, path: Path) -> Scan:
+    """What the tags say, or a text file beside the picture."""
+    if file.sem_metadata:
+        return zeiss_scan(file.sem_metadata)
+    if file.fei_metadata:
+        return fei_scan(file.fei_metadata)
+    tag = page.tags.get(TESCAN_TAG)
+    if tag is not None:
+        raw = tag.value
+        text = raw if isinstance(raw, str) else bytes(raw).decode("latin-1")
+        return tescan_scan(text.replace("\0", "\n"))
+    beside = scan_beside(path)
+    if beside.source:
+        return beside
+    if file.is_ome:
+        return ome_scan(str(file.pages[0].description))
+    if file.is_imagej:
+        across, down = (page.tags.get(code) for code in RESOLUTION)
+        per_unit = tuple(None if tag is None else tag.value for tag in (across, down))
+        return imagej_scan(file.imagej_metadata or {}, (per_unit[0], per_unit[1]))
+    return beside
+
+
+def _check_upright(path: Path, orientation: Any) -> None:
+    if orientation not in (0, 1):
+        shown = f"{short_name(path)}, stored turned or mirrored (orientation {orientation})"
+        raise BadInput("image", shown, "stored upright", "turn it and save it again")
+
+
+def read_plain(path: Path, area: Area | None) -> SurfaceImage:
+    """Read a PNG or JPEG file."""
+    with path.open("rb") as file:
+        head = file.read(26)
+    # Pillow cuts 16 bits of colour or with alpha to 8.
+    if head.startswith(PNG) and len(head) == 26 and head[24] == 16 and head[25] != 0:
+        shown = f"{short_name(path)} of 16 bits in colour or with alpha"
+        raise BadInput("image", shown, "grey")
+    return _picture(path, _decoded(path), scan_beside(path), [], area)
+
+
+def _decoded(path: Path, page: int = 0) -> Decoded:
+    """Decode with Pillow."""
+    from PIL import Image
+
+    try:
+        opened = Image.open(path, formats=("TIFF", "PNG", "JPEG"))
+    except Image.DecompressionBombError as problem:
+        raise too_large(short_name(path)) from problem
+    with opened as image:
+        if page:
+            image.seek(page)
+        _check_upright(path, image.getexif().get(ORIENTATION, 1))
+        deep = image.mode.startswith("I;16")
+        if not deep and image.mode not in ("I", "L", "LA", "P", "RGB", "RGBA"):
+            shown = f"{short_name(path)} of mode {image.mode}"
+            raise BadInput("image", shown, "grey, of 8 or 16 bit")
+        samples = len(image.getbands())
+        width = 2 if deep else 4 if image.mode == "I" else 1
+        check_size(short_name(path), (image.height, image.width, samples), width)
+        values = np.asarray(image)
+        if image.mode != "P":
+            return Decoded(_unsigned(path, values))
+        palette = np.array(image.getpalette("RGB") or [], np.uint8).reshape(-1, 3)
+        # Entries that the file leaves out are black.
+        return Decoded(values, np.vstack([palette, np.zeros((256 - len(palette), 3), np.uint8)]))
+
+
+def _unsigned(
+    path: Path, values: Num[np.ndarray, "rows columns *samples"]
+) -> Num[np.ndarray, "rows columns *samples"]:
+    """Numbers of 8 or 16 bits without a sign."""
+    if values.dtype.kind == "u" and values.dtype.itemsize <= 2:
+        return values
+    low, high = (int(values.min()), int(values.max())) if values.size else (0, 0)
+    if values.dtype.kind != "i" or low < 0 or high > 65535:
+        shown = f"{short_name(path)} of type {values.dtype}"
+        raise BadInput("image", shown, "of 8 or 16 bits a sample")
+    return values.astype(np.uint16)
+
+
+def _picture(
+    path: Path, decoded: Decoded, scan: Scan, notes: list[str], asked: Area | None
+) -> SurfaceImage:
+    """The surface image: its grey, its pixel, and which part of it is surface."""
+    if decoded.has_alpha:
+        notes.append("the last channel, alpha, is left out")
+    grey = decoded.grey()
+    rows, columns = grey.shape
+    whole = Area(0, 0, columns, rows)
+    area = _surface(grey, scan, notes) if asked is None else asked
+    spot = decoded.coloured(area)
+    if spot is not None:
+        remedy = f"column {spot[0]} of row {spot[1]} is coloured; --area leaves a coloured part out"
+        raise BadInput("image", f"{short_name(path)} in colour", "grey", remedy)
+    pixel, why = scan.pixel_for(columns)
+    if why:
+        notes.append(f"no pixel size is taken from the file: {why}")
+    return SurfaceImage(
+        grey,
+        pixel,
+        int(np.iinfo(grey.dtype).max),
+        area,
+        "" if pixel is None else scan.source,
+        tuple(notes),
+        why,
+        None if area == whole or decoded.coloured(whole) is None else area,
+    )
+
+
+def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]) -> Area:
+    """The picture without its data bar: as the file says, or as it looks."""
+    rows, columns = grey.shape
+    bar = scan.rows_of_bar(columns, rows)
+    if 0 < bar < rows - SIDE[0]:
+        notes.append(f"the lowest {bar} rows are the data bar and left out")
+        return Area(0, 0, columns, rows - bar)
+    top, bottom = find_bar(grey)
+    # A margin at the sides: a figure cut from a page, or a panel beside the picture.
+    left, right = find_bar(np.ascontiguousarray(grey[top : rows - bottom].T))
+    counts = {"uppermost {} rows": top, "lowest {} rows": bottom, "first {} columns": left,
+              "last {} columns": right}  # fmt: skip
+    for where, count in counts.items():
+        if count:
+            notes.append(
+                f"the {where.format(count)} look like a data bar or a margin and are left out; "
+                "--area takes any part"
+            )
+    return Area(left, top, columns - right, rows - bottom)

@@ -156,10 +156,6 @@ SENTENCES = {
         "{name} lies at the end of what the law allows, {value}, so that it has no interval: the "
         "data ask for a simpler law"
     ),
-    "range_cut": (
-        "the data reach a stretch of {high:.3g}, but the range of a material ends at {highest:g}: "
-        "its file says {highest:g}"
-    ),
     "soft_fit": (
         "the shear modulus is {modulus_Pa:.3g} Pa, softer than any wall: was the {measured} given "
         "in MPa instead of kPa"

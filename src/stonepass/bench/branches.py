@@ -15,7 +15,7 @@ __all__ = ["Branches", "branches"]
 REVERSAL = 0.1  # of the range, that a change of direction has to reach
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Branches:
     """Which branch each point of a test belongs to.
 

@@ -29,6 +29,7 @@ from stonepass.bench.least_squares import (
 )
 from stonepass.bench.series_model import SeriesModel, series_curves
 from stonepass.caution import Caution, caution
+from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.stone import FRICTION
@@ -56,6 +57,7 @@ class Estimate:
     high: float | None
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class JointFit:
     """Friction and stiffness fitted together.

@@ -41,7 +41,7 @@ _Amounts: TypeAlias = Float[np.ndarray, " k"]
 _Shift: TypeAlias = Float[np.ndarray, " n"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Mistake:
     """A direction, or several, in which a mistake shifts the residuals.
 
@@ -55,7 +55,7 @@ class _Mistake:
     tried: int = 1  # alike directions, of which this is the one that was looked for
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Verdict:
     mistake: _Mistake
     chance: float

@@ -26,6 +26,7 @@ from stonepass.bench.objective import (
     stiffness_guess,
 )
 from stonepass.caution import Caution, caution
+from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, UnstableLaw, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, Unit, shown_constant
 from stonepass.materials.known_laws import constants_by_name, known_law, name_of_law
@@ -41,7 +42,6 @@ REWEIGHTED = 3  # times that proportional errors are taken anew from what the la
 FEWEST_OF_A_TREND = 8  # points
 UNLIKELY = 0.01  # chance of so clear a trend where there is none
 SHARE = 0.3  # of a constant in what the data cannot tell, for it to be named
-LARGEST_STRETCH = 3.0  # of the range that a material may state
 SOFT = 1e3  # Pa: no wall is as soft, a shear modulus below is probably in other units
 # Cautions after which 95 % intervals are approximate.
 UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "lack_of_fit",
@@ -65,6 +65,7 @@ class Constant:
     given: bool = False
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class FittedLaw:
     """A law fitted to data.
@@ -181,10 +182,8 @@ def fit_law(
         source=f"fitted to {len(off)} points of {data.measured}",
         test=data.measured,
         verified="fitted, not verified",
-        strain_range=(min(1.0, low), min(max(high, 1.0 + 1e-3), LARGEST_STRETCH)),
+        strain_range=(min(1.0, low), max(high, 1.0 + 1e-3)),
     )
-    if high > LARGEST_STRETCH:
-        open_ends.append(caution("range_cut", high=high, highest=LARGEST_STRETCH))
     unstable, soft = _unstable(material, data)
     return FittedLaw(
         material=material,

@@ -63,7 +63,7 @@ class Data(Protocol):
         """First stretch at which what was measured would not keep its shape; None where none."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Objective:
     """Residuals of a law over the error that is expected of each point.
 

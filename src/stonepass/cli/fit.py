@@ -140,16 +140,16 @@ def _fit(
     with working("fitting"):
         name = Path(inputs["file"]).stem
         found = fit_law(data, law, _given(law, fix or []), name, relative=relative, free=free or ())
-    if figure is not None:
-        from stonepass.report.fit_figure import fit_figure
-        from stonepass.report.style import save
-
-        save(fit_figure(found), figure)
     if json:
         print_json(fit_record(found, inputs | {"relative": relative}).to_dict())
     else:
         warn(found.warnings)  # before the numbers, which they may speak against
         show(fit_table(found), DISCLAIMER)
+    if figure is not None:
+        from stonepass.report.fit_figure import fit_figure
+        from stonepass.report.style import save
+
+        save(fit_figure(found), figure)
     if found.unstable:
         warn([f"these constants, {found.told}, are not a solid: {found.unstable}"])
         if out is not None:

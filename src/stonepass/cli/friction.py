@@ -109,17 +109,17 @@ def command(
     from stonepass.records.friction import friction_record
     from stonepass.report.friction_report import friction_table
 
-    if figure is not None:
-        from stonepass.report.friction_figure import friction_figure
-        from stonepass.report.style import save
-
-        save(friction_figure(found), figure)
     name = image.name.encode(errors="replace").decode()
     if json:
         print_json(friction_record(found, name).to_dict())
     else:
         show(friction_table(found, name), DISCLAIMER)
         warn(found.warnings)
+    if figure is not None:
+        from stonepass.report.friction_figure import friction_figure
+        from stonepass.report.style import save
+
+        save(friction_figure(found), figure)
     return 0
 
 

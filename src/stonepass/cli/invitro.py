@@ -82,6 +82,12 @@ def command(
         solver = JobSolver(pool, folder, progress)
         found = fit_friction(points, setting, friction, solver)
         curves = [] if figure is None else size_curves(found.comparison, setting, solver)
+    if json:
+        print_json(invitro_record(found, data.name).to_dict())
+    else:
+        show(*(f"This fit does not hold: {each}." for each in found.objections))
+        warn(each for each in series_warnings(found) if each not in found.objections)
+        show(*invitro_table(found), DISCLAIMER)
     if out is not None:
         write_invitro(found, out)
     if figure is not None:
@@ -89,10 +95,4 @@ def command(
         from stonepass.report.style import save
 
         save(invitro_figure(found, curves), figure)
-    if json:
-        print_json(invitro_record(found, data.name).to_dict())
-    else:
-        show(*(f"This fit does not hold: {each}." for each in found.objections))
-        warn(each for each in series_warnings(found) if each not in found.objections)
-        show(*invitro_table(found), DISCLAIMER)
     return 0 if all(answer.outcome.answered for answer in found.comparison.answers) else 1

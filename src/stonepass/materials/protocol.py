@@ -16,6 +16,7 @@ from stonepass.units import Values
 
 __all__ = ["NAMESPACE", "ClosedForm", "Law", "Material", "MayBeDefective", "names_a_file"]
 
+LARGEST_STRETCH = 15.0  # that a range may state; no rubber goes farther
 NAMESPACE = (
     "exp", "log", "sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "arctan",
     "maximum", "minimum", "abs",
@@ -107,10 +108,11 @@ class Material:
             ) from problem
         low, high = self.strain_range
         require(
-            0.0 < low <= 1.0 < high <= 3.0,
+            0.0 < low <= 1.0 < high <= LARGEST_STRETCH,
             "strain_range",
             list(self.strain_range),
-            "two circumferential stretches [low, high] with 0 < low <= 1 < high <= 3",
+            "two circumferential stretches [low, high] with 0 < low <= 1 < high <= "
+            f"{LARGEST_STRETCH:g}",
         )
 
 

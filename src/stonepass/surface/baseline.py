@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.equality import compared_by_value
 
 __all__ = ["MARGIN", "POWERS", "Baseline", "fit_baseline"]
 
@@ -21,6 +22,7 @@ MARGIN = 0.5  # of the shortest wave: at each end, where the slope is not looked
 MOST = 0.25  # of the length: the widest margin at each end
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class Baseline:
     """A fitted baseline.

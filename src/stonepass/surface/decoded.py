@@ -15,7 +15,7 @@ COLOURED = 2  # grey levels of 255 by which channels may differ in a grey pictur
 ROWS = 512  # compared at a time
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Decoded:
     """Samples of a picture as the file has them.
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from stonepass.array_types import Bool, Float
 from stonepass.caution import Caution, caution
+from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 from stonepass.surface.baseline import MARGIN, POWERS, Baseline, fit_baseline
 from stonepass.surface.gaps import BRIDGED
@@ -107,6 +108,7 @@ class Spread:
         return total if np.isfinite(total) else None
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class SurfaceFriction:
     """The friction coefficient of a surface, and all that it was computed from.
@@ -194,7 +196,7 @@ class _Choices:
     margin: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Surface:
     """Profiles as they are sampled, and as heights; how grey becomes height, by each scaling."""
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stonepass.array_types import Num
+from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 
 __all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]
@@ -44,6 +45,7 @@ class Area:
         )
 
 
+@compared_by_value
 @dataclass(frozen=True)
 class SurfaceImage:
     """Grey values or heights, row by row from the top.

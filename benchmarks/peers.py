@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from cases import tube
 from measure import Row, calculix, cpu_seconds, spend, stonepass
+from rival import CASES, KINDS, Run, case, search
 
 import stonepass as sp
 from stonepass.export.inp import write_inp
@@ -21,6 +22,8 @@ from stonepass.model.models.seated_balance import Closure, balance_pressure
 from stonepass.model.states.seated_state import Contact, SeatedState
 
 FINE = 0.025
+# Errors up to which a tuned deck counts: of α₀ in degrees, of σ(π/2) and P_ucr relative.
+ALLOWED = (0.5, 0.02, 0.01)
 OURS = ("fast", "standard")
 ALONE = ", state alone"
 # By seating and element: how many times as much processor time CalculiX takes, at least.
@@ -67,12 +70,100 @@ def peers(folder: Path) -> Iterator[tuple[str, list[Solved], Solved]]:
 
 def ours(kind: str, level: str, *, alone: bool = False, repeats: int = 7) -> Solved:
     """A whole answer with the estimate of its error; `alone`, without it, as CalculiX has none."""
-    case = latex(kind, level)
-    only = LEVELS[level].resolution if alone else None
-    answer = sp.solve(case, only)
+    return _solved(latex(kind, level), f"stonepass, {level}", alone=alone, repeats=repeats)
+
+
+def _solved(asked: sp.Case, who: str, *, alone: bool = False, repeats: int = 7) -> Solved:
+    only = LEVELS[asked.numerics.accuracy].resolution if alone else None
+    answer = sp.solve(asked, only)
     assert isinstance(answer.contact, SeatedState)
-    seconds = cpu_seconds(lambda: sp.solve(case, only), repeats)
-    return Solved(f"stonepass, {level}{ALONE if alone else ''}", seconds, _numbers(answer.contact))
+    seconds = cpu_seconds(lambda: sp.solve(asked, only), repeats)
+    return Solved(f"{who}{ALONE if alone else ''}", seconds, _numbers(answer.contact))
+
+
+@dataclass(frozen=True)
+class Duel:
+    """The cheapest of the tuned decks of one case beside ours.
+
+    Attributes
+    ----------
+    name, kind : str
+        Case and seating.
+    tried, ended : int
+        Decks that were run, and those that came to an end near enough to the solution.
+    best : Solved
+        The cheapest of them.
+    settings : str
+        Its settings.
+    mine : list of Solved
+        Ours at every accuracy, with and without the estimate of the error.
+    exact : Solved
+        Our reference.
+    """
+
+    name: str
+    kind: str
+    tried: int
+    ended: int
+    best: Solved
+    settings: str
+    mine: list[Solved]
+    exact: Solved
+
+    def ratios(self) -> Iterator[tuple[str, float]]:
+        """How many times as much the tuned deck takes, by those of ours that are nowhere worse."""
+        for each in self.mine:
+            pairs = zip(each.errors(self.exact), self.best.errors(self.exact), strict=True)
+            if all(a <= b for a, b in pairs):
+                yield each.who, self.best.cpu / each.cpu
+
+
+def duels(folder: Path) -> Iterator[Duel]:
+    """Search the tuned decks of every case and put the cheapest beside ours."""
+    exact = {
+        (name, kind): _solved(case(name, kind, "reference"), "stonepass, reference", repeats=1)
+        for name in CASES
+        for kind in KINDS
+    }
+
+    def usable(name: str, kind: str, run: Run) -> bool:
+        if run.contact is None:
+            return False
+        found = Solved("", run.cpu, _numbers(run.contact))
+        pairs = zip(found.errors(exact[name, kind]), ALLOWED, strict=True)
+        return all(error <= allowed for error, allowed in pairs)
+
+    for name, kind, runs in search(folder, usable):
+        good = [each for each in runs if usable(name, kind, each)]
+        if not good:
+            continue
+        best = min(good, key=lambda each: each.cpu)
+        assert best.contact is not None
+        mine = [
+            _solved(case(name, kind, level), f"stonepass, {level}", alone=alone)
+            for level in OURS
+            for alone in (True, False)
+        ]
+        found = Solved(f"CalculiX, {best.settings.element}", best.cpu, _numbers(best.contact))
+        yield Duel(name, kind, len(runs), len(good), found, str(best.settings), mine,
+                   exact[name, kind])  # fmt: skip
+
+
+def duel_rows(fought: list[Duel]) -> Iterator[Row]:
+    """The least and the most favourable ratio by seating, with and without our error estimate."""
+    for kind in KINDS:
+        for alone in (True, False):
+            found = [
+                (ratio, duel.name)
+                for duel in fought
+                if duel.kind == kind
+                for who, ratio in duel.ratios()
+                if (ALONE in who) is alone
+            ]
+            what = "state alone" if alone else "with the error estimate"
+            for word, (ratio, name) in (("least", min(found)), ("most", max(found))):
+                text = f"{kind}, tuned CalculiX over ours, {what}, {word}: {name}"
+                yield Row("duels", text, ratio, "×")
 
 
 def theirs(kind: str, element: str, folder: Path) -> Solved:

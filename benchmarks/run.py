@@ -17,12 +17,17 @@ import subprocess
 import sys
 from itertools import chain
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from measure import ONE_THREAD, Row, machine
 
+if TYPE_CHECKING:
+    from peers import Duel
+
 ROOT = Path(__file__).resolve().parents[1]
 SECTIONS = {
-    "peers": "Beside CalculiX",
+    "peers": "Beside CalculiX on the exported deck",
+    "duels": "Beside CalculiX at its best",
     "scaling": "Growth with unknowns",
     "one answer": "One answer, after import (processor time)",
     "many": "Many answers (clock)",
@@ -51,8 +56,9 @@ def main() -> None:
 
 def measured(folder: Path) -> dict:
     """Run everything; each row is printed as it is known."""
-    from peers import cold_ratios, peers, ratios
+    from peers import calculix, cold_ratios, duel_rows, duels, peers, ratios
     from phases import phases
+    from rival import SETTINGS
     from workloads import LARGEST_EXPONENT, commands, many, processes, scalings, single
 
     described = machine()
@@ -76,6 +82,9 @@ def measured(folder: Path) -> dict:
                   f"σ(90°) {sigma:.2%}, P_ucr {critical:.2%}")  # fmt: skip
         for row in chain(ratios(kind, solved, exact), cold_ratios(kind, solved)):
             tell(row)
+    fought = [] if calculix() is None else list(duels(folder))
+    for row in duel_rows(fought) if fought else ():
+        tell(row)
     for scaling in scalings():
         growth.append({"what": scaling.what, "dofs": scaling.dofs, "cpu_s": scaling.seconds,
                        "exponent": scaling.exponent})  # fmt: skip
@@ -88,9 +97,29 @@ def measured(folder: Path) -> dict:
         "code": commit(),
         "machine": described,
         "beside": beside,
+        "duels": [duel_record(each) for each in fought],
+        "settings": {name: list(values) for name, values in SETTINGS.items()},
         "scaling": growth,
         "rows": [row.record() for row in rows],
         "phases": phases(),
+    }
+
+
+def duel_record(duel: Duel) -> dict[str, Any]:
+    """One case beside its cheapest tuned deck, JSON-ready."""
+    angle, sigma, critical = duel.best.errors(duel.exact)
+    return {
+        "case": duel.name,
+        "seating": duel.kind,
+        "settings": duel.settings,
+        "decks_run": duel.tried,
+        "decks_near_enough": duel.ended,
+        "cpu_s": duel.best.cpu,
+        "contact_angle_error_deg": angle,
+        "equator_pressure_error": sigma,
+        "critical_pressure_error": critical,
+        "ours_cpu_s": {each.who: each.cpu for each in duel.mine},
+        "ratios": dict(duel.ratios()),
     }
 
 

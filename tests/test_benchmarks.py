@@ -70,15 +70,32 @@ def test_the_page_has_every_number(benchmarks):
         "equator_pressure_error": 0.005,
         "critical_pressure_error": 0.001,
     }
+    duel = {
+        "case": "a tube",
+        "seating": "pressed",
+        "settings": "CAX8R, 3 rows",
+        "decks_run": 8,
+        "decks_near_enough": 5,
+        "cpu_s": 6.25,
+        "contact_angle_error_deg": 0.25,
+        "equator_pressure_error": 0.0125,
+        "critical_pressure_error": 0.0075,
+        "ratios": {"stonepass, fast, state alone": 14.0, "stonepass, standard": 3.0},
+    }
     found = {
         "date": "2026-01-01",
         "code": "abc",
         "machine": {"cores": "2"},
         "beside": [beside],
+        "settings": {"element": ["CAX8R"], "rows": [3, 4]},
+        "duels": [duel],
         "scaling": [{"what": "w", "dofs": [10, 20], "cpu_s": [1.0, 2.0], "exponent": 1.0}],
         "rows": [row.record() for row in rows],
         "phases": {"case": {"residual": "12%"}},
     }
-    text = page(found, {"peers": "Peers", "scaling": "Growth", "memory": "Memory"})
-    for words in ("123 ×", "met", "**missed**", "31.50", "0.500%", "| residual | 12% |", "abc"):
+    text = page(
+        found, {"peers": "Peers", "duels": "At its best", "scaling": "Growth", "memory": "Memory"}
+    )
+    for words in ("123 ×", "met", "**missed**", "31.50", "0.500%", "| residual | 12% |", "abc",
+                  "rows 3, 4", "5 of 8", "0.25°", "1.25%", "| 14 × | – | 3 × |"):  # fmt: skip
         assert words in text

@@ -62,8 +62,10 @@ def started(tmp_path):
             script.write_text(WORK)
             command = [sys.executable, str(script), *arguments]
         process = subprocess.Popen(
-            command, stdout=pipe, stderr=pipe, text=True, start_new_session=True
-        )
+            command, stdout=pipe, stderr=pipe, text=True, start_new_session=True,
+            # A process that a shell has put in the background ignores Ctrl-C, and so would this.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )  # fmt: skip
         begun.append(process)
         return process
 

@@ -368,15 +368,11 @@ def test_what_is_in_fig_6(drawn, tmp_path):
     assert [row["outcome"] for row in missing] == ["BEYOND_CLOSURE"]
 
 
-def test_folders_that_cannot_be_written_are_refused_before_anything_is_solved(tmp_path, solved):
+def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_solved(tmp_path, solved):
     file = tmp_path / "file"
     file.write_text("")
-    for out, cache, what in (
-        (file, tmp_path / "cache", "output folder"),
-        (tmp_path / "out", file, "cache folder"),
-    ):
-        with pytest.raises(BadInput, match=f"{what} is .*must be writable"):
-            reproduce(["fig5"], out, ASKED, cache_folder=cache)
+    with pytest.raises(BadInput, match=r"output folder is .*must be writable"):
+        reproduce(["fig5"], file, ASKED, cache_folder=tmp_path / "cache")
     assert solved == []
 
 

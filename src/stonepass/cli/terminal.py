@@ -79,9 +79,10 @@ def _never_cut(table: Table) -> Table:
         numbers = column.justify == "right"
         words = [word for text in cells for word in ([text] if numbers else text.split())]
         widths.append(max(map(cell_len, [*header.split(), *words]), default=0))
-    for _ in range(console.width - borders - sum(widths)):  # what is left goes to the narrowest
-        k = max(range(len(widths)), key=lambda k: natural[k] - widths[k])
-        widths[k] += 1
+    room = max(0, console.width - borders - sum(widths))
+    for k in sorted(range(len(widths)), key=natural.__getitem__):  # short columns stay in one line
+        more = min(room, natural[k] - widths[k])
+        widths[k], room = widths[k] + more, room - more
     for column, width in zip(table.columns, widths, strict=True):
         column.width = width
     table.width = sum(widths) + borders

@@ -31,6 +31,7 @@ def element_strip(
     open_to: float,
     edges: tuple[float, float],
     whole: bool,
+    column: float = COLUMN,
 ) -> tuple[Grid, Float[np.ndarray, "points 2"]]:
     """Return the element strip at its start and the displacement of each of its points.
 
@@ -48,6 +49,8 @@ def element_strip(
     whole : bool
         Whether the wall is the whole tube; otherwise the strip starts a little beyond the plane of
         symmetry.
+    column : float
+        Largest angle of one element of the strip, in rad.
 
     Returns
     -------
@@ -63,8 +66,8 @@ def element_strip(
     start = open_to - CLEARANCE
     first, last = (_angle_at(place, REACH * stretch * edge) for edge in edges)
     if not whole:
-        first = np.pi / 2.0 - 1.5 * COLUMN  # a little beyond the plane of symmetry
-    count = int(np.ceil((last - first) / COLUMN))
+        first = np.pi / 2.0 - 1.5 * column  # a little beyond the plane of symmetry
+    count = int(np.ceil((last - first) / column))
     angles = np.linspace(first, last, count + 1)
     layers = np.array([1.0 - THICKNESS / xi, 1.0])
 

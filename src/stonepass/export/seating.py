@@ -73,6 +73,8 @@ class Seating:
         Whether the wall is the whole tube.
     fine : float
         Length of elements in the contact.
+    stiffness : float
+        Penalty of the contact times `fine` over w″(1).
     """
 
     case: Case
@@ -82,6 +84,7 @@ class Seating:
     facing: slice
     whole: bool
     fine: float
+    stiffness: float = PENALTY
 
     @property
     def friction(self) -> float:
@@ -97,7 +100,7 @@ class Seating:
     @property
     def penalty(self) -> float:
         """Contact pressure over penetration, in Pa per inner radius."""
-        return PENALTY * hoop_modulus(self.case.ureter.material.law) / self.fine
+        return self.stiffness * hoop_modulus(self.case.ureter.material.law) / self.fine
 
     @property
     def loaded(self) -> bool:

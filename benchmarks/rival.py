@@ -1,0 +1,155 @@
+"""CalculiX at its best: decks for the same case, searched over a stated grid of settings.
+
+The exported deck is made to converge for every case; a deck tuned for one case is several times
+cheaper. Here element, length of elements, rows, stiffness of the contact and increments are
+searched for each seating of one case, and the best settings are tried on the other cases.
+"""
+
+from __future__ import annotations
+
+import itertools
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from cases import tube
+from measure import spend
+
+import stonepass as sp
+from stonepass.errors import BadInput
+from stonepass.export.element_strip import element_strip
+from stonepass.export.grid import grid
+from stonepass.export.inp import write_inp
+from stonepass.export.results import read_contact
+from stonepass.export.seating import Seating, seating, seating_of
+from stonepass.model.states.nondimensional import profile_of
+from stonepass.model.states.seated_state import Contact
+
+GROWTH = 1.15  # largest ratio of neighbouring elements along the tube, beyond the contact
+LONGEST = 0.4  # element along the tube, in inner radii
+REACH = 0.85  # of the elements of one length, over the guessed contact
+FACING_REACH = 1.5  # of the faces that may touch, over the guessed contact, as in the exported deck
+COLUMN = 2.0  # length of an element of the stone over that of one of the wall
+SETTINGS = {
+    "element": ("CAX8R", "CAX8"),
+    "fine": (0.025, 0.04),  # length of elements in the contact, over R_a
+    "rows": (3, 4),
+    "stiffness": (2.0, 10.0),  # penalty × length of an element over w''(1)
+    "increments": (10, 20),  # of the second step, at least
+}
+CASES = {
+    "latex, η 1.5, ξ 1.2": ("latex", 1.5, 1.2, 0.475),
+    "latex, η 1.25, ξ 1.3": ("latex", 1.25, 1.3, 0.3),
+    "latex, η 2.5, ξ 1.1": ("latex", 2.5, 1.1, 0.5),
+}
+KINDS = ("frictionless", "pressed")
+TRIED = 4  # settings of the first case, its cheapest ones, that the others are solved with
+SECONDS = 120.0  # after which a run is given up
+
+
+@dataclass(frozen=True)
+class Settings:
+    """One deck of the grid."""
+
+    element: str
+    fine: float
+    rows: int
+    stiffness: float
+    increments: int
+
+    def __str__(self) -> str:
+        return (
+            f"{self.element}, {self.fine:g} R_a, {self.rows} rows, stiffness {self.stiffness:g}, "
+            f"{self.increments} increments"
+        )
+
+
+@dataclass(frozen=True)
+class Run:
+    """A deck that was run: processor seconds and the contact, or None where it did not end."""
+
+    settings: Settings
+    cpu: float
+    contact: Contact | None
+
+
+Usable = Callable[[str, str, Run], bool]
+
+
+def case(name: str, kind: str, accuracy: str = "standard") -> sp.Case:
+    """Return one of `CASES` with a seating."""
+    material, eta, xi, friction = CASES[name]
+    return tube(kind, material, eta, xi, friction, accuracy=accuracy)
+
+
+def all_settings() -> list[Settings]:
+    """Return every point of the grid."""
+    return [Settings(*point) for point in itertools.product(*SETTINGS.values())]  # type: ignore[arg-type]
+
+
+def tuned(asked: sp.Case, settings: Settings) -> Seating:
+    """Return the exported seating with the mesh and the contact of the settings."""
+    plain = seating(asked, settings.fine)
+    guess = settings.fine * plain.facing.stop / FACING_REACH  # of the contact's edge
+    axial = _axial(REACH * guess, settings.fine, asked.numerics.half_length)
+    strip, travel = element_strip(
+        asked, seating_of(asked), profile_of(asked), 1.0, (-guess, guess), False,
+        COLUMN * settings.fine / asked.size_ratio,
+    )  # fmt: skip
+    return replace(
+        plain,
+        wall=grid(np.linspace(1.0, asked.wall_ratio, settings.rows + 1), axial),
+        element_strip=strip,
+        travel=travel,
+        facing=slice(0, int(np.searchsorted(axial, FACING_REACH * guess))),
+        stiffness=settings.stiffness,
+    )
+
+
+def _axial(even: float, fine: float, end: float) -> np.ndarray:
+    """Lines along the tube: elements of one length, then growing ones up to the tube's end."""
+    count = int(np.ceil(even / fine))
+    lines = [fine * k for k in range(count + 1)]
+    while lines[-1] < end:
+        lines.append(lines[-1] + min(GROWTH * (lines[-1] - lines[-2]), LONGEST))
+    beyond = np.array(lines[count:]) - lines[count]
+    beyond *= (end - lines[count]) / beyond[-1]
+    return np.concatenate([lines[:count], lines[count] + beyond])
+
+
+def run(name: str, kind: str, settings: Settings, folder: Path) -> Run:
+    """Write a deck, run it on one thread and read its contact."""
+    folder.mkdir(parents=True, exist_ok=True)
+    model = tuned(case(name, kind), settings)
+    job = f"{list(CASES).index(name)}_{kind}_{'_'.join(map(str, vars(settings).values()))}"
+    deck = write_inp(model, settings.element, increment=model.length / settings.increments)
+    (folder / f"{job}.inp").write_text(deck, encoding="utf-8")
+    spent = spend(["timeout", f"{SECONDS:g}", "ccx", job], folder)
+    contact = None
+    if spent.code == 0:
+        with suppress(BadInput):  # it ended early, with an increment too small
+            contact = read_contact(model, folder / f"{job}.dat")
+    print(f"  {job}: {spent.cpu:.1f} s, {'ended' if contact else 'no result'}", file=sys.stderr)
+    return Run(settings, spent.cpu, contact)
+
+
+def search(folder: Path, usable: Usable) -> Iterator[tuple[str, str, list[Run]]]:
+    """Yield case, seating and runs: the whole grid for the first case, its best for the others.
+
+    Parameters
+    ----------
+    folder : Path
+        For decks and results.
+    usable : callable
+        Whether the run of a case with a seating is near enough to the solution.
+    """
+    first, *others = CASES
+    for kind in KINDS:
+        runs = [run(first, kind, settings, folder) for settings in all_settings()]
+        yield first, kind, runs
+        good = sorted((each for each in runs if usable(first, kind, each)), key=lambda r: r.cpu)
+        for name in others:
+            yield name, kind, [run(name, kind, each.settings, folder) for each in good[:TRIED]]

@@ -80,12 +80,17 @@ def _cards(found: Assessment) -> list[str]:
             beside = "; measured above stones: 1.9 to 6 kPa" if values is found.present else ""
             cards.append((median, f"{name}, median; 90 %: {interval}{beside}"))
     limit = f"{found.patient.limit / 1e3:.4g} kPa"
+    below, held = found.below_limit, found.below_limit_held
+    about = f"critical pressure below the limit, {limit}"
+    if held is None or below is None or found.loose == 0.0:
+        at_limit = (f"of samples: {about}", below)
+    else:
+        at_limit = (
+            f"of the samples with the stone held: {about} ({below.describe()} of all samples)",
+            held,
+        )
     for name, fraction in (
-        (
-            f"of the samples where the stone is held: critical pressure below the limit, {limit}",
-            found.below_limit_held,
-        ),
-        (f"of all samples: critical pressure below the limit, {limit}", found.below_limit),
+        at_limit,
         ("of samples: critical pressure below the present one", found.below_present),
     ):
         if fraction is not None:

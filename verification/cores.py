@@ -5,18 +5,21 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from typing import Any
+
+from stonepass.studies.executor import CORES, process_pool
 
 INTERVAL = 15.0  # seconds between lines
 
 
 def on_all_cores(what: str, function: Callable[..., Any], jobs: Sequence[tuple]) -> list[Any]:
-    """Call `function` with each tuple of arguments, in new processes; results in order."""
+    """Call `function` with each tuple of arguments, in new processes; results in order.
+
+    The processes end with this one, however it ends.
+    """
     found: list[Any] = []
     last = time.monotonic()
-    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+    with process_pool(CORES) as pool:
         for result in pool.map(function, *zip(*jobs, strict=True)):
             found.append(result)
             if time.monotonic() - last >= INTERVAL:

@@ -12,15 +12,15 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from datetime import date
-from multiprocessing import get_context
 from pathlib import Path
 
 import ngsolve as ng
 from page import Section, renewed
 
 import stonepass
+from stonepass.studies.executor import CORES, process_pool
 
 SIDE_BY_SIDE = ("far_field", "refinement", "accuracy", "half_length", "pressed", "calibration")
 # Each has its own workers.
@@ -67,7 +67,7 @@ def main(names: list[str]) -> int:
 
 def sections(names: Sequence[str]) -> Iterator[tuple[str, Section, float]]:
     """Run the sections of one process side by side, then the others one by one."""
-    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+    with process_pool(CORES) as pool:
         runs = [pool.submit(run, name) for name in names if name in SIDE_BY_SIDE]
         for finished in as_completed(runs):
             yield finished.result()

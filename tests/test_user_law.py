@@ -277,3 +277,13 @@ def test_bad_constant_files_are_refused(tmp_path, text, words):
 def test_bad_names_are_refused(text):
     with pytest.raises(sp.BadInput, match="material is"):
         load_material(text)
+
+
+def test_constants_in_kilopascals_are_asked_about(tmp_path):
+    """A latex tube whose C10 is given as 146.5 instead of 146.5e3."""
+    mine = load_material(write(tmp_path, RUBBER.replace("146.5e3", "146.5")))
+    answer = sp.critical_pressure(
+        sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=mine), **FAST
+    )
+    (asked,) = [each for each in answer.warnings if each.code == "soft_law"]
+    assert "is 293 Pa, softer than any wall: are its constants in kPa?" in str(asked)

@@ -25,13 +25,12 @@ from stonepass.errors import BadInput, UnstableLaw
 from stonepass.materials.constants import Unit, shown_constant
 from stonepass.materials.known_laws import constants_by_name, name_of_law
 from stonepass.materials.protocol import Law, Material
-from stonepass.materials.stability import check
+from stonepass.materials.stability import SOFTEST_WALL, check
 
 __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
 FEWEST_OF_A_TREND = 8  # points
 UNLIKELY = 0.01  # chance of so clear a trend where there is none
-SOFT = 1e3  # Pa: no wall is as soft, a shear modulus below is probably in other units
 # Cautions after which 95 % intervals are approximate.
 UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "lack_of_fit",
           "zero_offset", "rest_size", "slack", "axial_rest_length", "hysteresis", "runs_differ",
@@ -230,7 +229,7 @@ def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
     at = data.unstable_at(material.law)
     if at is not None:
         return f"at stretch {at:.3g} a strip would not keep its shape", []
-    if state.shear < SOFT:
+    if state.shear < SOFTEST_WALL:
         return "", [caution("soft_fit", modulus_Pa=state.shear, measured=data.measured)]
     return "", []
 

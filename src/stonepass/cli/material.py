@@ -11,7 +11,6 @@ __all__ = ["app"]
 app = typer.Typer(help="List, show and check material laws.", rich_markup_mode=None)
 
 ONE_SIDED = 1e-4  # relative difference of a modulus in tension and in compression that is shown
-SOFT = 1e3  # Pa: no wall is as soft, constants are probably in kPa
 
 Name = Annotated[
     str, typer.Argument(metavar="NAME", help="Catalogue name, law.toml or file.py:function.")
@@ -117,7 +116,7 @@ def check_material(name: Name) -> int:
     from stonepass.caution import caution
     from stonepass.cli.terminal import show, warn
     from stonepass.inputs.material_file import find_material
-    from stonepass.materials.stability import check, one_sided_moduli
+    from stonepass.materials.stability import SOFTEST_WALL, check, one_sided_moduli
     from stonepass.model.states.law_trial import check_in_engine
 
     entry = find_material(name)
@@ -127,7 +126,7 @@ def check_material(name: Name) -> int:
     sides = zip(one_sided_moduli(entry.law, 1.0), one_sided_moduli(entry.law, -1.0), strict=True)
     rows = {name: _modulus(*both) for name, both in zip(names, sides, strict=True)}
     rows["r-z shear modulus"] = _modulus(state.shear, state.shear)
-    if state.shear < SOFT:
+    if state.shear < SOFTEST_WALL:
         warn([caution("soft_law", material=entry.name, modulus_Pa=state.shear)])
     show(
         f"{entry.name}: no stress at rest, strongly elliptic over its strain range at axial "

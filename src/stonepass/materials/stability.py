@@ -15,10 +15,11 @@ from stonepass.materials.ellipticity import weakest
 from stonepass.materials.protocol import Law, Material, MayBeDefective
 from stonepass.strain import INNER_WALL
 
-__all__ = ["RestState", "check", "one_sided_moduli", "rest_state"]
+__all__ = ["SOFTEST_WALL", "RestState", "check", "one_sided_moduli", "rest_state"]
 
 TINY = 1e-7  # a strain that tells one side of rest from the other
 MOST_SIDES = 12
+SOFTEST_WALL = 1e3  # Pa, a shear modulus: constants of a softer law are probably in kPa
 MODULUS_RANGE = (1.0, 1e11)  # Pa: softer than any tissue, stiffer than steel
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from stonepass.caution import Caution, caution
-from stonepass.materials.derivatives import hoop_modulus
+from stonepass.materials.derivatives import hoop_modulus, rest_moduli
+from stonepass.materials.stability import SOFTEST_WALL
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.problem import Problem
 
-__all__ = ["ring_buckling", "strain_range"]
+__all__ = ["ring_buckling", "soft_law", "strain_range"]
 
 
 def strain_range(case: Problem) -> list[Caution]:
@@ -22,6 +23,15 @@ def strain_range(case: Problem) -> list[Caution]:
     if lumen is not None and lumen < low:
         found.append(caution("lumen_below_range", lumen=lumen, **known))
     return found
+
+
+def soft_law(case: Problem) -> list[Caution]:
+    """A caution where the wall is so soft that its constants are probably in another unit."""
+    material = case.ureter.material
+    shear = rest_moduli(material.law)[1]
+    if shear >= SOFTEST_WALL:
+        return []
+    return [caution("soft_law", material=material.name, modulus_Pa=shear)]
 
 
 def ring_buckling(case: Problem) -> list[Caution]:

@@ -26,7 +26,7 @@ def draw_balance(
     axes.plot(degrees, resistance / 1e3, color=COLOURS["blue"], label="resistance")
     if friction is not None:
         axes.plot(degrees, friction / 1e3, ":", color=COLOURS["blue"], linewidth=0.9,
-                  label="of it friction")  # fmt: skip
+                  label="part due to friction")  # fmt: skip
     axes.plot(degrees, drive / 1e3, color=COLOURS["green"], label="drive")
     if answer.pressure is not None and answer.critical_angle is not None:
         height = np.interp(answer.critical_angle, alpha, np.asarray(resistance)) / 1e3

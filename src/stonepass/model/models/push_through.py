@@ -16,7 +16,7 @@ from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
 from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
 from stonepass.model.states.state_solver import StateSolver
-from stonepass.model.validity import ring_buckling, strain_range
+from stonepass.model.validity import ring_buckling, soft_law, strain_range
 
 __all__ = ["PushThrough", "PushThroughDetail"]
 
@@ -96,6 +96,7 @@ class PushThrough:
             seconds=found.seconds,
             warnings=(
                 *case.stone.shape.warnings(),
+                *soft_law(case),
                 *strain_range(case),
                 *ring_buckling(case),
                 *state.warnings(),

@@ -34,7 +34,7 @@ from stonepass.model.seating import SEATINGS, Seating
 from stonepass.model.states.seated_state import Contact, NoSeat, SeatedState
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.stone import FRICTION
-from stonepass.model.validity import ring_buckling, strain_range
+from stonepass.model.validity import ring_buckling, soft_law, strain_range
 from stonepass.units import Values
 
 __all__ = ["Closure", "SeatedBalance", "SeatedBalanceDetail", "balance", "balance_pressure"]
@@ -282,6 +282,7 @@ def balance(
         seconds=seated.solver.seconds,
         warnings=(
             *case.stone.shape.warnings(),
+            *soft_law(case),
             *strain_range(case),
             *ring_buckling(case),
             *seated.warnings(),

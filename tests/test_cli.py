@@ -446,6 +446,14 @@ def test_size_json(cli):
     assert no_lengths["critical_size_ratio"] > 1.2
 
 
+def test_options_of_an_earlier_version_are_taken_by_their_present_names(cli):
+    picture = Path(__file__).parents[1] / "examples" / "known_slopes.png"
+    now = cli("friction", picture, "--pixel", "0.5um", "--height-range", "24.8um", "--json")
+    code, out, err = cli("friction", picture, "--pixel", "0.5um", "--relief=24.8um", "--json")
+    assert (code, out) == now[:2]
+    assert err.startswith("warning: --relief is called --height-range now\n")
+
+
 @pytest.mark.parametrize("columns", [30, 50, 80])
 def test_a_narrow_terminal_cuts_no_number(cli, monkeypatch, columns):
     monkeypatch.setenv("COLUMNS", str(columns))

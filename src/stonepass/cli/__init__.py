@@ -20,6 +20,7 @@ __all__ = ["main"]
 
 EXIT_NO_ANSWER, EXIT_BAD_REQUEST, EXIT_FAULT = 1, 2, 3
 EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
+RENAMED = {"--relief": "--height-range", "--pairs": "--opening-curve"}
 NO_MEMORY = (
     "bad_alloc",
     "allocate memory",
@@ -45,6 +46,7 @@ def run(arguments: list[str]) -> int:
     from stonepass.cli.app import app
     from stonepass.errors import StonepassError
 
+    arguments = [_renamed(each) for each in arguments]
     if arguments in ([], ["material"]):
         arguments = [*arguments, "--help"]
     try:
@@ -77,6 +79,15 @@ def run(arguments: list[str]) -> int:
             f"{type(problem).__name__}: {problem} (STONEPASS_DEBUG=1 shows where).",
             EXIT_FAULT,
         )
+
+
+def _renamed(argument: str) -> str:
+    """Return an option of an earlier version by its present name, and say so."""
+    option, equals, value = argument.partition("=")
+    if option not in RENAMED:
+        return argument
+    print(f"warning: {option} is called {RENAMED[option]} now", file=sys.stderr)
+    return f"{RENAMED[option]}{equals}{value}"
 
 
 class _Terminated(BaseException):

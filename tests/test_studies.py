@@ -4,6 +4,7 @@ import pickle
 import subprocess
 import sys
 import threading
+import warnings
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,6 +28,24 @@ BEAM = sp.Case(
     sp.Ureter(wall_ratio=1.3),
     **asking(model="beam", secant_stretch=1.2),
 )
+
+
+class _Unsendable(UserWarning):
+    """A warning that holds what cannot be pickled."""
+
+    def __init__(self):
+        super().__init__("beware")
+        self.held = lambda: None
+
+
+def _warning(item):
+    warnings.warn(_Unsendable(), stacklevel=1)
+    return item
+
+
+def test_warnings_of_another_process_come_home():
+    with process_pool(2) as pool, pytest.warns(UserWarning, match="beware"):
+        assert sorted(stream(pool, _warning, [1, 2])) == [(0, 1), (1, 2)]
 
 
 @dataclass(frozen=True)

@@ -154,7 +154,8 @@ def _note(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    _noted.append(warnings.WarningMessage(message, category, filename, lineno))
+    # The text alone: what else a library's warning holds may not travel.
+    _noted.append(warnings.WarningMessage(str(message), category, filename, lineno))
 
 
 def executor_for(work: Any, executor: Executor | None) -> Executor:

@@ -21,6 +21,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, TextIO, TypeVar
 
+from stonepass.errors import CacheWarning
 from stonepass.io.text_file import WRITING
 
 __all__ = ["CORES", "InProcessExecutor", "executor_for", "process_pool", "stream"]
@@ -154,8 +155,10 @@ def _note(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    # The text alone: what else a library's warning holds may not travel.
-    _noted.append(warnings.WarningMessage(str(message), category, filename, lineno))
+    # The text alone, since what else a library's warning holds may not travel.
+    plain = category.__module__ in ("builtins", CacheWarning.__module__)
+    kind = category if plain else UserWarning
+    _noted.append(warnings.WarningMessage(str(message), kind, filename, lineno))
 
 
 def executor_for(work: Any, executor: Executor | None) -> Executor:

@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 
 # Tests that touch every library that is depended on.
-LOWEST := cli fit friction imports invitro micrograph new_laws records seated store user_law
+LOWEST := cli fit imports micrograph new_laws records user_law
 
 .PHONY: help run test test-slow test-all test-lowest lint verify bench lock clean
 

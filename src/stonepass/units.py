@@ -17,9 +17,11 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput
 
 __all__ = [
+    "Area",
     "Length",
     "Pressure",
     "Values",
+    "area",
     "format_length",
     "format_pressure",
     "length",
@@ -42,10 +44,18 @@ class Pressure(float):
     """A pressure, stress or modulus in pascals."""
 
 
-Q = TypeVar("Q", Length, Pressure)
+class Area(float):
+    """An area in square metres."""
 
-_EXAMPLES = {Length: "'4.2 mm'", Pressure: "'12 kPa', '90 mmHg' or '122 cmH2O'"}
-_WORDS = {Length: "a length", Pressure: "a pressure"}
+
+Q = TypeVar("Q", Length, Pressure, Area)
+
+_EXAMPLES = {
+    Length: "'4.2 mm'",
+    Pressure: "'12 kPa', '90 mmHg' or '122 cmH2O'",
+    Area: "'12 mm2'",
+}
+_WORDS = {Length: "a length", Pressure: "a pressure", Area: "an area"}
 # SI units in one unit. The list is closed: of a large vocabulary of units too many short words are
 # lengths or pressures by chance, such as "px", 1/96 inch.
 _FACTORS = {
@@ -62,10 +72,12 @@ _FACTORS = {
         "N/m2": 1.0, "kN/m2": 1e3, "MN/m2": 1e6, "N/cm2": 1e4, "N/mm2": 1e6,
         "kgf/cm2": 98066.5, "dyn/cm2": 0.1,
     },
+    Area: {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6},
 }  # fmt: skip
 _SHOWN = {
     Length: "m, cm, mm, um, nm, in or Fr",
     Pressure: "Pa, kPa, MPa, bar, mbar, mmHg, Torr, cmH2O, atm, psi, N/mm2, kN/m2 or kgf/cm2",
+    Area: "m2, cm2 or mm2",
 }
 _TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ%°/][^\s]*)\s*")
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*[A-Za-zµμ][^\s]*\s*")
@@ -92,6 +104,17 @@ def pressure(value: Any, argument: str = "pressure") -> Pressure:
         A bare number, a unit that is not a pressure, or a value that is not finite.
     """
     return _read(value, argument, Pressure)
+
+
+def area(value: Any, argument: str = "area") -> Area:
+    """Read an area, e.g. ``area("12 mm2") == 1.2e-05``.
+
+    Raises
+    ------
+    BadInput
+        A bare number, a unit that is not an area, or a value that is not finite.
+    """
+    return _read(value, argument, Area)
 
 
 def format_length(value: float) -> str:

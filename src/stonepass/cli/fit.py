@@ -72,7 +72,7 @@ def tensile(
 ) -> int:
     """Fit to strips: stretch or extension_mm, nominal_stress_kPa or force_N[, axis]."""
     from stonepass.bench.test_data import read_tension
-    from stonepass.units import length
+    from stonepass.units import area, length
 
     sizes = {
         key: None if text is None else length(text, option)
@@ -82,10 +82,10 @@ def tensile(
             ("gauge_length", "--gauge-length", gauge_length),
         )
     }
-    area = None if section is None else _area(section)
+    across = None if section is None else area(section, "--section")
     asked = {"file": data.name, **{f"{key}_m": size for key, size in sizes.items()}}
-    inputs = {**asked, "section_m2": area}
-    read = read_tension(data, **sizes, section=area)
+    inputs = {**asked, "section_m2": across}
+    read = read_tension(data, **sizes, section=across)
     return _fit(read, law, fix, free, relative, out, figure, json, inputs)
 
 
@@ -160,18 +160,6 @@ def _fit(
 
         write_law(found.material, out)
     return 0
-
-
-def _area(text: str) -> float:
-    """Read an area, e.g. "12 mm2", in m²."""
-    import re
-
-    from stonepass.errors import BadInput
-
-    match = re.fullmatch(r"\s*(\d+\.?\d*|\.\d+)\s*(mm|cm|m)(?:2|²|\^2)\s*", text)
-    if match is None:
-        raise BadInput("--section", text, "an area in mm2, cm2 or m2", "write it like 12mm2")
-    return float(match[1]) * {"mm": 1e-6, "cm": 1e-4, "m": 1.0}[match[2]]
 
 
 def _given(law: str, fix: list[str]) -> dict[str, float]:

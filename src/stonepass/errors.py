@@ -10,6 +10,7 @@ from typing import Any, NoReturn, Self
 
 __all__ = [
     "BadInput",
+    "CacheNotWritten",
     "CacheWarning",
     "Misplaced",
     "Outcome",
@@ -30,7 +31,11 @@ class StonepassError(Exception):
 
 
 class CacheWarning(UserWarning):
-    """The solution cache could not be written, or held a damaged result; answers are unaffected."""
+    """The solution cache held a damaged result, or could not be written; answers are unaffected."""
+
+
+class CacheNotWritten(CacheWarning):
+    """A result could not be written to the solution cache."""
 
 
 class BadInput(StonepassError, ValueError):

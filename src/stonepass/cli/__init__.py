@@ -20,6 +20,7 @@ __all__ = ["main"]
 
 EXIT_NO_ANSWER, EXIT_BAD_REQUEST, EXIT_FAULT = 1, 2, 3
 EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
+WAYS = "; --cache names another folder, --no-cache does without"
 RENAMED = {"--relief": "--height-range", "--pairs": "--opening-curve"}
 NO_MEMORY = (
     "bad_alloc",
@@ -104,15 +105,16 @@ def _cache_warnings() -> Iterator[None]:
 
     Other warnings of Python are left out: what matters is in the answer's own warnings.
     """
-    from stonepass.errors import CacheWarning
+    from stonepass.errors import CacheNotWritten, CacheWarning
 
     with warnings.catch_warnings(record=True) as noted:
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", CacheWarning)
         yield
-    for sentence, times in Counter(str(each.message) for each in noted).items():
+    told = Counter((each.category, str(each.message)) for each in noted)
+    for (kind, sentence), times in told.items():
         count = "" if times == 1 else f" ({times} times)"
-        way = "; --cache names another folder, --no-cache does without" * ("written" in sentence)
+        way = WAYS if issubclass(kind, CacheNotWritten) else ""
         print(f"warning: {sentence}{count}{way}", file=sys.stderr)
 
 

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 import platformdirs
 
-from stonepass.errors import CacheWarning
+from stonepass.errors import CacheNotWritten, CacheWarning
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.io.text_file import replace_file
 from stonepass.model.numerics import Numerics
@@ -170,10 +170,11 @@ class SolutionCache:
         try:
             _write(path, *serialise(found))
         except OSError as problem:
-            _warn(
+            sentence = (
                 f"the cache folder '{self.folder}' could not be written "
                 f"({problem.strerror or problem}), so that what was solved is not remembered"
             )
+            warnings.warn(CacheNotWritten(sentence), stacklevel=2)
         return found
 
 
@@ -241,10 +242,6 @@ def _write(path: Path, document: Any, arrays: dict[str, Any]) -> None:
     replace_file(path, hashlib.sha256(payload).digest() + payload)
 
 
-def _warn(sentence: str) -> None:
-    warnings.warn(CacheWarning(sentence), stacklevel=2)
-
-
 def _read(path: Path, corrupt: Path) -> tuple[Any, dict[str, Any]] | None:
     """Document and arrays of a file; None where there is none, or a corrupt one, then set aside."""
     try:
@@ -259,7 +256,8 @@ def _read(path: Path, corrupt: Path) -> tuple[Any, dict[str, Any]] | None:
             return json.loads(arrays.pop("document").tobytes()), arrays
         except (ValueError, KeyError, zipfile.BadZipFile):  # of another writer
             pass
-    _warn(f"a damaged result was set aside in '{corrupt}' and solved again")
+    sentence = f"a damaged result was set aside in '{corrupt}' and solved again"
+    warnings.warn(CacheWarning(sentence), stacklevel=2)
     try:
         corrupt.mkdir(parents=True, exist_ok=True)
         if path.read_bytes() == raw:  # else another process has mended it meanwhile

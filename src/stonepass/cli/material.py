@@ -113,11 +113,11 @@ def secant_of_material(
 @app.command("check")
 def check_material(name: Name) -> int:
     """Check that a law describes a solid; exit code 2 and the reason where it does not."""
-    from stonepass.caution import caution
     from stonepass.cli.terminal import show, warn
     from stonepass.inputs.material_file import find_material
-    from stonepass.materials.stability import SOFTEST_WALL, check, one_sided_moduli
+    from stonepass.materials.stability import check, one_sided_moduli
     from stonepass.model.states.law_trial import check_in_engine
+    from stonepass.model.validity import soft_law
 
     entry = find_material(name)
     state = check(entry)
@@ -126,8 +126,7 @@ def check_material(name: Name) -> int:
     sides = zip(one_sided_moduli(entry.law, 1.0), one_sided_moduli(entry.law, -1.0), strict=True)
     rows = {name: _modulus(*both) for name, both in zip(names, sides, strict=True)}
     rows["r-z shear modulus"] = _modulus(state.shear, state.shear)
-    if state.shear < SOFTEST_WALL:
-        warn([caution("soft_law", material=entry.name, modulus_Pa=state.shear)])
+    warn(soft_law(entry))
     show(
         f"{entry.name}: no stress at rest, strongly elliptic over its strain range at axial "
         "stretch 1, and the finite elements find the same energy.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from stonepass.caution import Caution, caution
 from stonepass.materials.derivatives import hoop_modulus, rest_moduli
+from stonepass.materials.protocol import Material
 from stonepass.materials.stability import SOFTEST_WALL
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.problem import Problem
@@ -25,9 +26,8 @@ def strain_range(case: Problem) -> list[Caution]:
     return found
 
 
-def soft_law(case: Problem) -> list[Caution]:
-    """A caution where the wall is so soft that its constants are probably in another unit."""
-    material = case.ureter.material
+def soft_law(material: Material) -> list[Caution]:
+    """A caution where a wall is so soft that its constants are probably in another unit."""
     shear = rest_moduli(material.law)[1]
     if shear >= SOFTEST_WALL:
         return []

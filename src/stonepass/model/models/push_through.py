@@ -96,7 +96,7 @@ class PushThrough:
             seconds=found.seconds,
             warnings=(
                 *case.stone.shape.warnings(),
-                *soft_law(case),
+                *soft_law(case.ureter.material),
                 *strain_range(case),
                 *ring_buckling(case),
                 *state.warnings(),

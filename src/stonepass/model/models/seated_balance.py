@@ -282,7 +282,7 @@ def balance(
         seconds=seated.solver.seconds,
         warnings=(
             *case.stone.shape.warnings(),
-            *soft_law(case),
+            *soft_law(case.ureter.material),
             *strain_range(case),
             *ring_buckling(case),
             *seated.warnings(),

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from stonepass.array_types import Bool, Float
-from stonepass.clinic.assessment import FEWEST_OF_A_CLASS, Assessment
+from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.assessment_warnings import assessment_warnings
 from stonepass.clinic.cohorts import Row, rows_for
 from stonepass.clinic.draws import conditions, draw_patient, held_wall_ratio
@@ -72,16 +72,13 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     samples = _samples(surface, draws) if surface.usable else None
     if samples is None or float(np.mean(samples.censored & (samples.critical == 0.0))) > MOST_LOST:
         return replace(known, message=_lost(surface), warnings=assessment_warnings(known))
-    below, held = samples.below(patient.limit), ~samples.loose
-    below_held = samples.below(patient.limit, held) if held.sum() >= FEWEST_OF_A_CLASS else None
+    below = samples.below(patient.limit)
     found = replace(
         known,
         outcome=Outcome.MOVES,
-        message=_headline(patient, below, below_held, float(np.mean(samples.loose))),
         critical=interval(samples.critical, samples.censored),
         median_noise=median_noise(samples.critical, samples.censored),
         below_limit=below,
-        below_limit_held=below_held,
         below_present=None if present is None else samples.below(present),
         loose=float(np.mean(samples.loose)),
         sensitivity=_sensitivity(patient, surface, samples),
@@ -89,15 +86,16 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
         samples=samples,
         surface_error=float(np.quantile(surface.errors, 0.95)),
     )
-    return replace(found, warnings=assessment_warnings(found))
+    return replace(found, message=_headline(found, below), warnings=assessment_warnings(found))
 
 
-def _headline(patient: Patient, below: Fraction, held: Fraction | None, loose: float) -> str:
+def _headline(found: Assessment, below: Fraction) -> str:
     """Say the fraction below the limit, of the samples in which the stone is held at all."""
-    limit = f"the critical pressure is below the pressure limit, {patient.limit / 1e3:.4g} kPa"
-    if loose == 0.0:
+    pressure = f"{found.patient.limit / 1e3:.4g} kPa"
+    limit = f"the critical pressure is below the pressure limit, {pressure}"
+    if found.loose == 0.0:
         return f"In {below.describe()} of the Monte Carlo samples {limit}."
-    apart = Fraction(loose, loose).describe()
+    apart, held = Fraction(found.loose, found.loose).describe(), found.below_limit_held
     if held is None:
         return f"In {apart} of the Monte Carlo samples the stone is no larger than the lumen."
     return (

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from stonepass.array_types import Bool
 from stonepass.caution import Caution
 from stonepass.clinic.cohorts import Row
 from stonepass.clinic.fractions import Fraction, Present, Range, Samples
@@ -16,7 +19,7 @@ from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
 from stonepass.studies.sensitivity_indices import SensitivityIndex
 
-__all__ = ["FEWEST_OF_A_CLASS", "Assessment"]
+__all__ = ["Assessment"]
 
 FEWEST_OF_A_CLASS = 30  # samples
 
@@ -40,9 +43,6 @@ class Assessment:
         P_ucr, and the present urine pressure where the dilated segment was measured.
     below_limit, below_present : Fraction or None
         Fractions of samples with P_ucr below the pressure limit, and below the present pressure.
-    below_limit_held : Fraction or None
-        The first of these among the samples in which the stone is held, that is, larger than the
-        lumen; None where it is held in too few.
     loose : float
         Fraction of samples in which the stone is no larger than the lumen; they count with
         P_ucr = 0.
@@ -71,7 +71,6 @@ class Assessment:
     present: Range | None = None
     below_limit: Fraction | None = None
     below_present: Fraction | None = None
-    below_limit_held: Fraction | None = None
     loose: float = 0.0
     sensitivity: tuple[SensitivityIndex, ...] = ()
     by_size: tuple[tuple[float, Fraction], ...] = ()
@@ -92,7 +91,20 @@ class Assessment:
         if row.sizes is None or self.samples is None:
             return self.below_limit
         low, high = row.sizes
-        chosen = (self.samples.diameter >= low) & (self.samples.diameter < high)
+        return self._below_limit_among(
+            (self.samples.diameter >= low) & (self.samples.diameter < high)
+        )
+
+    @property
+    def below_limit_held(self) -> Fraction | None:
+        """Fraction below the limit among the samples in which the stone is held.
+
+        It is held where it is larger than the lumen; None where that is so in too few samples.
+        """
+        return None if self.samples is None else self._below_limit_among(~self.samples.loose)
+
+    def _below_limit_among(self, chosen: Bool[np.ndarray, " n"]) -> Fraction | None:
+        assert self.samples is not None
         if chosen.sum() < FEWEST_OF_A_CLASS:
             return None
         return self.samples.below(self.patient.limit, chosen)

@@ -1,4 +1,4 @@
-"""What files say of their scale, and variants of height-map files."""
+"""Scales that files state, and variants of height-map files."""
 
 import json
 import struct

@@ -41,10 +41,11 @@ def check_tension(
     file : str
         Its name.
     columns : Columns
-        What was read; `along` is the column of stretches or extensions.
+        The table as it was read.
     along : str
+        Name of the column of stretches or extensions.
     stretch, stress : array (n)
-        Of the strips; stress in Pa.
+        Stretch and nominal stress in Pa of each row.
 
     Raises
     ------
@@ -115,7 +116,7 @@ def check_inflation(
     file : str
         Its name.
     columns : Columns
-        What was read.
+        The table as it was read.
     given : str
         Name of the column of diameters.
     ureter : Ureter

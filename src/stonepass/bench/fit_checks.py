@@ -1,4 +1,4 @@
-"""What data and a fit must be: refused in one sentence where a fit would be none."""
+"""Checks of the data before a fit and of the fit after it; each refuses in one sentence."""
 
 from __future__ import annotations
 

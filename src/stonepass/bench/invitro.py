@@ -99,7 +99,7 @@ class InVitro:
     weighted : bool
         Whether residuals are weighted by the points' standard deviations.
     warnings : tuple of Caution
-        What speaks against the fit comes first.
+        Cautions that speak against the fit come first.
     """
 
     comparison: Comparison

@@ -74,7 +74,7 @@ class FittedLaw:
     unstable : str
         Why the law describes no solid; empty where it does.
     warnings : tuple of Caution
-        What speaks against the fit comes first.
+        Cautions that speak against the fit come first.
     """
 
     material: Material

@@ -1,4 +1,4 @@
-"""What a fit of a law makes small, and how what is predicted changes with every constant."""
+"""The residuals that a fit of a law makes small, and their sensitivities to its constants."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ AT_END = 1e-3  # of a constant, or of its range, within which it lies at an end 
 
 @runtime_checkable
 class Data(Protocol):
-    """What was measured, and what a law predicts for it."""
+    """Measurements, and the prediction of a law for each of them."""
 
     measured: str
 
@@ -81,7 +81,7 @@ class Objective:
     spread: Float[np.ndarray, " n"]
 
     def predicted(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
-        """What the law predicts, in Pa.
+        """Return the prediction of the law in Pa.
 
         The constants may lie out of the bounds of the law: what it predicts is smooth across them,
         and whether the constants that fit describe a solid is asked afterwards.

@@ -79,6 +79,7 @@ def one_sided_moduli(law: Law, sign: float) -> tuple[float, float, float]:
     small = sign * TINY
 
     def uniaxial(along: int) -> float:
+        """Modulus along one direction, the strain across being free."""
         across, contraction = 1 - along, 0.5
         for _ in range(MOST_SIDES):  # which fibres are in tension depends on the contraction
             strains = [small, small]

@@ -62,7 +62,7 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
 
 
 def _levelled(found: SurfaceFriction) -> str:
-    """What was done about the tilt."""
+    """Say whether the surface was levelled, and what that does to the friction coefficient."""
     if found.levelled:
         return "the least-squares plane is subtracted"
     if found.friction_levelled is None:

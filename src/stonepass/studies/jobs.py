@@ -165,7 +165,7 @@ def iterate_jobs(
     Raises
     ------
     Exception
-        What a job raises.
+        An error that a job raises is passed on.
 
     Warns
     -----

@@ -78,7 +78,7 @@ def run_study(
     Raises
     ------
     Exception
-        What a job raises.
+        An error that a job raises is passed on.
 
     Warns
     -----

@@ -276,7 +276,7 @@ def surface_friction(
 
 
 def _warnings(found: SurfaceFriction) -> list[Caution]:
-    """What must be told of a result."""
+    """Return the cautions about a result."""
     told, spread, levelled = [], found.spread, found.friction_levelled
     if len(found.paths) == 1:
         told.append(caution("single_path"))

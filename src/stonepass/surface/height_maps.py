@@ -73,7 +73,7 @@ def _channel_of_heights(path: Path, channels: list[Any], default: int) -> int:
 
 
 def _metre(unit: Any) -> float | None:
-    """What one of a unit is in m; None where it is no length."""
+    """Return the length of one unit in m; None where it is no unit of length."""
     conversion = library("SurfaceTopography.Support.UnitConversion", READ, EXTRA)
     if not isinstance(unit, str) or not conversion.is_length_unit(unit):
         return None

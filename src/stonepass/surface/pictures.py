@@ -103,7 +103,7 @@ def _decoded_by_tifffile(page: Any) -> Decoded:
 
 
 def _scan_of_tiff(file: Any, page: Any, path: Path) -> Scan:
-    """What the tags say, or a text file beside the picture."""
+    """Return the scan that the tags describe, or else a text file beside the picture."""
     if file.sem_metadata:
         return zeiss_scan(file.sem_metadata)
     if file.fei_metadata:

@@ -104,7 +104,7 @@ def imagej_scan(tags: Mapping[str, Any], per_unit: tuple[Any, Any]) -> Scan:
     Parameters
     ----------
     tags : mapping
-        What tifffile gives as ``imagej_metadata``.
+        The metadata that tifffile gives as ``imagej_metadata``.
     per_unit : tuple
         Values of *XResolution* and *YResolution*, each a number or a fraction of two integers.
     """

@@ -1,4 +1,4 @@
-"""What a file says of its scan: the size of a pixel, for which width, and a data bar.
+"""The scan that a file describes: the size of a pixel, for which width, and a data bar.
 
 Every microscope writes it in its own words (`pixel_size`); here it is compared with the picture as
 it is stored. A picture that was made larger or smaller since keeps the words, not their meaning.
@@ -18,7 +18,7 @@ MICRO = 1e6  # µm per m
 
 @dataclass(frozen=True)
 class Scan:
-    """What the file, or a text file beside it, says.
+    """The description of a scan in the file, or in a text file beside it.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class Scan:
         pixel : tuple of float or None
             None where nothing is said, or where it cannot be taken.
         why : str
-            What is said and what to do; empty where the pixel is taken, or nothing is said.
+            The sentence of a refusal; empty where the pixel is taken, or nothing is said.
         """
         if self.pixel is None:
             return None, self.doubt

@@ -88,7 +88,7 @@ def residual_tolerance(system: FormSystem, force: float, fraction: float = TOLER
     force : float
         Norm of the nodal contact forces that are expected.
     fraction : float
-        Of the contact force.
+        Fraction of the contact force that may be left.
     """
     return max(fraction * force, ROUNDING, system.rounding())
 

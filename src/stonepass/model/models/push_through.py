@@ -37,13 +37,13 @@ class PushThrough:
 
     SECTION: ClassVar[str] = "method"
     NAME: ClassVar[str] = "direct"
-    MEANING: ClassVar[str] = "the loaded push-through itself"
+    MEANING: ClassVar[str] = "equilibrium of the stone while urine pushes it, without a closure"
     NEEDS_ELEMENTS: ClassVar[bool] = True
 
     wetted: bool = declared(
         Kind.FLAG,
         "--wetted/--dry",
-        "Whether urine takes friction off up to the seal.",
+        "Whether urine enters the contact up to the seal and reduces the friction there (wetted).",
         default=False,
         shown_default="dry",
     )

@@ -72,13 +72,16 @@ class SeatedBalance:
 
     SECTION: ClassVar[str] = "method"
     NAME: ClassVar[str] = "paper"
-    MEANING: ClassVar[str] = "the seated contact of the paper, cut off by a closure"
+    MEANING: ClassVar[str] = (
+        "balance of forces on the seated contact, as in the paper, with a closure"
+    )
     NEEDS_ELEMENTS: ClassVar[bool] = True
 
     seating: str = declared(
         Kind.CHOICE,
         "--seating",
-        "How the stone came to its place.",
+        "How the stone was seated: pressed in along the ureter, without friction, or by growing in "
+        "its place.",
         default="pressed",
         choices=SEATINGS,
     )
@@ -108,19 +111,20 @@ class SeatedBalance:
     closure: str = declared(
         Kind.CHOICE,
         "--closure",
-        "Eq. 15 (linear), or the series of Eqs 13-14, fitted.",
+        "Closure of the opening wall: linear in the width of the stone (Eq. 15), or a fitted "
+        "series (Eqs 13-14).",
         default="linear",
         choices=("linear", "series"),
     )
     series_order: int = declared(
-        Kind.WHOLE, "--series-order", "Order of the series closure.", default=3, bounds=ORDER
+        Kind.WHOLE, "--series-order", "Order of the fitted series.", default=3, bounds=ORDER
     )
     opening_curve: OpeningCurve | None = declared(
         Kind.OPENING_CURVE,
         "--opening-curve",
-        "Opened angles and radii to fit the series to: alpha_deg, radius_ratio.",
+        "Points that the series is fitted to, in the columns alpha_deg and radius_ratio.",
         default=None,
-        shown_default="loaded states of the case",
+        shown_default="computed loaded states",
         metavar="FILE.csv",
     )
     far_field_ground: bool = declared(

@@ -1,4 +1,4 @@
-"""Numbers that are known only so well: ``"5 mm ± 1 mm"`` and ``"0.05 to 0.5"``."""
+"""Numbers with an uncertainty: ``"5 mm ± 1 mm"``, ``"5 mm ± 20 %"`` and ``"0.05 to 0.5"``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import lognorm, truncnorm, uniform
 
 from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
@@ -19,14 +18,17 @@ __all__ = ["UncertainQuantity", "measured_length", "measured_number"]
 _PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
 _UNIT = re.compile(r"[A-Za-zµμ%°][^\s]*$")
-EXAMPLE = {True: "'5 mm ± 1 mm' or '3 mm to 4 mm'", False: "'0.3 ± 0.1' or '0.05 to 0.5'"}
+EXAMPLE = {
+    True: "'5 mm ± 1 mm', '5 mm ± 20 %' or '3 mm to 4 mm'",
+    False: "'0.3 ± 0.1', '0.3 ± 30 %' or '0.05 to 0.5'",
+}
 LONGEST = 100  # characters
 FARTHEST = 6.0  # standard deviations
 
 
 @dataclass(frozen=True)
 class UncertainQuantity:
-    """A number and how well it is known.
+    """A number and its uncertainty.
 
     Attributes
     ----------
@@ -35,9 +37,10 @@ class UncertainQuantity:
     sd : float or None
         Standard deviation of its error; 0 for an exact number, None for a range.
     low, high : float
-        What is possible: the range itself, or bounds that cut the distribution off.
+        Ends of the range, or the bounds at which the distribution is cut off.
     factor : bool
-        Whether it multiplies: then it is lognormal with `value` as its median, else normal.
+        Whether the quantity is a factor. A factor has a lognormal distribution with the median
+        `value`, any other quantity a normal one.
     """
 
     value: float
@@ -48,12 +51,14 @@ class UncertainQuantity:
 
     @property
     def exact(self) -> bool:
-        """Whether nothing about it is uncertain."""
+        """Whether the quantity has no uncertainty."""
         return self.sd == 0.0 or self.low == self.high
 
     @property
     def distribution(self) -> Any:
-        """As a frozen distribution of `scipy.stats`; not for an exact number."""
+        """The distribution, as a frozen one of `scipy.stats`; an exact number has none."""
+        from scipy.stats import lognorm, truncnorm, uniform  # takes a second to load
+
         if self.sd is None:
             return uniform(self.low, self.high - self.low)
         if self.factor:
@@ -63,13 +68,13 @@ class UncertainQuantity:
         return truncnorm(first, last, loc=self.value, scale=self.sd)
 
     def quantiles(self, fractions: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """Return the numbers below which the given fractions, between 0 and 1, of it lie."""
+        """Return the quantiles for fractions between 0 and 1."""
         if self.exact:
             return np.full(len(fractions), self.value)
         return np.clip(self.distribution.ppf(fractions), self.low, self.high)
 
     def describe(self, scale: float = 1.0, unit: str = "") -> str:
-        """Return it in words, divided by `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
+        """Write the quantity, divided by `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
         tail = f" {unit}" if unit else ""
         if self.exact:
             return f"{self.value / scale:.4g}{tail}"
@@ -79,12 +84,22 @@ class UncertainQuantity:
 
 
 def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> UncertainQuantity:
-    """Read a length with its uncertainty; ``±`` is one standard deviation.
+    """Read a length with its uncertainty.
+
+    Parameters
+    ----------
+    text : str
+        ``5 mm ± 1 mm``, ``5 ± 1 mm`` or ``5 mm ± 20 %``, where ``±`` is one standard deviation, or
+        a range, ``3 mm to 4 mm``.
+    argument : str
+        Name of the quantity in refusals.
+    bounds : (float, float)
+        Smallest and largest value in m.
 
     Raises
     ------
     BadInput
-        Without an uncertainty or a unit, or out of `bounds` (m).
+        The text has no uncertainty or no unit, or the value is out of bounds.
     """
     return _read(text, argument, bounds, lambda part: float(length(part, argument)), lengths=True)
 
@@ -92,9 +107,9 @@ def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Un
 def measured_number(
     text: str, argument: str, bounds: tuple[float, float], *, factor: bool = False
 ) -> UncertainQuantity:
-    """Read a number without unit and its uncertainty; ``±`` is one standard deviation.
+    """Read a number without unit and its uncertainty, such as ``1 ± 0.3``, ``1 ± 30 %``.
 
-    With `factor` it is one that multiplies, such as a stiffness (see `UncertainQuantity`).
+    For the parameters see `measured_length`; `factor` is that of `UncertainQuantity`.
     """
 
     def number(part: str) -> float:
@@ -123,12 +138,12 @@ def _read(
     if found is None:
         raise _unreadable(argument, text, lengths=lengths)
     parts = [part.strip() for part in found.groups()]
+    relative = spread is not None and parts[1].endswith("%")
     unit = _UNIT.search(parts[1])
-    if lengths and unit is not None and _UNIT.search(parts[0]) is None:
+    if lengths and not relative and unit is not None and _UNIT.search(parts[0]) is None:
         parts[0] += f" {unit[0]}"  # 5 ± 1 mm
-    if spread and parts[1].endswith("%"):
-        raise BadInput(argument, text, "an uncertainty in its own unit", EXAMPLE[lengths])
-    first, second = (read(part) for part in parts)
+    first = read(parts[0])
+    second = first * _percentage(parts[1], argument, text) if relative else read(parts[1])
     low, high = bounds
     shown = [format_length(bound) if lengths else f"{bound:g}" for bound in bounds]
     allowed = f"from {shown[0]} to {shown[1]}"
@@ -138,6 +153,14 @@ def _read(
         return UncertainQuantity(first, second, low, high)
     require(first <= second <= high, argument, text, f"a rising range {allowed}")
     return UncertainQuantity((first + second) / 2.0, None, first, second)
+
+
+def _percentage(part: str, argument: str, text: str) -> float:
+    """Read ``20 %`` as 0.2."""
+    try:
+        return float(part.removesuffix("%")) / 100.0
+    except ValueError:
+        raise BadInput(argument, text, "followed by a number in percent, e.g. ± 20 %") from None
 
 
 def _unreadable(argument: str, text: str, *, lengths: bool) -> BadInput:

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from stonepass.export.contract import Limit, Option
 
-__all__ = ["ELEMENT", "FINE", "FLAVOUR", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS"]
+__all__ = [
+    "ELEMENT", "FINE", "FLAVOUR", "FROM_CONTACT", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS",
+]  # fmt: skip
 
 LENGTHS = (0.002, 0.5)  # of an element in the contact, in inner radii: smallest and largest
 FINE = Option(
@@ -35,8 +37,9 @@ SEATED_LIMITS = {
     "load": Limit(("prestretch", "dead", "hydrostatic")),
     "shape": Limit(("sphere", "spheroid", "outline")),
 }
-# The files have the mesh of `FINE`, and what follows from a contact is not in them.
-SEATED_IGNORES = (
-    "accuracy", "as_printed", "closure_start", "closure", "series_order", "opening_curve",
-    "far_field_ground", "wetted",
+# Inputs of what follows from a contact: they change neither the wall nor its contact.
+FROM_CONTACT = (
+    "as_printed", "closure_start", "closure", "series_order", "opening_curve", "far_field_ground",
 )  # fmt: skip
+# The input files have the mesh of `FINE`, and describe the seated state of the paper's model alone.
+SEATED_IGNORES = ("accuracy", *FROM_CONTACT, "wetted")

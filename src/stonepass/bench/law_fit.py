@@ -14,6 +14,7 @@ import numpy as np
 from scipy.stats import spearmanr
 
 from stonepass.array_types import Float
+from stonepass.bench.confidence_band import confidence_band
 from stonepass.bench.fit_checks import check_enough, check_fit, check_told, r_squared_of
 from stonepass.bench.fit_search import Search, best_fit, proportional_spread, search_for
 from stonepass.bench.lack_of_fit import lack_of_fit
@@ -63,8 +64,8 @@ class FittedLaw:
     material : Material
     constants : tuple of Constant
     data : Data
-    predicted : array (n)
-        In Pa.
+    predicted, band : array (n)
+        In Pa: the law at each point, and half the width of its 95 % confidence band there.
     rmse : float
         Root mean square of the residuals in Pa.
     r_squared : float
@@ -81,6 +82,7 @@ class FittedLaw:
     constants: tuple[Constant, ...]
     data: Data
     predicted: Float[np.ndarray, " n"]
+    band: Float[np.ndarray, " n"]
     rmse: float
     r_squared: float
     correlations: dict[tuple[str, str], float]
@@ -163,6 +165,7 @@ def fit_law(
         constants=_constants(search, values, bounds),
         data=data,
         predicted=predicted,
+        band=confidence_band(objective, values, inside),
         rmse=float(np.sqrt(np.mean(off**2))),
         r_squared=r_squared_of(off, data.observed),
         correlations=correlations(result, search.free),

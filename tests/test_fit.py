@@ -295,7 +295,11 @@ def test_an_unstable_fit_is_told_of_and_not_written(tmp_path, capsys):
 def test_what_is_in_the_figure():
     found = fit_law(tension(material("ureter").law, STRETCH[:8], AXES, noise=0.01), "neo-hookean")
     left, right = fit_figure(found).axes
-    assert {line.get_label() for line in left.lines} >= set(AXES)
+    labels = {text.get_text() for text in left.get_legend().get_texts()}
+    assert labels == {
+        *(f"{axis}, {what}" for axis in AXES for what in ("measured", "law")),
+        "95 % confidence band of the law",
+    }
     drawn = np.concatenate([line.get_ydata() for line in right.lines[:2]])
     np.testing.assert_allclose(np.sort(drawn), np.sort(found.residuals / 1e3))
 

@@ -15,6 +15,7 @@ from scipy.stats import spearmanr
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
+from stonepass.bench.confidence_band import confidence_band
 from stonepass.bench.fit_checks import check_enough, check_fit, check_told, r_squared_of
 from stonepass.bench.fit_search import Search, best_fit, proportional_spread, search_for
 from stonepass.bench.lack_of_fit import lack_of_fit
@@ -80,6 +81,8 @@ class FittedLaw(Result):
         The n measured values.
     predicted : array (n)
         Predicted stresses or pressures in Pa.
+    band : array (n)
+        Half the width of the 95 % confidence band of `predicted` in Pa.
     rmse : float
         Root mean square of the residuals in Pa.
     r_squared : float
@@ -100,6 +103,7 @@ class FittedLaw(Result):
     constants: tuple[Constant, ...]
     data: Data
     predicted: Float[np.ndarray, " n"]
+    band: Float[np.ndarray, " n"]
     rmse: float
     r_squared: float
     correlations: dict[tuple[str, str], float]
@@ -196,6 +200,7 @@ def fit_law(
         constants=_constants(search, values, bounds),
         data=data,
         predicted=predicted,
+        band=confidence_band(objective, values, inside),
         rmse=float(np.sqrt(np.mean(off**2))),
         r_squared=r_squared_of(off, data.observed),
         correlations=correlations(result, search.free),

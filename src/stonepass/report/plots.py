@@ -73,7 +73,7 @@ def plot_size(answer: SizeAnswer, axes: Axes) -> None:
 
 def plot_curve(curve: CriticalCurve, axes: Axes) -> None:
     """Draw the critical pressure over the size ratio; unanswered sizes are crosses at zero."""
-    draw_curve(axes, curve, COLOURS["blue"], f"model {curve[0].model.NAME}")
+    draw_curve(axes, curve, 0, f"model {curve[0].model.NAME}")
     frame_curve(axes)
     axes.set_title(case_title(curve[0].case, with_stone=False), loc="left", fontsize="medium")
     axes.legend()

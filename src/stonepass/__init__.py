@@ -18,6 +18,7 @@ from stonepass.about import VERSION
 from stonepass.result import Presentation, present_with
 
 if TYPE_CHECKING:
+    from stonepass import export
     from stonepass.bench.comparison import Setting
     from stonepass.bench.invitro import InVitro, fit_friction
     from stonepass.bench.law_fit import FittedLaw, fit_law
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
         StonepassError,
         UnstableLaw,
     )
-    from stonepass.export.api import formats
     from stonepass.inputs.case_file import read_case, write_case
     from stonepass.inputs.material_file import load_material
     from stonepass.inputs.measured_pressures import Point, read_points
@@ -179,7 +179,6 @@ _HOME = {
     "fit_friction": "bench.invitro",
     "fit_law": "bench.law_fit",
     "fit_record": "records.fit",
-    "formats": "export.api",
     "friction_record": "records.friction",
     "invitro_record": "records.invitro",
     "length": "units",
@@ -207,6 +206,8 @@ _HOME = {
     "surface_friction": "surface.friction",
     "write_case": "inputs.case_file",
 }
+
+_PACKAGES = ("export",)  # public packages of their own: stonepass.export.write(case, "stone.inp")
 
 # What people look for under another name.
 _OTHER_NAMES = {
@@ -306,10 +307,10 @@ __all__ = [
     "critical_size",
     "curve_records",
     "default_folder",
+    "export",
     "fit_friction",
     "fit_law",
     "fit_record",
-    "formats",
     "friction_record",
     "invitro_record",
     "length",
@@ -349,6 +350,8 @@ present_with(_presentation)
 
 
 def __getattr__(name: str) -> Any:
+    if name in _PACKAGES:
+        return import_module(f"stonepass.{name}")
     if name in _HOME:
         return getattr(import_module(f"stonepass.{_HOME[name]}"), name)
     meant = _OTHER_NAMES.get(name) or next(iter(get_close_matches(name, __all__, n=1)), None)

@@ -117,7 +117,7 @@ def test_a_contact_as_long_as_the_stone_is_no_contact_of_this_model():
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        ({"shape": sp.Shape(1.2)}, "shape of the stone is no sphere, but must be a sphere"),
+        ({"shape": sp.Shape(1.2)}, "shape of the stone is not a sphere, but must be a sphere"),
         ({"eta": 1.6}, "wall ratio is 1.6, but must be at most 1.5"),
         ({"load": sp.Load("2 kPa")}, "confining pressure is 2 kPa, but must be none"),
         ({"load": sp.Load(prestretch=1.1)}, "prestretch is 1.1, but must be 1"),
@@ -127,7 +127,7 @@ def test_it_refuses_where_it_does_not_hold(given, sentence):
     with pytest.raises(BadInput) as refused:
         sp.solve(case(**given))
     assert sentence in str(refused.value)
-    assert "take the paper's or the direct model" in str(refused.value)
+    assert "use the paper's or the direct model" in str(refused.value)
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 from stonepass.units import Values
 
 __all__ = ["MonotoneIntegral", "monotone_integral"]
@@ -20,7 +20,7 @@ __all__ = ["MonotoneIntegral", "monotone_integral"]
 Points = Float[np.ndarray, " points"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class MonotoneIntegral:
     """The integral of the interpolant from the first point to x, a piecewise quartic.

@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 
 __all__ = ["STRESSES", "ContactProfile", "Deformation", "Field", "Volume"]
 
 STRESSES = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class ContactProfile:
     """Contact pressure along the contact, from its upstream edge (θ = α₀) to its downstream edge.
@@ -38,7 +38,7 @@ class ContactProfile:
     station: Float[np.ndarray, " n"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Field:
     """The deformed wall at the Gauss–Lobatto points of every element.
@@ -70,7 +70,7 @@ class Field:
         return replace(self, **stresses)
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Deformation:
     """Deformation gradient F_iJ at the points of a `Field`.

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
@@ -60,7 +60,7 @@ class SolverReport:
     dissipated: float
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Contact:
     """The contact of stone and wall in the seated state, as the force balance needs it.
@@ -105,7 +105,7 @@ class Contact:
         return np.asarray(np.interp(theta, self.theta, self.contact_pressure, left=0.0, right=0.0))
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class SeatedState(Contact):
     """The solved seated state, in SI units.

@@ -77,8 +77,8 @@ def material(name: str) -> Material:
         raise BadInput(
             "material",
             name,
-            "a material, and this is a law without its constants",
-            f'write them in a file, law.toml, with law = "{name}", and name that file',
+            "the name of a material; this is the name of a law, which has no constants",
+            f'write its constants to a file, law.toml, with law = "{name}", and give that file',
         )
     if name not in CATALOGUE:
         refuse_unknown("material", name, list(CATALOGUE), ONES_OWN)

@@ -35,8 +35,8 @@ def hoop_energy_slope(
     """Return w′(λ), the derivative of the energy of a uniformly inflated tube.
 
     w(λ) is the energy density at the circumferential stretch λ and the axial stretch λ_z; the
-    radial stretch 1/(λ λ_z) follows from incompressibility. For a neo-Hookean law w′ = 2 C₁₀ (λ −
-    1/(λ³ λ_z²)). See "Far field" in docs/theory.md.
+    radial stretch 1/(λ λ_z) follows from incompressibility. For a neo-Hookean law the result is
+    2 C₁₀ (λ − 1/(λ³ λ_z²)). See "Far field" in docs/theory.md.
 
     Parameters
     ----------

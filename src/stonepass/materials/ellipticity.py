@@ -41,8 +41,8 @@ class Weakest:
     ----------
     stiffness : float
         d²U/dε² of the shear band, divided by the r–z shear modulus at rest. It is at most 1 in the
-        unloaded wall and 0 where strong ellipticity is lost. It is −∞ if the energy of the law is
-        not finite at some deformation.
+        unloaded wall. Strong ellipticity is lost if it is zero or negative. It is −∞ if the energy
+        of the law is not finite at one of the deformations.
     index : int
         Index of the deformation.
     normal, direction : (float, float, float)

@@ -81,7 +81,7 @@ class ClosedForm(Protocol):
 
 @runtime_checkable
 class MayBeDefective(Protocol):
-    """A law with constants for which it can be seen without a calculation that it is unstable."""
+    """A law that can determine from its constants alone whether it is unstable."""
 
     @property
     def defect(self) -> tuple[str, str] | None:

@@ -1,11 +1,12 @@
 """Sums of powers of the eigenvalues of a full symmetric tensor C, with explicit derivatives.
 
-The eigenvalues c_i of C are computed by LAPACK. Let S = Σ c_iᵃ. Its derivative is ∂S/∂C = a
-C^(a−1). The derivative of this tensor in the direction dC follows from the theorem of Daleckii and
-Krein (1965): in the frame of the eigenvectors of C its components are Γ_ij dC_ij, where Γ_ij are
-the divided differences of the function a c^(a−1). For nearly equal eigenvalues they are evaluated
-by a series. The functions can be evaluated with NumPy, and autograd can differentiate them twice.
-This module imports autograd, so `principal_stretches` loads it only if C has all six components.
+The eigenvalues c_i of C are computed by LAPACK. Let S = Σ c_iᵃ. Its first derivative is the tensor
+∂S/∂C = h(C) with the function h(c) = a c^(a−1). The derivative of h(C) in the direction dC follows
+from the theorem of Daleckii and Krein (1965): in the frame of the eigenvectors of C its components
+are Γ_ij dC_ij with the divided differences Γ_ij = (h(c_i) − h(c_j))/(c_i − c_j). For nearly equal
+eigenvalues Γ_ij is evaluated by a series. The functions can be evaluated with NumPy, and autograd
+can differentiate them twice. This module imports autograd, so `principal_stretches` loads it only
+if C has all six components.
 """
 
 from __future__ import annotations

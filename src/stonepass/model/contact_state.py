@@ -8,7 +8,7 @@ import numpy as np
 
 from stonepass.array_types import Float
 
-if TYPE_CHECKING:  # loads the finite elements
+if TYPE_CHECKING:  # at run time the import would load the finite elements
     from stonepass.fe.axisymmetric.wall_values import Field
 
 __all__ = ["ContactState", "SolvedState"]

@@ -149,7 +149,7 @@ def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
 
 
 def _nearest_with_value(pressure: Callable[[float], float], ratio: float, inside: float) -> float:
-    """Return the point nearest to `ratio`, in the interval to `inside`, with a finite pressure.
+    """Return the point nearest to `ratio`, between it and `inside`, with a finite pressure.
 
     The pressure of a law with a locking stretch is not finite beyond that stretch, and it grows
     without bound as the stretch is approached.
@@ -168,7 +168,7 @@ def _nearest_with_value(pressure: Callable[[float], float], ratio: float, inside
 
 
 def stuck_lumen(case: Problem) -> float:
-    """Return the lumen r_a/R_a that the load leaves open, for a stone that is larger than it.
+    """Return the lumen r_a/R_a under the load, and check that the stone is larger.
 
     Raises
     ------

@@ -101,12 +101,23 @@ class Problem:
 
 
 def require_kind(name: str, value: Any, kind: Any, example: str) -> None:
-    """Refuse an argument of another type, as where arguments were given in another order.
+    """Check the type of an argument, which is wrong e.g. if arguments are in the wrong order.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument in the error message.
+    value : object
+        The argument.
+    kind : type
+        The expected type.
+    example : str
+        Python code that creates an instance of `kind`, for the error message.
 
     Raises
     ------
     BadInput
-        It names the type that is expected, and `example` shows how one is written.
+        The argument is not an instance of `kind`.
     """
     if not isinstance(value, kind) or isinstance(value, type):
         raise BadInput(name, _described(value), _with_article(kind), f"write it like {example}")

@@ -19,8 +19,8 @@ class Seating:
     ----------
     kind : {"pressed", "frictionless", "growing"}
         ``"pressed"``: the meridian of the stone is pressed radially into the wall, as in the paper.
-        ``"growing"``: the stone grows in place from the size of the lumen. ``"frictionless"``:
-        without friction the path has no influence.
+        ``"growing"``: the stone grows in place from the size of the lumen. ``"frictionless"``: the
+        wall slides without friction, so the way of the stone has no influence.
     friction : float
         Coulomb coefficient during the seating; 0 if the seating is frictionless.
     """

@@ -84,8 +84,8 @@ def root_in_range(
     low_excess : float
         The excess at `low`, negative.
     near_low : float
-        The function is not evaluated between `low` and `near_low`, where it is replaced by a linear
-        function.
+        Smallest point at which the function is evaluated. Between `low` and `near_low` it is
+        interpolated linearly.
     tolerance : float
         Absolute tolerance of the root. An excess counts as zero if it is smaller than
         `tolerance` × |`low_excess`|.

@@ -152,8 +152,8 @@ class ElasticFoundation:
         a, xi = state.half_length, case.size_ratio
         if not a < xi:
             reason = (
-                f"the beam model does not hold: half the contact would be {a:.3g} inner radii "
-                f"long, as long as the stone's radius or longer, {xi:.3g}"
+                f"the beam model does not hold: half the contact length, {a:.3g} inner radii, is "
+                f"not less than the radius of the stone, {xi:.3g}"
             )
             return unanswered(case, self, numerics, reason)
 

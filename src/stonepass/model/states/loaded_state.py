@@ -13,7 +13,7 @@ from stonepass.caution import Caution, caution
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
 
-if TYPE_CHECKING:  # loads the finite elements
+if TYPE_CHECKING:  # at run time the import would load the finite elements
     from stonepass.fe.axisymmetric.wall_values import Field, Volume
 
 __all__ = ["Critical", "NoPush", "PushReport", "PushedState"]

@@ -31,9 +31,8 @@ class StateSolver(Protocol):
       case.
     * The stress field of a state, its attribute `wall`, may be None. A caller that needs the field
       must use an implementation that keeps it.
-    * A state that is not found is reported by a return value (`NoSeat`, `NoPush` or None), not by
-    an
-      exception.
+    * A state that is not found is reported by a return value (`NoSeat`, `NoPush` or None), and not
+      by an exception.
     * An instance is immutable. It can be pickled and used in another process.
     """
 

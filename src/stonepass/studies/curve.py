@@ -14,17 +14,16 @@ __all__ = ["Curve"]
 
 @dataclass(frozen=True)
 class Curve:
-    """The critical pressure of a case at every size ratio.
+    """The study of the critical pressure of a case at several size ratios.
 
-    The outcome is a list of answers in the order of the size ratios. They keep their states
-    without the stress field, which a curve does not need.
+    The outcome is a list of answers in the order of the size ratios, without stress fields.
 
     Attributes
     ----------
     case : Case
-        Its own size is ignored.
+        The case; the size of its own stone is ignored.
     size_ratios : sequence of float
-        ξ, each within the bounds of `model.case.Stone`.
+        Size ratios ξ, each from 0.1 to 3.
     """
 
     case: Case

@@ -30,13 +30,6 @@ class Meridian:
     stress: dict[str, Float[np.ndarray, " points"]]
     quads: Int[np.ndarray, "quads 4"]
 
-    def edges(
-        self, quads: Int[np.ndarray, "quads 4"], along: Float[np.ndarray, " points"], at: float
-    ) -> Int[np.ndarray, "edges 2"]:
-        """Return the edges of some quadrilaterals that lie where the coordinate `along` is `at`."""
-        edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
-        return edges[np.all(np.abs(along[edges] - at) < 1e-9, axis=1)]
-
 
 def meridian(wall: Field, *, mirrored: bool) -> Meridian:
     """Return the meridian of a solved wall.

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 from stonepass.units import Values
 
 __all__ = ["MonotoneIntegral", "monotone_integral"]
@@ -19,7 +19,7 @@ __all__ = ["MonotoneIntegral", "monotone_integral"]
 Points = Float[np.ndarray, " points"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class MonotoneIntegral:
     """∫ from the first point to x, a quartic in x − x_k in each interval.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from stonepass.errors import BadInput, require
 from stonepass.model.load import Load
@@ -11,9 +11,14 @@ from stonepass.model.stone import SIZE_RATIO, Stone
 from stonepass.model.ureter import BY_RATIO, Ureter
 from stonepass.units import Length
 
-__all__ = ["Problem"]
+__all__ = ["EXAMPLES", "Problem", "require_kind"]
 
 Kind = TypeVar("Kind", bound="Problem")
+EXAMPLES = {
+    "stone": 'Stone(diameter="4.2 mm")',
+    "ureter": 'Ureter(inner_diameter="3.5 mm", outer_diameter="4.54 mm")',
+    "load": 'Load(confining_pressure="2 kPa")',
+}
 
 
 @dataclass(frozen=True)
@@ -31,6 +36,12 @@ class Problem:
     load: Load = field(default_factory=Load)
 
     def __post_init__(self) -> None:
+        for name, value, kind in (
+            ("stone", self.stone, Stone),
+            ("ureter", self.ureter, Ureter),
+            ("load", self.load, Load),
+        ):
+            require_kind(name, value, kind, EXAMPLES[name])
         if self.stone.diameter is not None and self.ureter.inner_diameter is None:
             raise BadInput(
                 "inner diameter", "missing", "given where the stone has a diameter", BY_RATIO
@@ -78,3 +89,25 @@ class Problem:
         """Return the same problem with another stone of the same friction and shape."""
         stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, shape=self.stone.shape)
         return replace(self, stone=stone)
+
+
+def require_kind(name: str, value: Any, kind: Any, example: str) -> None:
+    """Refuse an argument of another type, as where arguments were given in another order.
+
+    Raises
+    ------
+    BadInput
+        It names the type that is expected, and `example` shows how one is written.
+    """
+    if not isinstance(value, kind) or isinstance(value, type):
+        raise BadInput(name, _described(value), _with_article(kind), f"write it like {example}")
+
+
+def _described(value: Any) -> Any:
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    return value if isinstance(value, str | float | int) else _with_article(type(value))
+
+
+def _with_article(kind: type) -> str:
+    return f"{'an' if kind.__name__[0] in 'AEIO' else 'a'} {kind.__name__}"

@@ -17,8 +17,8 @@ from scipy.interpolate import RBFInterpolator
 from scipy.spatial import KDTree
 from scipy.stats import qmc
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -44,7 +44,7 @@ NEAR_END = 0.02  # of the closure's end, within which P_ucr may as well lie beyo
 HALF_LENGTHS = 2.5  # half the tube's length, in radii of the largest stone
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class ResponseSurface:
     """What was solved, and the interpolant through it.

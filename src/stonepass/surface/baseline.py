@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 
 __all__ = ["MARGIN", "POWERS", "Baseline", "fit_baseline"]
 
@@ -22,7 +22,7 @@ MARGIN = 0.5  # of the shortest wave: at each end, where the slope is not looked
 MOST = 0.25  # of the length: the widest margin at each end
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Baseline:
     """A fitted baseline.

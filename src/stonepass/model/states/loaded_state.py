@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
 
@@ -50,7 +50,7 @@ class PushReport:
     penetration: float
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class PushedState:
     """The loaded wall round the held stone, in SI.

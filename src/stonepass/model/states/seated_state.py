@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
@@ -56,7 +56,7 @@ class SolverReport:
     dissipated: float
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Contact:
     """Where stone and wall touch in the seated state, and how hard: all that the balance needs.
@@ -98,7 +98,7 @@ class Contact:
         return np.asarray(np.interp(theta, self.theta, self.contact_pressure, left=0.0, right=0.0))
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class SeatedState(Contact):
     """The solved seated state, in SI.

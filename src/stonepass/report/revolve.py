@@ -13,7 +13,7 @@ from stonepass.export.meridian import SEGMENTS
 from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.problem import Problem
 from stonepass.report.case_line import case_line
-from stonepass.report.section import add_colour_bar
+from stonepass.report.section import COLOUR_MAP, add_colour_bar
 from stonepass.report.style import COLOURS, add_heading, in_style, new_figure
 
 __all__ = ["revolved_figure"]
@@ -34,7 +34,7 @@ def revolved_figure(wall: Field, case: Problem, top: float, extent: float = 3.0)
     figure = new_figure(6.8, 4.8)
     add_heading(figure, case_line(case))
     mirrored = case.stone.shape.symmetric
-    scale = ScalarMappable(Normalize(0.0, top / 1e3), "magma_r")
+    scale = ScalarMappable(Normalize(0.0, top / 1e3), COLOUR_MAP)
     reach = float(np.abs(wall.Z[np.abs(wall.z) <= extent]).max())
     parts = [
         *_cuts(wall, scale, reach, mirrored=mirrored),

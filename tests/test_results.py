@@ -315,5 +315,5 @@ def test_progress_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "IPython.display", Display)
     monkeypatch.setattr("stonepass.studies.progress.DELAY", -1.0)
     sp.critical_curve(CASE, [1.1, 1.2])
-    assert shown == ['<progress value="1" max="2"></progress> size ratios: 1 of 2',
-                     "size ratios: 2 of 2"]  # fmt: skip
+    assert shown == ['<progress value="1" max="2"></progress> jobs: 1 of 2',
+                     "jobs: 2 of 2"]  # fmt: skip

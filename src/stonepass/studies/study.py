@@ -12,6 +12,7 @@ from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from stonepass.studies.executor import executor_for
 from stonepass.studies.jobs import Job, Progress, Results, run_jobs
+from stonepass.studies.progress import reported
 
 __all__ = ["Study", "run_studies", "run_study"]
 
@@ -61,7 +62,7 @@ def run_study(
     study: Study[Outcome],
     executor: Executor | None = None,
     cache_folder: Path | None = None,
-    progress: Progress | None = None,
+    progress: bool | Progress = False,
 ) -> Outcome:
     """Run the jobs of a study and return its outcome.
 
@@ -72,8 +73,9 @@ def run_study(
         By default the work runs in this process.
     cache_folder : Path, optional
         Folder of the solution cache; by default every state is solved.
-    progress : callable, optional
-        Is called with (done, all) after each job.
+    progress : bool or callable
+        True shows a bar in a terminal and in a notebook; a function is called with (done, all)
+        after each job.
 
     Raises
     ------
@@ -85,7 +87,8 @@ def run_study(
     CacheWarning
         The cache folder cannot be written, or held a damaged result.
     """
-    return study.reduce(run_jobs(study.jobs(), executor, cache_folder, progress))
+    with reported(progress, "jobs") as told:
+        return study.reduce(run_jobs(study.jobs(), executor, cache_folder, told))
 
 
 def run_studies(

@@ -204,7 +204,7 @@ def _box(x, y, wide, high, name, neighbours):
     meaning, size = MEANINGS.get(name, ""), 12 if neighbours < 4 else 9
     return text + (
         f'<text x="{middle:.1f}" y="{y + 37}" text-anchor="middle" font-size="{size}" '
-        f'fill="{INK}">{MEANINGS.get(name, "")}</text>\n'
+        f'fill="{INK}">{meaning}</text>\n'
     )
 
 

@@ -466,7 +466,7 @@ def test_options_of_an_earlier_version_are_taken_by_their_present_names(cli):
 def test_lengths_are_shown_in_millimetres(cli):
     sizes = ["--inner", "3.5mm", "--outer", "4.55mm"]
     table = cli("pressure", "--stone", "4.2mm", *sizes, *SMOOTH)[1]
-    assert "stone 4.2 mm · ureter 3.5 mm inside, 4.55 mm outside · ξ = 1.2, η = 1.3" in table
+    assert "stone 4.2 mm, ureter 3.5/4.55 mm (ξ = 1.2, η = 1.3)" in table
     size = cli("size", *sizes, "--limit", "12kPa", *SMOOTH)[1]
     diameter = re.search(r"critical diameter +([\d.]+) mm +± 0\.\d+ mm", size)[1]
     assert f"A stone of {float(diameter):.4g} mm, which is" in size

@@ -77,7 +77,7 @@ def has(sentence, *parts):
         ("inflation", "inner_diameter_mm", "inner_diameter", ("write 'inner_diameter_mm' if its values are in mm",)),
         ("forces", "force_N", "axial", ("column is axial", "did you mean 'axis'")),
         ("outer diameters", "axial_stretch", "axial_strech", ("did you mean 'axial_stretch'",)),
-        ("outer diameters", "axial_stretch", "inner_diameter_mm", ("the diameter is given twice",)),
+        ("outer diameters", "axial_stretch", "inner_diameter_mm", ("the column of diameters is given twice",)),
         ("points", "eta", "η", ("column is η", "one of xi, eta, confining_kPa, pressure_kPa, sd_kPa")),
         ("points", "xi,", "eta,", ("column is eta", "given once")),
         ("points", "sd_kPa", "sem_kPa", ("column is sem_kPa", "did you mean 'sd_kPa'")),
@@ -95,14 +95,14 @@ def test_a_header_that_is_wrong(tmp_path, kind, old, new, parts):
 @pytest.mark.parametrize(
     ("kind", "text", "parts"),
     [
-        ("tension", "stretch,axis\n1.1,axial\n", ("what was measured is missing", "as nominal_stress_kPa or force_N")),
-        ("tension", "stretch,force_N,nominal_stress_kPa\n1.1,1,2\n", ("what was measured is given twice",)),
-        ("inflation", "pressure_kPa\n1\n", ("the diameter is missing", "inner_diameter_mm or outer_diameter_mm")),
-        ("inflation", "pressure_kPa,inner_diameter_mm,outer_diameter_mm\n1,4,5\n", ("the diameter is given twice",)),
+        ("tension", "stretch,axis\n1.1,axial\n", ("the column of stresses is missing", "nominal_stress_kPa or force_N")),
+        ("tension", "stretch,force_N,nominal_stress_kPa\n1.1,1,2\n", ("the column of stresses is given twice",)),
+        ("inflation", "pressure_kPa\n1\n", ("the column of diameters is missing", "inner_diameter_mm or outer_diameter_mm")),
+        ("inflation", "pressure_kPa,inner_diameter_mm,outer_diameter_mm\n1,4,5\n", ("the column of diameters is given twice",)),
     ],
 )  # fmt: skip
 def test_one_of_two_columns(tmp_path, kind, text, parts):
-    has(refusal(kind, text, tmp_path), f"in {KINDS[kind].file}", "given once", *parts)
+    has(refusal(kind, text, tmp_path), f"in {KINDS[kind].file}", "given as either", *parts)
 
 
 @pytest.mark.parametrize("kind", TABLES)

@@ -13,7 +13,6 @@ from stonepass.bench.test_data import Inflation, Tension, read_inflation, read_t
 from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.inputs.material_file import load_material, write_law
-from stonepass.io import optional_imports
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, name_of_law
@@ -140,7 +139,8 @@ def test_what_data_cannot_tell_is_refused_by_name():
     """A tube at its own length knows nothing of a2222 and a1122 (Eq. 22)."""
     ratio = np.linspace(1.02, 1.3, 12)
     data = Inflation(ratio, inflation(ratio, 1.3, material("ureter").law), 1.3, np.ones(12))
-    with pytest.raises(BadInput, match="blind to a2222 and a1122, but must be such that"):
+    sentence = "effect of a2222 and a1122 on the predictions is not separable, but must be distinct"
+    with pytest.raises(BadInput, match=sentence):
         fit_law(data, "fung", {"G": 12e3})
     given = {"G": 12e3, "a2222": 0.8892, "a1122": 0.1856}
     found = {each.name: each for each in fit_law(data, "fung", given).constants}
@@ -153,7 +153,7 @@ def test_what_data_cannot_tell_is_refused_by_name():
     [
         (("neo-hooke", {}), "law is neo-hooke, but must be one of"),
         (("fung", {"a1234": 1.0}), "constant of law 'fung' is a1234"),
-        (("neo-hookean", {"C10": 1e5}), "constants is all given"),
+        (("neo-hookean", {"C10": 1e5}), "number of constants to be fitted is 0"),
     ],
 )
 def test_fits_that_are_none(call, sentence):
@@ -161,20 +161,11 @@ def test_fits_that_are_none(call, sentence):
         fit_law(tension(RUBBER), *call)
 
 
-def test_too_few_points_and_no_library(monkeypatch):
-    with pytest.raises(BadInput, match="data is 3 points, but must be more than the 3 constants"):
+def test_too_few_points():
+    with pytest.raises(BadInput, match="number of data points is 3, but must be more than 3"):
         fit_law(tension(RUBBER, STRETCH[:3]), "yeoh")
-    with pytest.raises(BadInput, match="zero throughout"):
+    with pytest.raises(BadInput, match="nominal stress is 0 kPa in every row"):
         fit_law(Tension(STRETCH, 0.0 * STRETCH, ("axial",) * 12), "yeoh")
-
-    def missing(name):
-        raise ImportError(name)
-
-    monkeypatch.setattr(optional_imports, "import_module", missing)
-    with pytest.raises(
-        BadInput, match=r"library is lmfit, .*pip install 'stonepass\[laboratory\]'"
-    ):
-        fit_law(tension(RUBBER), "neo-hookean")
 
 
 def test_a_fitted_law_is_a_material_for_every_command(tmp_path):
@@ -208,15 +199,15 @@ def test_data_from_files(tmp_path):
     inner = np.sqrt(np.array([6.5, 7.0]) ** 2 - 20.0 / np.array([1.0, 1.1]))
     np.testing.assert_allclose(found.radius_ratio, inner / 4.0)
     path.write_text("pressure_kPa,outer_diameter_mm\n10,3\n")
-    with pytest.raises(BadInput, match="such that the wall has room inside it"):
+    with pytest.raises(BadInput, match="large enough for the volume of the wall"):
         read_inflation(path, tube)
 
 
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("stretch\n1.1\n", "what was measured is missing, but must be given once"),
-        ("stretch,nominal_stress_kPa,force_N\n1.1,1,1\n", "what was measured is given twice"),
+        ("stretch\n1.1\n", "the column of stresses is missing, but must be given as either"),
+        ("stretch,nominal_stress_kPa,force_N\n1.1,1,1\n", "the column of stresses is given twice"),
         (
             "stretch,nominal_stress_MPa\n1.1,1\n",
             "convert the values from MPa to kPa: 1 MPa is 1000 kPa",
@@ -255,7 +246,7 @@ def test_the_command(tmp_path, capsys):
     tube = ["fit", "inflation", str(EXAMPLES / "ureter_inflation.csv"), "--inner", "3.5mm",
             "--outer", "4.55mm", "--law", "fung", "--fix", "G=12kPa"]  # fmt: skip
     assert run(tube) == 2
-    assert "give one of them, e.g. --fix a1122=VALUE" in capsys.readouterr().err
+    assert "fix one of them, e.g. --fix a1122=VALUE" in capsys.readouterr().err
     assert run([*tube, "--fix", "a2222=0.8892", "--fix", "a1122=0.1856"]) == 0
     shown = capsys.readouterr().out
     assert "C, a1111" in shown
@@ -294,7 +285,11 @@ def test_an_unstable_fit_is_told_of_and_not_written(tmp_path, capsys):
 def test_what_is_in_the_figure():
     found = fit_law(tension(material("ureter").law, STRETCH[:8], AXES, noise=0.01), "neo-hookean")
     left, right = fit_figure(found).axes
-    assert {line.get_label() for line in left.lines} >= set(AXES)
+    labels = {text.get_text() for text in left.get_legend().get_texts()}
+    assert labels == {
+        *(f"{axis}, {what}" for axis in AXES for what in ("measured", "law")),
+        "95 % confidence band of the law",
+    }
     drawn = np.concatenate([line.get_ydata() for line in right.lines[:2]])
     np.testing.assert_allclose(np.sort(drawn), np.sort(found.residuals / 1e3))
 
@@ -385,17 +380,17 @@ def test_constants_that_are_no_solid_are_given_as_such(tmp_path, capsys, fix):
         # the columns exchanged
         ("neo-hookean", [(20, 1.05), (40, 1.1), (60, 1.2)], "the columns look as if they were exchanged"),
         ("neo-hookean", [(1.1, 20), (1.2, 20), (1.3, 20)],
-         "nominal stress is 20 kPa in every row, but must be one that changes"),
+         "nominal stress is 20 kPa in every row, but must be different in at least two"),
         ("neo-hookean", [(1.2, 20), (1.2, 20.5), (1.2, 19.8)],
-         "data is at 1.2 times the size at rest in every row"),
+         "stretch is 1.2 in every row, but must be different in at least two rows"),
         ("neo-hookean", [(1.1, 0), (1.2, 0), (1.3, 0), (1.4, 1)], "no better than chance"),
         ("neo-hookean", [(1.1, 90), (1.2, 100), (1.3, 95), (1.4, 92)], "worse than a constant, R² = -"),
         # exact data of a law with C10 < 0, compressed: C10 ends at zero
         ("mooney-rivlin", [(0.99, -0.055), (0.97, -0.18), (0.95, -0.33), (0.92, -0.61), (0.9, -0.84)],
-         "constant C10 of the fit of law 'mooney-rivlin' is .* the lower end of the search"),
+         "constant C10 of the fit of law 'mooney-rivlin' is .* the lower bound of the search"),
         # stress of one term with α = 30, beyond the 20 that are searched
         ("ogden", [(1.01, 48.17), (1.02, 104.74), (1.03, 173.34), (1.04, 258.47), (1.05, 365.8), (1.06, 502.47), (1.07, 677.55), (1.08, 902.54)],
-         "constant alpha1 of the fit of law 'ogden' is .* end of the search"),
+         "constant alpha1 of the fit of law 'ogden' is .* bound of the search"),
     ],
 )  # fmt: skip
 def test_a_fit_that_is_none_is_one_sentence_and_no_file(tmp_path, capsys, law, rows, sentence):
@@ -416,7 +411,7 @@ def test_a_fit_that_is_none_is_one_sentence_and_no_file(tmp_path, capsys, law, r
         ("inner_diameter_mm", [(10, 1.85), (20, 1.95), (30, 2.05)], ("3.5mm", "4.55mm"),
          "is 2.05 at 30 kPa, but must be larger than at rest, 3.5 mm \\(--inner\\).*double the values"),
         ("outer_diameter_mm", [(10, 2.35), (20, 2.45), (30, 2.5)], ("3.5mm", "4.55mm"),
-         "such that the wall has room inside it, 4.55 mm \\(--outer\\) at rest; double the values"),
+         "large enough for the volume of the wall, 4.55 mm \\(--outer\\) at rest; double the values"),
         ("inner_diameter_mm", [(-10, 3.7), (-20, 3.9), (-30, 4.1)], ("3.5mm", "4.55mm"),
          "column 'pressure_kPa' is -30 .* positive where the tube is wider"),
         ("inner_diameter_mm", [(10, 3.7), (20, 3.9), (30, 4.1)], ("1.75mm", "2.275mm"),

@@ -129,6 +129,7 @@ LATE_LIBRARIES = {
     "scipy.special": ("materials.fung",),
     "scipy.ndimage": ("surface.grey_scale",),
     "scipy.stats": ("studies.uncertain_quantity",),
+    "stonepass.report": ("stonepass",),  # results are shown by it, from their first table on
 }
 
 

@@ -148,7 +148,7 @@ def test_weights_and_what_is_refused():
     with pytest.raises(BadInput, match=r"sd_kPa is 0\.0, but must be above 0"):
         fit_friction([replace(p, sd=Pressure(0.0)) for p in points], QUICK, solver=MadeUp())
     with pytest.raises(
-        BadInput, match="series is 1 points that the model answers with a held stone"
+        BadInput, match="points for which the model predicts a critical pressure is 1, but must be"
     ):
         fit_friction(points[:1], QUICK, solver=MadeUp())
 
@@ -221,7 +221,7 @@ def test_figure_shows_every_point_and_curve():
     series_axes, region = invitro_figure(found, curves).axes[:2]
     marks = sum(len(c.lines[0].get_xdata()) for c in series_axes.containers)
     assert marks == len(points)
-    assert region.get_xlabel() == "friction"
+    assert region.get_xlabel() == "friction μ"
 
 
 def with_sd(points, share):

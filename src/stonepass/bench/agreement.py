@@ -1,4 +1,4 @@
-"""Does a series agree with the model at all: residuals beside their errors, and the joint fit."""
+"""Test whether a series of measured pressures agrees with the model within the measuring errors."""
 
 from __future__ import annotations
 
@@ -15,28 +15,35 @@ from stonepass.inputs.measured_pressures import Point
 
 __all__ = ["OBJECTIONS", "disagreement"]
 
-UNLIKELY = 0.01  # chance of residuals as large where only the stated errors make them
-# Cautions that say that the numbers of a series describe no agreement.
+UNLIKELY = 0.01  # significance level of both tests
+# Codes of the cautions after which the fitted numbers of a series must not be used.
 OBJECTIONS = ("beyond_sd", "beyond_repeats", "stiffness_excluded", "no_friction_fits")
 
 
 def disagreement(comparison: Comparison, fitted: int) -> list[Caution]:
-    """Compare residuals with standard deviations, or with the scatter of repeated points.
+    """Test whether the measuring errors explain the residuals of a series.
 
-    With standard deviations the sum of squares over them is χ² distributed; of repeated points the
-    scatter about their own means gives the error, and the rest follows an F distribution.
+    If every point has a standard deviation, the sum of the squared residuals, each divided by its
+    standard deviation, is tested against the χ² distribution. Otherwise the scatter of repeated
+    points about their means estimates the measuring error, and an F test of lack of fit compares
+    the remaining sum of squares with it. Both tests have a significance level of 1 %.
 
     Parameters
     ----------
     comparison : Comparison
-        The series beside the model.
+        Measured pressures and the answers of the model.
     fitted : int
-        Number of constants that were fitted to it.
+        Number of parameters that were fitted to the series, 0 or more.
 
     Returns
     -------
     list of Caution
-        Empty where residuals are as the errors would have them, or errors are not known.
+        The list is empty if the errors explain the residuals. It is also empty if the errors are
+        unknown, because neither standard deviations nor repeated points are given.
+
+    References
+    ----------
+    docs/bench.md, "A series in vitro".
     """
     pairs = [
         (point, answer)
@@ -61,7 +68,7 @@ def disagreement(comparison: Comparison, fitted: int) -> list[Caution]:
 def _beside_repeats(
     points: Sequence[Point], off: Float[np.ndarray, " n"], fitted: int
 ) -> list[Caution]:
-    """F test of lack of fit against pure error."""
+    """Test the residuals against the scatter of repeated points (F test of lack of fit)."""
     keys = [(p.size_ratio, p.wall_ratio, float(p.confining_pressure)) for p in points]
     groups = [np.array([key == each for key in keys]) for each in dict.fromkeys(keys)]
     pure = sum(float(np.sum((off[some] - off[some].mean()) ** 2)) for some in groups)

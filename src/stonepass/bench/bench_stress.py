@@ -1,8 +1,9 @@
-"""Stress of a strip and pressure of a tube for any constants, whether they describe a solid or not.
+"""Stress of a strip and pressure of a tube, also for constants that make the law unstable.
 
-A fit tries constants that may be no solid. Equilibrium is taken there as well, stable or not, so
-that what the law predicts is a smooth function of its constants. All points are evaluated at once;
-slopes are by the complex step, exact for a law of analytic functions, as all known ones are.
+During a fit the search passes through constants for which the law is not stable. The prediction is
+the stress or pressure in equilibrium there too, whether or not that equilibrium is stable, so that
+it is a smooth function of the constants. All points are evaluated at once. Derivatives are taken by
+the complex-step method, which is exact to rounding for the analytic functions of the known laws.
 """
 
 from __future__ import annotations
@@ -17,41 +18,48 @@ from stonepass.strain import INNER_WALL, CauchyGreen
 
 __all__ = ["strip_stress", "tube_pressure"]
 
-STEPS = 60
-TOLERANCE = 1e-7  # of ln of the lateral stretch in the last step, whose error is 1e-5 of it
-LARGEST_STEP = 0.1  # of ln of it
-IMAGINARY = 1e-30  # step into the complex plane: no difference is taken, so none cancels
-NEARBY = 1e-5  # between two slopes
-QUADRATURE_POINTS = 32  # of a wall
+STEPS = 60  # largest number of Newton steps
+# Largest last step of the logarithm of the lateral stretch; the error left is 1e-5 of that step.
+TOLERANCE = 1e-7
+LARGEST_STEP = 0.1  # largest change of the logarithm of the lateral stretch in one step
+IMAGINARY = 1e-30  # imaginary step; no difference is formed, so that no digits cancel
+NEARBY = 1e-5  # distance in ln b of the two slopes whose difference is the stiffness
+QUADRATURE_POINTS = 32  # Gauss points over the thickness of a wall
 
 
 def strip_stress(
     law: Law, stretch: Float[np.ndarray, " n"], around: Bool[np.ndarray, " n"]
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Force over the section at rest of strips, and what resists a change of their width.
+    """Compute the nominal stress of strips in uniaxial tension and their lateral stiffness.
 
-    With w(λ, b) the energy at the stretches λ along the strip and b across it in the plane of the
-    wall, b follows from ∂w/∂b = 0 and the stress is ∂w/∂λ. Both are of the equilibrium that is
-    nearest to b = λ^(−1/2); for an isotropic law it is this one, of equal stretches across.
+    Let w(λ, b) be the energy of the incompressible strip with the stretch λ along it and b across
+    it, in the plane of the wall. The sides are free of load, so that ∂w/∂b = 0 determines b. The
+    nominal stress is ∂w/∂λ. Newton's method for b starts from b = λ^(−1/2), which is the solution
+    for an isotropic law, and finds the equilibrium nearest to it.
 
     Parameters
     ----------
     law : Law
+        Its constants may lie outside their bounds.
     stretch : array (n)
-        λ, positive.
+        Stretch λ along the strip, above 0.
     around : array (n) of bool
-        Whether the strip was cut around the tube; else along its axis.
+        True if the strip was cut around the tube, False if it was cut along the axis.
 
     Returns
     -------
     stress : array (n)
-        In Pa; NaN where no equilibrium was found.
+        Nominal stress in Pa; NaN if no equilibrium was found.
     stiffness : array (n)
-        ∂²w/∂(ln b)² in Pa; an equilibrium with a negative one is not stable.
+        ∂²w/∂(ln b)² in Pa. If it is negative, the equilibrium is unstable.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     log_a = np.log(np.asarray(stretch, dtype=float))
     log_b, near = -0.5 * log_a, np.array([[0.0], [NEARBY]])
-    with np.errstate(all="ignore"):  # what does not converge is NaN below
+    with np.errstate(all="ignore"):  # points that do not converge become NaN below
         for _ in range(STEPS):
             here, there = _slope(law, log_a, log_b + near, around, lateral=True)
             stiffness = (there - here) / NEARBY
@@ -72,7 +80,7 @@ def _slope(
     *,
     lateral: bool,
 ) -> Float[np.ndarray, "... n"]:
-    """∂w/∂ln b or ∂w/∂ln λ in Pa."""
+    """Compute ∂w/∂ln b (`lateral`) or ∂w/∂ln λ in Pa."""
     a = log_a + (0.0 if lateral else 1j * IMAGINARY)
     b = log_b + (1j * IMAGINARY if lateral else 0.0)
     C_aa, C_bb, C_rr = np.exp(2.0 * a), np.exp(2.0 * b), np.exp(-2.0 * (a + b))
@@ -87,24 +95,35 @@ def tube_pressure(
     wall_ratio: float,
     axial: Float[np.ndarray, " n"],
 ) -> Float[np.ndarray, " n"]:
-    """Transmural pressure in Pa of tubes, ∫ w′(λ)/(λ_z λ) d ln R over the wall (paper, Eq. 12).
+    """Compute the transmural pressure of tubes, P = ∫ w′(λ)/(λ_z λ) d ln R over the wall.
 
-    The formula is that of `model.far_field.inflation`, for an axial stretch of each point.
+    Unlike `model.far_field.inflation`, each point has its own axial stretch, and constants outside
+    their bounds are allowed.
 
     Parameters
     ----------
     law : Law
+        Its constants may lie outside their bounds.
     radius_ratio : array (n)
-        r_a/R_a.
+        Inner radius r_a over the unloaded inner radius R_a, above 0.
     wall_ratio : float
-        η.
+        Wall ratio η = R_b/R_a, above 1.
     axial : array (n)
-        λ_z.
+        Axial stretch λ_z, above 0.
+
+    Returns
+    -------
+    array (n)
+        Pressure inside less pressure outside, in Pa.
+
+    References
+    ----------
+    Liu et al. 2022, Eq. 12; docs/theory.md, "Far field".
     """
     points, weights = _gauss()
     R = wall_ratio**points
     along = axial[:, None]
-    with np.errstate(all="ignore"):  # far-off constants of a fit may overflow
+    with np.errstate(all="ignore"):  # the exponential of extreme trial constants may overflow
         stretch = np.sqrt(radius_ratio[:, None] ** 2 + (R**2 - 1.0) / along) / R
         t = stretch * (1.0 + 1j * IMAGINARY)
         C_tt = t * t
@@ -115,6 +134,6 @@ def tube_pressure(
 
 @lru_cache(maxsize=1)
 def _gauss() -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Gauss–Legendre points and weights on [0, 1]."""
+    """Return the Gauss–Legendre points and weights on [0, 1]."""
     points, weights = np.polynomial.legendre.leggauss(QUADRATURE_POINTS)
     return (points + 1.0) / 2.0, weights / 2.0

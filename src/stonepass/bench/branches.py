@@ -1,4 +1,4 @@
-"""Loading and unloading, and the runs of a test, told from the order of its rows."""
+"""Find loading, unloading and repeated runs of a test from the order of the rows in its table."""
 
 from __future__ import annotations
 
@@ -12,21 +12,23 @@ from stonepass.bench.objective import Data
 
 __all__ = ["Branches", "branches"]
 
-REVERSAL = 0.1  # of the range, that a change of direction has to reach
+# The abscissa must go back by this fraction of its range to count as a change of direction.
+REVERSAL = 0.1
 
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """Which branch each point of a test belongs to.
+    """The branch of the loading history that each of the n points of a test belongs to.
 
     Attributes
     ----------
     loading : array (n)
-        1 where the strain grows from row to row, −1 where it falls.
+        1 on a loading branch, where the strain grows from row to row; −1 on an unloading branch.
     run : array (n) of int
-        Number of the run, from 0: a run begins where loading begins again.
+        Number of the run, starting at 0. A new run begins where loading begins again.
     width : array (n)
-        4 u (1 − u) with u from 0 to 1 over the range of the abscissa: how wide a loop is.
+        Assumed shape of the width of a hysteresis loop, 4 u (1 − u), where u runs from 0 to 1 over
+        the range of the abscissa. It vanishes at both ends of the loop.
     """
 
     loading: Float[np.ndarray, " n"]
@@ -35,7 +37,7 @@ class Branches:
 
 
 def branches(data: Data) -> Branches:
-    """Find the branches of every curve, by the order of its rows."""
+    """Find the branches of every curve of the data from the order of its rows."""
     x, names = data.abscissa, np.array(data.groups)
     loading, run = np.ones(len(x)), np.zeros(len(x), dtype=int)
     for name in dict.fromkeys(data.groups):
@@ -54,7 +56,7 @@ def _of_curve(
     for first, last in pairwise(turns):
         rows = slice(first if first == 0 else first + 1, last + 1)
         up = bool(x[last] >= x[first])
-        if last - first == 1 and not up:  # the next strip begins, no unloading was measured
+        if last - first == 1 and not up:  # the next strip begins; its unloading was not measured
             loading[rows], run[rows] = 1.0, count + 1
             before = -1
             continue
@@ -65,7 +67,7 @@ def _of_curve(
 
 
 def _turns(x: Float[np.ndarray, " n"]) -> list[int]:
-    """Rows at which the direction changes, by more than noise of the abscissa."""
+    """Return the rows at which the direction changes by more than the noise of the abscissa."""
     threshold = REVERSAL * float(np.ptp(x))
     found, extreme, direction = [], 0, 0.0
     for k in range(1, len(x)):

@@ -1,4 +1,4 @@
-"""A measured series beside the model: bias, scatter, and how much of the spread it explains."""
+"""Comparison of a measured series of critical pressures with the model: bias, RMSE and R²."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.protocol import Material
@@ -23,20 +23,23 @@ from stonepass.studies.case_solver import CaseSolver
 
 __all__ = ["Comparison", "Setting", "SizeCurve", "compare", "size_curves"]
 
-SIZES = 9  # of a curve
+SIZES = 9  # number of size ratios on a curve
 
 
 @dataclass(frozen=True)
 class Setting:
-    """What every stone and tube of a series shares.
+    """Properties that all stones and tubes of a series have in common.
 
     Attributes
     ----------
     material : Material
+        Material of the wall.
     confinement : {"hydrostatic", "dead"}
-        Of the confining pressures (`model.case.Load`); a water bath is hydrostatic.
+        How the confining pressure acts (see `Load`). The pressure of a water bath is hydrostatic.
     model : Model
+        Model that predicts the critical pressures.
     numerics : Numerics
+        Accuracy and length of the tube.
     """
 
     material: Material
@@ -45,7 +48,17 @@ class Setting:
     numerics: Numerics = field(default_factory=Numerics)
 
     def case(self, point: Point, friction: float, load_factor: float = 1.0) -> Case:
-        """The case of a point; its confining pressure times `load_factor`."""
+        """Return the case that belongs to a measured point.
+
+        Parameters
+        ----------
+        point : Point
+            Size ratio, wall ratio and confining pressure of the measurement.
+        friction : float
+            Friction coefficient μ_f, 0 to 2.
+        load_factor : float
+            Dimensionless factor on the confining pressure of the point.
+        """
         pressure = type(point.confining_pressure)(load_factor * point.confining_pressure)
         load = Load(pressure, self.confinement if pressure > 0.0 else "dead")
         ureter = Ureter(wall_ratio=point.wall_ratio, material=self.material)
@@ -55,13 +68,16 @@ class Setting:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Points and the model's answers at one friction coefficient.
+    """Measured points and the answers of the model at one friction coefficient.
 
     Attributes
     ----------
     friction : float
+        Friction coefficient μ_f of all answers.
     points : tuple of Point
+        Measured critical pressures.
     answers : tuple of Answer
+        The answer of the model for each point.
     """
 
     friction: float
@@ -70,35 +86,38 @@ class Comparison:
 
     @property
     def measured(self) -> Float[np.ndarray, " n"]:
-        """Measured pressures in Pa of the points whose stone is held and has an answer."""
+        """Measured pressures in Pa of the points for which the model predicts a pressure."""
         pairs = zip(self.points, self.answers, strict=True)
         return np.array([point.pressure for point, answer in pairs if _moves(answer)])
 
     @property
     def predicted(self) -> Float[np.ndarray, " n"]:
-        """The model's in Pa, of the same."""
+        """Predicted pressures in Pa of the points in `measured`."""
         return np.array([each.pressure for each in self.answers if _moves(each)])
 
     @property
     def compared(self) -> int:
-        """How many points that is."""
+        """Number of points for which the model predicts a pressure."""
         return len(self.predicted)
 
     @property
     def bias(self) -> float | None:
-        """Mean of model less measured in Pa; None where no point has an answer."""
+        """Mean of predicted minus measured pressure in Pa; None if no point can be compared."""
         return float(np.mean(self.predicted - self.measured)) if self.compared else None
 
     @property
     def rmse(self) -> float | None:
-        """Root mean square of model less measured in Pa."""
+        """Root mean square of predicted minus measured pressure in Pa; None as for `bias`."""
         if not self.compared:
             return None
         return float(np.sqrt(np.mean((self.predicted - self.measured) ** 2)))
 
     @property
     def r_squared(self) -> float | None:
-        """1 − Σ (model − measured)²/Σ (measured − mean)²; None for points of one pressure."""
+        """Coefficient of determination, 1 − Σ (predicted − measured)²/Σ (measured − mean)².
+
+        It is None if no point can be compared or all measured pressures are equal.
+        """
         spread = float(np.sum((self.measured - self.measured.mean()) ** 2)) if self.compared else 0
         if spread == 0.0:
             return None
@@ -106,7 +125,7 @@ class Comparison:
 
     @property
     def not_compared(self) -> dict[str, int]:
-        """How many points are left out, by outcome: loose stones, and those without an answer."""
+        """Number of points without a predicted pressure, by the name of the outcome."""
         names = [each.outcome.name for each in self.answers if not _moves(each)]
         return {name: names.count(name) for name in dict.fromkeys(names)}
 
@@ -118,15 +137,39 @@ def _moves(answer: Answer) -> bool:
 def compare(
     points: Sequence[Point], friction: float, setting: Setting, solver: CaseSolver
 ) -> Comparison:
-    """Answer every point of a series at one friction coefficient."""
+    """Compute the critical pressure of every point of a series at one friction coefficient.
+
+    Parameters
+    ----------
+    points : sequence of Point
+        Measured critical pressures.
+    friction : float
+        Friction coefficient μ_f, 0 to 2.
+    setting : Setting
+        Material, confinement, model and numerics.
+    solver : CaseSolver
+        Solves the cases.
+    """
     cases = [setting.case(point, friction) for point in points]
     return Comparison(friction, tuple(points), tuple(solver.answers(cases)))
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class SizeCurve:
-    """P_ucr in Pa over size ratio in one tube under one load; NaN where there is no answer."""
+    """Critical pressure as a function of the size ratio for one tube under one load.
+
+    Attributes
+    ----------
+    wall_ratio : float
+        Wall ratio η of the tube.
+    confining_pressure : float
+        Confining pressure P_out in Pa.
+    size_ratio : array (n)
+        Size ratios ξ, rising.
+    pressure : array (n)
+        Critical pressure P_ucr in Pa at each size ratio; NaN if the model has no answer.
+    """
 
     wall_ratio: float
     confining_pressure: float
@@ -135,7 +178,17 @@ class SizeCurve:
 
 
 def size_curves(comparison: Comparison, setting: Setting, solver: CaseSolver) -> list[SizeCurve]:
-    """Curves of the model through each tube and load of a series that has several sizes."""
+    """Compute a curve of the model for each tube and load that was measured at several sizes.
+
+    Parameters
+    ----------
+    comparison : Comparison
+        It gives the tubes, the loads, the range of sizes and the friction coefficient.
+    setting : Setting
+        Material, confinement, model and numerics.
+    solver : CaseSolver
+        Solves the cases, without error estimates.
+    """
     tubes: dict[tuple[float, float], list[Point]] = {}
     for point in comparison.points:
         tubes.setdefault((point.wall_ratio, point.confining_pressure), []).append(point)

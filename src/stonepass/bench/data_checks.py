@@ -1,8 +1,8 @@
-"""Do bench data make sense at all: signs, sizes at rest, strains in place of stretches.
+"""Checks of laboratory data for wrong signs, wrong sizes at rest and strains given as stretches.
 
-Every solid at rest resists: a strip that is longer than at rest pulls, a tube that is wider than at
-rest has the higher pressure inside. Data that say otherwise are given in another convention, and no
-constants can mend that.
+A strip that is stretched beyond its length at rest is in tension, and a tube that is wider than at
+rest has the higher pressure inside. This holds for every stable solid. Data that contradict it were
+recorded with another convention, and no constants of a law can fit them.
 """
 
 from __future__ import annotations
@@ -18,12 +18,14 @@ from stonepass.model.ureter import Ureter
 
 __all__ = ["check_inflation", "check_tension", "inner_ratio"]
 
-STRETCH = (0.1, 15.0)  # that any rubber survives
+STRETCH = (0.1, 15.0)  # smallest and largest stretch that any rubber survives
 LARGEST_STRESS = 1e10  # Pa
-WRONG_SHARE = 0.05  # of Σ |load × strain|, that noise and an offset near rest may take
-WRONG_SHARE_STRETCHED = 0.2  # of a tube under axial stretch, whose width without load is a guess
-FARTHEST_START = 2.0  # stretch that data from rest do not begin at
-FARTHEST_TUBE = 1.7  # radius over that at rest
+# Largest fraction of Σ |load × strain| whose sign may be wrong, by noise or an offset near rest.
+WRONG_SHARE = 0.05
+# The fraction for a tube under axial stretch, whose width without pressure is only estimated.
+WRONG_SHARE_STRETCHED = 0.2
+FARTHEST_START = 2.0  # largest first stretch of data that are taken to begin at rest
+FARTHEST_TUBE = 1.7  # largest first radius, over the radius at rest, of such data of a tube
 STRAINS = "a stretch is a length over that at rest: 1 + strain, or 1 + per cent/100"
 
 
@@ -34,22 +36,30 @@ def check_tension(
     stretch: Float[np.ndarray, " n"],
     stress: Float[np.ndarray, " n"],
 ) -> None:
-    """Refuse strips that no solid behaves like, with what was probably meant.
+    """Refuse data of strips that contradict every stable solid, and name the probable mistake.
 
     Parameters
     ----------
     file : str
-        Its name.
+        Name of the data file, for the message.
     columns : Columns
         The table as it was read.
     along : str
-        Name of the column of stretches or extensions.
-    stretch, stress : array (n)
-        Stretch and nominal stress in Pa of each row.
+        Name of the column with the stretches or extensions.
+    stretch : array (n)
+        Stretch of each row, dimensionless.
+    stress : array (n)
+        Nominal stress of each row in Pa.
 
     Raises
     ------
     BadInput
+        A stretch lies outside 0.1 to 15, all stretches are above 2, a stress exceeds 1e7 kPa, or
+        more than 5 % of Σ |stress × strain| has the wrong sign.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     _check_stretches(file, columns, along, stretch)
     measured = "force_N" if "force_N" in columns else "nominal_stress_kPa"
@@ -95,7 +105,7 @@ def _check_stretches(
 
 
 def _swapped(columns: Columns) -> str:
-    """Say so where the other column looks like stretches."""
+    """Return a remark if the column of stresses looks as if it held the stretches, else ""."""
     other = columns.get("nominal_stress_kPa", columns.get("force_N"))
     if other is None or np.ptp(other) < 0.01 or not 0.8 <= other.min() < other.max() < 4.0:
         return ""
@@ -109,24 +119,31 @@ def check_inflation(
     ureter: Ureter,
     axial: Float[np.ndarray, " n"],
 ) -> None:
-    """Refuse tubes that no solid behaves like, with what was probably meant.
+    """Refuse data of tubes that contradict every stable solid, and name the probable mistake.
 
     Parameters
     ----------
     file : str
-        Its name.
+        Name of the data file, for the message.
     columns : Columns
-        The table as it was read.
+        The table as it was read; pressures in kPa, diameters in mm.
     given : str
-        Name of the column of diameters.
+        Name of the column with the diameters.
     ureter : Ureter
-        The tube at rest.
+        Inner and outer diameter of the tube at rest.
     axial : array (n)
-        Axial stretch of each row.
+        Axial stretch λ_z of each row.
 
     Raises
     ------
     BadInput
+        The wall does not fit into an outer diameter, all diameters are above 1.7 times the diameter
+        at rest, or too large a fraction of Σ |pressure × widening| has the wrong sign: 5 %, or
+        20 % if the tube is stretched along its axis.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     ratio = inner_ratio(columns[given], given, ureter, axial)
     doubled = inner_ratio(2.0 * columns[given], given, ureter, axial)
@@ -138,7 +155,7 @@ def check_inflation(
     if not np.all(ratio > 0.0):
         row = int(np.argmin(ratio > 0.0))
         raise BadInput(f"in {file}, {columns.place(row, given)}", f"{columns[given][row]:g}",
-                       f"such that the wall has room inside it, {at_rest} at rest", remedy
+                       f"large enough for the volume of the wall, {at_rest} at rest", remedy
                        )  # fmt: skip
     pressure, widening = columns["pressure_kPa"], ratio * np.sqrt(axial) - 1.0
     allowed = WRONG_SHARE if np.all(axial == 1.0) else WRONG_SHARE_STRETCHED
@@ -171,22 +188,30 @@ def _refuse_tube(
 def inner_ratio(
     diameter_mm: Float[np.ndarray, " n"], given: str, ureter: Ureter, axial: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, " n"]:
-    """Inner radius over that at rest, by the volume of the wall where the outer one was measured.
+    """Compute the ratio of the inner radius to the inner radius at rest.
+
+    If the outer diameter was measured, the inner radius follows from the constant volume of the
+    wall, r_a² = r_b² − (R_b² − R_a²)/λ_z.
 
     Parameters
     ----------
     diameter_mm : array (n)
-        In mm, of the column `given`, ``inner_diameter_mm`` or ``outer_diameter_mm``.
-    given : str
+        Measured inner or outer diameters in mm.
+    given : {"inner_diameter_mm", "outer_diameter_mm"}
+        Which diameter was measured.
     ureter : Ureter
-        The tube at rest.
+        Inner and outer diameter of the tube at rest.
     axial : array (n)
-        Axial stretch.
+        Axial stretch λ_z of each row.
 
     Returns
     -------
     array (n)
-        NaN where the wall has no room within the outer diameter.
+        r_a/R_a; NaN if the wall does not fit into the measured outer diameter.
+
+    References
+    ----------
+    docs/theory.md, "Far field".
     """
     ratio = 1e-3 * diameter_mm / (ureter.inner_diameter or np.nan)
     if given == "outer_diameter_mm":
@@ -196,6 +221,9 @@ def inner_ratio(
 
 
 def _wrong(work: Float[np.ndarray, " n"], allowed: float) -> int | None:
-    """Row of the most negative work, where more of it is negative than `allowed`."""
+    """Return the row with the most negative product of load and strain.
+
+    None is returned if the negative products are at most the fraction `allowed` of Σ |product|.
+    """
     negative = float(np.sum(-work[work < 0.0]))
     return int(np.argmin(work)) if negative > allowed * float(np.sum(np.abs(work))) else None

@@ -1,4 +1,4 @@
-"""Checks of the data before a fit and of the fit after it; each refuses in one sentence."""
+"""Checks of the data before a fit, and of the fitted constants after it."""
 
 from __future__ import annotations
 
@@ -18,29 +18,64 @@ from stonepass.materials.constants import shown_constant
 
 __all__ = ["check_enough", "check_fit", "check_told", "r_squared_of"]
 
-INDISTINCT = 1e-6  # of singular values of the sensitivities, relative
-SHARE = 0.3  # of a constant in what the data cannot tell, for it to be named
+# A singular value of the sensitivity matrix below this fraction of the largest one counts as zero.
+INDISTINCT = 1e-6
+SHARE = 0.3  # least component of a constant in an unidentified direction for which it is named
 
 
 def check_enough(data: Data, free: Sequence[str]) -> None:
-    """Refuse data that say nothing of any law."""
+    """Refuse data that cannot determine the constants of any law.
+
+    Parameters
+    ----------
+    data : Data
+        Measured stresses or pressures.
+    free : sequence of str
+        Names of the constants to be fitted.
+
+    Raises
+    ------
+    BadInput
+        No constant is to be fitted, there are no more points than constants, or all points have
+        the same stretch or the same load.
+    """
     points, observed = len(data.observed), data.observed
-    require(len(free) > 0, "constants", "all given", "some to be fitted")
-    require(points > len(free), "data", f"{points} points", f"more than the {len(free)} constants",
-            "add points, or give constants with --fix NAME=VALUE")  # fmt: skip
-    require(float(np.abs(observed).max()) > 0.0, "data", "zero throughout", "measured under load")
-    require(float(np.ptp(data.abscissa)) > 1e-6, "data", f"at {data.abscissa[0]:.4g} times the "
-            "size at rest in every row", "measured at two stretches or more")  # fmt: skip
+    require(len(free) > 0, "number of constants to be fitted", 0, "at least 1",
+            "leave out one of the given constants")  # fmt: skip
+    require(points > len(free), "number of data points", points, f"more than {len(free)}, the "
+            "number of constants to be fitted", "add points, or give constants with --fix "
+            "NAME=VALUE")  # fmt: skip
+    require(float(np.abs(observed).max()) > 0.0, data.measured, "0 kPa in every row",
+            "different from 0 in some rows")  # fmt: skip
+    require(float(np.ptp(data.abscissa)) > 1e-6, "stretch", f"{data.abscissa[0]:.4g} in every row",
+            "different in at least two rows")  # fmt: skip
     require(float(np.ptp(observed)) > 1e-9 * float(np.abs(observed).max()), data.measured,
-            f"{observed[0] / 1e3:.4g} kPa in every row", "one that changes with the stretch"
+            f"{observed[0] / 1e3:.4g} kPa in every row", "different in at least two rows"
             )  # fmt: skip
 
 
 def check_told(objective: Objective, search: Search) -> None:
-    """Refuse constants whose changes cancel wherever the search begins: no data of this kind tell.
+    """Refuse constants that this kind of test cannot identify, whatever their values are.
 
-    The sensitivities are to relative changes; columns without any are those of constants that do
-    nothing.
+    The data do not identify the constants separately if a combination of relative changes of them
+    leaves every prediction as it is. The constants are refused only if this is so at every starting
+    point of the search, since at one point alone it may be a coincidence.
+
+    Parameters
+    ----------
+    objective : Objective
+        Data and law.
+    search : Search
+        The constants to be fitted and the starting points.
+
+    Raises
+    ------
+    BadInput
+        The message names the constants that are not identified.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     smallest: Float[np.ndarray, " free"] | None = None
     for start in STARTS:
@@ -56,19 +91,45 @@ def check_told(objective: Objective, search: Search) -> None:
 
 
 def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution]:
-    """Refuse a fit that is none; say where a constant is zero, or another end of its own range."""
+    """Refuse a fit that describes the data no better than chance or ends at a search bound.
+
+    Parameters
+    ----------
+    objective : Objective
+        Data, law and expected errors of the fit.
+    search : Search
+        The fitted constants and their search bounds.
+    result : lmfit.minimizer.MinimizerResult
+        Result of the least-squares fit.
+
+    Returns
+    -------
+    list of Caution
+        A caution for each constant that lies at a physical bound of its own, such as zero.
+
+    Raises
+    ------
+    BadInput
+        The law predicts no stress for some of the data, R² is negative, a constant lies at a bound
+        of the search, the F test shows no improvement over a law without stress, or the data do not
+        identify some constants separately.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
+    """
     law, data, told = search.law, objective.data, []
     values = {each: float(value) for each, value in result.params.valuesdict().items()}
     predicted = objective.predicted(values)
     law_of = f"fit of law '{law}'"
     remedy = "check signs, units and sizes at rest, or fit another law"
     if not np.all(np.isfinite(predicted)):
-        raise BadInput(law_of, "without a prediction for some of the data",
-                       "one that meets all of them", "fit another law")  # fmt: skip
+        raise BadInput(f"prediction of law '{law}'", "undefined for some of the data",
+                       "defined for all of them", "fit another law")  # fmt: skip
     r_squared = r_squared_of(predicted - data.observed, data.observed)
     if r_squared < 0.0:
         raise BadInput(law_of, f"worse than a constant, R² = {r_squared:.3g}",
-                       "better than one", remedy)  # fmt: skip
+                       "better than a constant, R² above 0", remedy)  # fmt: skip
     for name in search.free:
         each = search.declared[name]
         end = at_an_end(result.params[name], each, search.modulus)
@@ -80,9 +141,9 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
         if own and each.positive and abs(limit - values[name]) < 1e-2 * max(abs(limit), 1.0):
             told.append(caution("constant_at_bound", name=name, value=shown))
             continue
-        raise BadInput(f"constant {name} of the {law_of}", f"{shown}, the {end} end of the search",
-                       "one that the data bound", f"give it, --fix {name}=VALUE, or fit another "
-                       "law, which these data obey")  # fmt: skip
+        raise BadInput(f"constant {name} of the {law_of}", f"{shown}, the {end} bound of the "
+                       "search", "within the bounds of the search", f"give it with --fix "
+                       f"{name}=VALUE, or fit another law")  # fmt: skip
     off = objective.off(values)
     level = predicted / objective.spread
     count = len(search.free)
@@ -90,7 +151,8 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
     noise = float(off @ off) / (len(off) - count)
     if explained < noise * float(f_distribution.ppf(LEVEL, count, len(off) - count)):
         raise BadInput(law_of, f"no better than chance, R² = {r_squared:.3g}",
-                       "clearer than the scatter of the data", remedy)  # fmt: skip
+                       "significant beside the scatter of the data (F test, 5 %)",
+                       remedy)  # fmt: skip
     named = {dict(each.values)["name"] for each in told}
     inside = [each for each in search.free if each not in named]
     _, sizes, directions = np.linalg.svd(objective.sensitivities(values, inside),
@@ -104,13 +166,23 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
 
 def _refuse_blind(named: Sequence[str]) -> None:
     raise BadInput(
-        "data",
-        f"blind to {' and '.join(named)}",
-        "such that every constant changes what is predicted",
-        f"give one of them, e.g. --fix {named[-1]}=VALUE, or another test",
+        f"effect of {' and '.join(named)} on the predictions",
+        "not separable" if len(named) > 1 else "zero",
+        "distinct for each fitted constant",
+        f"fix one of them, e.g. --fix {named[-1]}=VALUE, or use another kind of test",
     )
 
 
 def r_squared_of(off: Float[np.ndarray, " n"], observed: Float[np.ndarray, " n"]) -> float:
-    """1 − Σ off²/Σ (observed − mean)²; negative where a constant would be nearer."""
+    """Compute the coefficient of determination R² = 1 − Σ off²/Σ (observed − mean)².
+
+    It is negative if the mean of the data describes them better than the law does.
+
+    Parameters
+    ----------
+    off : array (n)
+        Predicted minus observed values in Pa.
+    observed : array (n)
+        Observed values in Pa, not all equal.
+    """
     return 1.0 - float(np.sum(off**2) / np.sum((observed - observed.mean()) ** 2))

@@ -1,4 +1,4 @@
-"""The search for the constants of a law: least squares from several starts, by lmfit."""
+"""Least-squares search for the constants of a law from several starting points, with lmfit."""
 
 from __future__ import annotations
 
@@ -17,14 +17,29 @@ from stonepass.materials.known_laws import constants_by_name, known_law
 
 __all__ = ["STARTS", "Search", "best_fit", "proportional_spread", "search_for"]
 
-STARTS = (0.1, 1.0, 5.0)  # of the numbers of a law, each tried
-SMALLEST_SHARE = 0.01  # of the largest stress: below it an error is no longer proportional
-REWEIGHTED = 3  # times that proportional errors are taken anew from what the law predicts
+STARTS = (0.1, 1.0, 5.0)  # factors on the first guess of the dimensionless constants
+# Smallest proportional error, as a fraction of the error at the largest stress.
+SMALLEST_SHARE = 0.01
+REWEIGHTED = 3  # iterations in which proportional errors are updated from the predictions
 
 
 @dataclass(frozen=True)
 class Search:
-    """Which constants are looked for, and where it begins."""
+    """The constants of a law to be fitted, the given ones, and the scale of the starting point.
+
+    Attributes
+    ----------
+    law : str
+        Name of the law.
+    declared : mapping of str to ConstantDeclaration
+        Declarations of all constants of the law.
+    fixed : mapping of str to float
+        Constants that keep a given value, in SI units.
+    free : tuple of str
+        Names of the constants to be fitted.
+    modulus : float
+        First guess of the shear modulus in Pa, which scales the search bounds of all moduli.
+    """
 
     law: str
     declared: Mapping[str, ConstantDeclaration]
@@ -38,12 +53,32 @@ class Search:
         return known_law(self.law)
 
     def parameters(self, start: float) -> Any:
-        """Parameters of lmfit, with the numbers of the law `start` times their guess."""
+        """Return lmfit parameters whose dimensionless constants start at `start` times the guess.
+
+        Moduli start at their guess.
+        """
         return starting_parameters(lmfit(), self.declared, self.fixed, self.modulus, start)
 
 
 def search_for(data: Data, law: str, given: Mapping[str, float], free: Sequence[str]) -> Search:
-    """Tell which constants of a law are fitted; for the parameters see `law_fit.fit_law`."""
+    """Decide which constants of a law are fitted and which keep a given or default value.
+
+    Parameters
+    ----------
+    data : Data
+        Data from which the scale of the moduli is guessed.
+    law : str
+        Name of the law in `materials.known_laws.KNOWN_LAWS`.
+    given : mapping of str to float
+        Constants that are not fitted, in SI units.
+    free : sequence of str
+        Names of constants to be fitted although they normally keep their default.
+
+    Raises
+    ------
+    BadInput
+        The law or one of the constants is unknown.
+    """
     declared, fixed = constants_by_name(law), dict(given)
     for each in (*fixed, *free):
         if each not in declared:
@@ -56,12 +91,32 @@ def search_for(data: Data, law: str, given: Mapping[str, float], free: Sequence[
 
 
 def best_fit(objective: Objective, search: Search, relative: bool) -> tuple[Objective, Any, Any]:
-    """The best of the fits from several starts; proportional errors follow what it predicts."""
+    """Fit from every starting point and return the best result.
+
+    With proportional errors the expected error of a point is proportional to its predicted value,
+    so that the best fit is repeated with updated errors (iteratively reweighted least squares).
+
+    Parameters
+    ----------
+    objective : Objective
+        Data, law and the errors to begin with.
+    search : Search
+        Constants and starting points.
+    relative : bool
+        Whether the errors are proportional to the predicted values.
+
+    Returns
+    -------
+    objective : Objective
+        The objective with the errors of the last fit.
+    minimizer : lmfit.Minimizer
+    result : lmfit.minimizer.MinimizerResult
+    """
     data = objective.data
     if relative:
         objective = replace(objective, spread=proportional_spread(data.observed))
     starts = [search.parameters(start) for start in STARTS]
-    alike = starts[0].valuesdict() == starts[-1].valuesdict()  # where no number is looked for
+    alike = starts[0].valuesdict() == starts[-1].valuesdict()  # no dimensionless constant is free
     found = [_minimized(objective, each) for each in (starts[:1] if alike else starts)]
     minimizer, result = min(found, key=lambda each: float(each[1].chisqr))
     for _ in range(REWEIGHTED if relative else 0):
@@ -80,6 +135,6 @@ def _minimized(objective: Objective, parameters: Any) -> tuple[Any, Any]:
 
 
 def proportional_spread(level: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-    """Standard deviations in proportion to a level, and not below a hundredth of the largest."""
+    """Return errors proportional to the given stresses, at least 1 % of the largest error."""
     size = np.abs(level)
     return np.maximum(size, SMALLEST_SHARE * float(size.max()))

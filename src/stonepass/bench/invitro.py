@@ -1,7 +1,8 @@
-"""The friction coefficient that fits a series of critical pressures, and what the series can tell.
+"""Fit of the friction coefficient to a measured series of critical pressures.
 
-Stiffness and friction both raise P_ucr; a series tells them apart only by how they do it, and the
-joint fit shows how well.
+A stiffer wall and a larger friction coefficient both raise P_ucr. Their effects differ only in how
+they depend on sizes, walls and loads, so that a second fit, of friction and stiffness together,
+shows how well the series determines both.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.stats import f as f_distribution
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.bench.agreement import OBJECTIONS, disagreement
 from stonepass.bench.comparison import Comparison, Setting, compare
@@ -29,49 +31,64 @@ from stonepass.bench.least_squares import (
 )
 from stonepass.bench.series_model import SeriesModel, series_curves
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.stone import FRICTION
+from stonepass.result import Result
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.units import Values
 
 __all__ = ["LARGEST", "SMALLEST", "STIFFNESS", "Estimate", "InVitro", "JointFit", "fit_friction"]
 
-SMALLEST, LARGEST = 0.01, FRICTION[1]
-STIFFNESS = (1.0 / 3.0, 3.0)
+SMALLEST, LARGEST = 0.01, FRICTION[1]  # search bounds of the friction coefficient
+STIFFNESS = (1.0 / 3.0, 3.0)  # search bounds of the factor on the stiffness of the material
 BOUNDS = {"friction": (SMALLEST, LARGEST), "stiffness": STIFFNESS}
-PROFILE_GRID = 60  # of the other parameter
-START = (0.3, 1.0)
-REFINED, JOINTLY_REFINED = 3, 2  # times that the series is solved at the friction fitted so far
-SETTLED = 1e-3  # of friction, relative
-FEWEST = 4  # points for two parameters
+PROFILE_GRID = 60  # number of values of the second parameter at each point of a profile
+START = (0.3, 1.0)  # friction and stiffness at which the fit starts
+# Largest number of times that the series is solved again at the friction fitted so far.
+REFINED, JOINTLY_REFINED = 3, 2
+SETTLED = 1e-3  # relative change of the friction below which the fit has converged
+FEWEST = 4  # smallest number of points for a fit of both parameters
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A fitted number and its 95 % interval; an end is None where the data do not bound it."""
+    """A fitted parameter and its 95 % confidence interval.
+
+    Attributes
+    ----------
+    value : float
+        Best value; dimensionless for friction and stiffness.
+    low, high : float or None
+        Lower and upper end of the interval; None if the data do not bound it on that side.
+    """
 
     value: float
     low: float | None
     high: float | None
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class JointFit:
     """Friction and stiffness fitted together.
 
     Attributes
     ----------
-    friction, stiffness : Estimate
-        Stiffness as a factor on the material's.
+    friction : Estimate
+        Friction coefficient μ_f.
+    stiffness : Estimate
+        Factor on the stiffness of the material.
     correlation : float or None
-        Of the two estimates.
+        Correlation of the two estimates, −1 to 1.
     misfit : callable
-        χ² of frictions and stiffnesses, as arrays that broadcast, over its least value.
+        χ²(friction, stiffness) divided by its least value. The arguments are arrays that broadcast.
     level : float
-        Of the misfit, round the joint 95 % region.
+        Value of `misfit` on the boundary of the joint 95 % confidence region.
+
+    References
+    ----------
+    docs/bench.md, "A series in vitro".
     """
 
     friction: Estimate
@@ -81,25 +98,27 @@ class JointFit:
     level: float
 
 
-@dataclass(frozen=True)
-class InVitro:
-    """A series, the model at a friction coefficient, and the coefficient that fits.
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class InVitro(Result):
+    """Result of the comparison of a measured series with the model.
 
     Attributes
     ----------
     comparison : Comparison
-        At the fitted friction, or at the one that was asked for.
+        Comparison at the fitted friction, or at the friction that the caller gave.
     fitted : Comparison
-        At the fitted friction.
+        Comparison at the fitted friction.
     friction : Estimate
-        With the material's own stiffness.
+        Friction coefficient fitted with the stiffness of the material.
     joint : JointFit or None
-        With the stiffness unknown; None for fewer than four points.
+        Friction and stiffness fitted together; None for fewer than four points.
     setting : Setting
+        Material, confinement, model and numerics.
     weighted : bool
-        Whether residuals are weighted by the points' standard deviations.
+        Whether each residual is weighted by the standard deviation of its point.
     warnings : tuple of Caution
-        Cautions that speak against the fit come first.
+        Warnings; those after which the fitted numbers must not be used come first.
     """
 
     comparison: Comparison
@@ -110,9 +129,21 @@ class InVitro:
     weighted: bool
     warnings: tuple[Caution, ...] = ()
 
+    def summary(self) -> str:
+        """Return the fitted friction with its interval, and how it was found, in one line."""
+        low, high = (
+            "unbounded" if end is None else f"{end:.3g}"
+            for end in (self.friction.low, self.friction.high)
+        )
+        holds = "" if not self.objections else "; series and model do not agree"
+        return (
+            f"friction {self.friction.value:.3g}, 95 % interval {low} to {high}, from "
+            f"{len(self.comparison.points)} points{holds}"
+        )
+
     @property
     def objections(self) -> tuple[Caution, ...]:
-        """Warnings that say that series and model do not agree, so that no number holds."""
+        """Warnings of a disagreement of series and model that invalidates the fitted numbers."""
         return tuple(each for each in self.warnings if each.code in OBJECTIONS)
 
 
@@ -122,34 +153,49 @@ def fit_friction(
     friction: float | None = None,
     solver: CaseSolver | None = None,
 ) -> InVitro:
-    """Find the friction coefficient that fits a series, with its interval.
+    """Fit the friction coefficient to a series of measured critical pressures.
 
-    The series is solved at a few frictions and interpolated between them, then solved again at the
-    friction that fits until that stays, so that the answer is the model's own.
+    The model is solved at a few friction coefficients, and P_ucr is interpolated between them. The
+    model is then solved again at the fitted coefficient, until the coefficient changes by less than
+    0.1 %, so that the result does not depend on the interpolation. With four points or more,
+    friction and stiffness are also fitted together.
 
     Parameters
     ----------
     points : sequence of Point
-        Two at least; with an `sd` of every one, residuals are weighted.
+        At least two measured critical pressures. The residuals are weighted if every point has a
+        standard deviation.
     setting : Setting
+        Material, confinement, model and numerics.
     friction : float, optional
-        To compare with; by default the fitted one.
+        Friction coefficient at which the series is compared with the model, 0 to 2; by default the
+        fitted one.
     solver : CaseSolver, optional
-        By default the work runs in this process, without a cache.
+        Solves the cases; by default in this process, without a cache.
+
+    Returns
+    -------
+    InVitro
 
     Raises
     ------
     BadInput
-        Fewer than two points that the model answers, or standard deviations of 0.
+        The model has an answer for fewer than two points, a standard deviation is 0, all pressures
+        are 0, or the model is the beam.
+
+    References
+    ----------
+    docs/bench.md, "A series in vitro".
     """
-    library, solver = lmfit(), solver or JobSolver()
+    library, solver = lmfit(), solver or JobSolver(progress=True)
     if not setting.model.NEEDS_ELEMENTS:
-        raise BadInput("model", "beam", "paper or direct", "the beam holds for thin walls only")
+        raise BadInput("model", "beam", "'paper' or 'direct'",
+                       "the beam model holds for thin walls only")  # fmt: skip
     weights, weighted = _weights(points)
     curves, warnings = series_curves(points, setting, solver)
     kept = [k for k, curve in enumerate(curves) if curve is not None]
-    require(len(kept) > 1, "series", f"{len(kept)} points that the model answers with a held stone",
-            "two at least")  # fmt: skip
+    require(len(kept) > 1, "number of points for which the model predicts a critical pressure",
+            len(kept), "at least 2")  # fmt: skip
     known = tuple(curve for curve in curves if curve is not None)
     whole = SeriesModel(known, [points[k] for k in kept], weights[kept], setting)
     parameters = library.Parameters()
@@ -189,7 +235,10 @@ def fit_friction(
 
 
 def _excluded(joint: JointFit | None, alone: Estimate) -> list[Caution]:
-    """Say where the joint fit excludes the wall's own stiffness, or ends with the search."""
+    """Return cautions if the joint fit excludes the stiffness of the material or ends at a bound.
+
+    `joint` and `alone` are the fits with and without an unknown stiffness.
+    """
     if joint is None:
         return []
     found = []
@@ -215,17 +264,18 @@ def _weights(points: Sequence[Point]) -> tuple[Float[np.ndarray, " n"], bool]:
     given = [point.sd for point in points if point.sd is not None]
     if len(given) < len(points):
         scale = max((abs(point.pressure) for point in points), default=0.0)
-        require(scale > 0.0, "series", "zero throughout", "measured pressures")
+        require(scale > 0.0, "pressure_kPa", "0 in every row", "above 0 in some rows")
         return np.full(len(points), 1.0 / scale), False
     if min(given) <= 0.0:
-        raise BadInput("sd_kPa", min(given) / 1e3, "above 0", "leave the column out")
+        raise BadInput("sd_kPa", min(given) / 1e3, "above 0",
+                       "leave the column out if the standard deviations are unknown")  # fmt: skip
     return 1.0 / np.array(given), True
 
 
 def _joint(
     library: Any, series: SeriesModel, parameters: Any, solver: CaseSolver
 ) -> tuple[JointFit | None, list[Caution]]:
-    """Fit friction and stiffness together, and map the misfit around."""
+    """Fit friction and stiffness together, with intervals and the joint confidence region."""
     count = len(series.curves)
     if count < FEWEST:
         return None, [caution("too_few_for_stiffness", points=count)]
@@ -259,7 +309,10 @@ def _joint(
 def _profiled(
     misfit: Callable[[Values, Values], Values], best: Mapping[str, float], name: str, count: int
 ) -> Interval:
-    """Ends of the interval of one parameter, the other at its best for every value of it."""
+    """Return the interval of one parameter from its profile.
+
+    At every value of the parameter `name` the misfit is minimised over the other parameter.
+    """
     other = "stiffness" if name == "friction" else "friction"
     grid = np.unique(np.append(np.geomspace(*BOUNDS[other], PROFILE_GRID), best[other]))
     level = profile_level(count - 2)
@@ -269,7 +322,7 @@ def _profiled(
         return misfit(*(np.asarray(each) for each in given))
 
     def excess(value: float) -> float:
-        """Least misfit over the other parameter, less the level."""
+        """Return the misfit, minimised over the other parameter, minus the level."""
         values = np.asarray(at(value, grid))
         k = int(np.argmin(values))
         ends = (grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)])
@@ -283,7 +336,7 @@ def _profiled(
 
 
 def _ends(bounds: dict[str, Interval], name: str) -> Interval:
-    """Ends of an interval; none where it reaches the end of what was tried."""
+    """Return the ends of an interval; an end that reaches a bound of the search becomes None."""
     low, high = bounds.get(name, (None, None))
     first, last = (SMALLEST, LARGEST) if name == "friction" else STIFFNESS
     return (

@@ -1,12 +1,15 @@
-"""Do the data obey the law, but for noise: what the residuals tell of mistakes and of the law.
+"""Tests of the residuals of a fitted law for measuring mistakes and for a wrong law.
 
-A mistake shifts the residuals in a direction that is known beforehand: an offset by the same amount
-everywhere, a wrong size at rest in proportion to the slope of the curve, hysteresis by opposite
-amounts when loading and unloading, an outlier at one point. A direction is added to the
-sensitivities of the fitted constants, linearised at the best fit, and the F test says whether the
-residuals shrink by more than noise would let them. Errors are taken as Gaussian and independent,
-with one unknown variance. The mistake that leaves least by Schwarz's criterion is taken in and the
-rest asked again, so that one outlier is not told as an offset too. Theory: docs, *From the bench*.
+Each kind of mistake changes the n residuals along a vector that is known beforehand. A zero offset
+changes all of them by the same amount, a wrong size at rest in proportion to the slope of the
+curve, hysteresis with opposite signs in loading and unloading, and an outlier changes one residual.
+The vector is appended to the sensitivities of the fitted constants at the best fit. An F test then
+shows whether the sum of squares decreases by more than independent Gaussian errors of one unknown
+variance explain.
+
+The mistake with the smallest Schwarz criterion (BIC) is accepted, its vector is kept, and the
+other mistakes are tested again. In this way one outlier is not reported as an offset as well. The
+method is described in docs/bench.md, "Constants of a wall".
 """
 
 from __future__ import annotations
@@ -25,16 +28,20 @@ from stonepass.caution import Caution, caution
 
 __all__ = ["lack_of_fit"]
 
-FALSE_ALARM = 0.02  # chance of any caution where the law and the noise are as assumed
-NEGLIGIBLE = 1e-4  # of the largest observation: residuals below it are rounding
-FEWEST_FREE = 3  # degrees of freedom that a test leaves
-LARGEST_EXPLAINED = 4  # mistakes taken in one after the other
-FEWEST_OF_BRANCH = 3  # points
+# Probability of at least one caution if the law and the assumptions about the errors are right.
+FALSE_ALARM = 0.02
+# Residuals below this fraction of the largest observed value are attributed to rounding.
+NEGLIGIBLE = 1e-4
+FEWEST_FREE = 3  # smallest number of degrees of freedom of the residuals in a test
+LARGEST_EXPLAINED = 4  # largest number of mistakes that are accepted one after the other
+FEWEST_OF_BRANCH = 3  # smallest number of points of a branch or run
 ALIKE = 6.0  # difference of Schwarz's criterion below which two mistakes explain equally well
-SMALL_PART = 1e-4  # of a size at rest, for a difference
-SLACK = (1.01, 1.02, 1.03, 1.04, 1.05, 1.07, 1.1, 1.14, 1.2)  # stretches up to which strips hang
-FEWEST_OF_TOE = 2  # points without load
-INDISTINCT = 1e-3  # part of a direction that is not a change of the constants already
+SMALL_PART = 1e-4  # relative change of a size at rest, for a difference quotient
+# Stretches up to which a strip may be slack; each is tried.
+SLACK = (1.01, 1.02, 1.03, 1.04, 1.05, 1.07, 1.1, 1.14, 1.2)
+FEWEST_OF_TOE = 2  # smallest number of points on the slack part of the curve
+# Smallest part of a unit vector that lies outside the space of the known vectors.
+INDISTINCT = 1e-3
 
 
 _Amounts: TypeAlias = Float[np.ndarray, " k"]
@@ -43,16 +50,17 @@ _Shift: TypeAlias = Float[np.ndarray, " n"]
 
 @dataclass(frozen=True, eq=False)
 class _Mistake:
-    """A direction, or several, in which a mistake shifts the residuals.
+    """A kind of mistake and the k vectors along which it changes the residuals.
 
-    `told` makes the caution from the amounts of the directions, the part of the residuals that they
-    explain beside the constants, and the chance of the test.
+    The function `told` returns the caution. Its arguments are the coefficients of the vectors, the
+    part of the residuals that the vectors explain in addition to the fitted constants, and the
+    p-value of the test.
     """
 
     code: str
     directions: Float[np.ndarray, "n k"]
     told: Callable[[_Amounts, _Shift, float], Caution]
-    tried: int = 1  # alike directions, of which this is the one that was looked for
+    tried: int = 1  # number of similar vectors that were tried, for the Bonferroni correction
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,24 +83,30 @@ def lack_of_fit(
     sensitivities: Float[np.ndarray, "n p"],
     spread: Float[np.ndarray, " n"],
 ) -> list[Caution]:
-    """Return what the residuals say against the data or the law.
+    """Return a caution for each mistake, or for a wrong law, that the residuals indicate.
 
     Parameters
     ----------
     data : Data
+        Measured stresses or pressures.
     law : Law
-        As fitted.
+        The law with its fitted constants.
     off : array (n)
-        Predicted less observed over `spread`.
+        Residuals: predicted minus observed values, divided by `spread`; dimensionless.
     sensitivities : array (n, p)
-        Change of `off` with each fitted constant.
+        Derivatives of `off` with respect to the p fitted constants.
     spread : array (n)
-        Expected errors in Pa up to a factor.
+        Expected errors in Pa, known up to a common factor.
 
     Returns
     -------
     list of Caution
-        Empty where residuals are as noise would have them, or smaller than rounding.
+        The list is empty if the assumed errors, or rounding, explain the residuals. If the law and
+        the assumptions about the errors are right, it is empty with a probability of 98 %.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     scale = float(np.abs(data.observed).max())
     if np.sqrt(np.mean((off * spread) ** 2)) < NEGLIGIBLE * scale:
@@ -122,7 +136,7 @@ def lack_of_fit(
 
 
 def _basis(known: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "n r"]:
-    """Orthonormal basis of the directions already known."""
+    """Return an orthonormal basis of the known vectors."""
     scaled = known / np.maximum(np.linalg.norm(known, axis=0), np.finfo(float).tiny)
     left, sizes, _ = np.linalg.svd(scaled, full_matrices=False)
     return left[:, sizes > 1e-10 * sizes[0]]
@@ -131,7 +145,11 @@ def _basis(known: Float[np.ndarray, "n p"]) -> Float[np.ndarray, "n r"]:
 def _verdict(
     off: Float[np.ndarray, " n"], basis: Float[np.ndarray, "n r"], mistake: _Mistake, level: float
 ) -> _Verdict | None:
-    """F test of the directions of a mistake beside those already known; None where it passes."""
+    """Test whether the vectors of a mistake reduce the residuals significantly (F test).
+
+    The basis spans the vectors that are accepted already. None is returned if the reduction is not
+    significant at `level` or the test is impossible.
+    """
     count = len(off)
     sizes = np.maximum(np.linalg.norm(mistake.directions, axis=0), np.finfo(float).tiny)
     scaled = mistake.directions / sizes
@@ -180,7 +198,8 @@ def _sizes(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mista
             continue
 
         def told(amounts: _Amounts, shift: _Shift, chance: float, code: str = code) -> Caution:
-            # Predicted less observed falls by the slope times what is missing from each size.
+            # If every size is too small by a fraction, predicted minus observed is too small by the
+            # slope times that fraction.
             return caution(code, part=-float(amounts[0]), chance=chance)
 
         found.append(_Mistake(code, slope[:, None], told))
@@ -188,7 +207,7 @@ def _sizes(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mista
 
 
 def _slack(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mistake]:
-    """Strips that hang loose up to a stretch: several of them, of which the best counts."""
+    """Return a mistake for each stretch up to which the strips may have been slack."""
     found, predicted = [], data.predicted(law)
     for stretch in SLACK:
         taut = data.taut_from(stretch)
@@ -207,7 +226,7 @@ def _slack(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mista
 def _of_branches(
     found: Branches, predicted: Float[np.ndarray, " n"], spread: Float[np.ndarray, " n"]
 ) -> list[_Mistake]:
-    """Loading apart from unloading, and one run apart from another."""
+    """Return the mistakes hysteresis and differing runs, if the data have the branches for them."""
     mistakes, level = [], predicted / spread
     if min(np.sum(found.loading > 0), np.sum(found.loading < 0)) >= FEWEST_OF_BRANCH:
         width = np.abs(predicted).max() / spread * found.width
@@ -234,7 +253,10 @@ def _of_branches(
 def _shape(
     data: Data, predicted: Float[np.ndarray, " n"], spread: Float[np.ndarray, " n"]
 ) -> _Mistake:
-    """The law times a curve of second order over the abscissa: any smooth law near this one."""
+    """Return the mistake of a wrong law: predictions multiplied by a parabola over the abscissa.
+
+    Any smooth law near the fitted one differs from it by about such a factor.
+    """
     x = data.abscissa
     u = (2.0 * x - x.min() - x.max()) / np.ptp(x)
     columns = [predicted * u / spread, predicted * (1.5 * u * u - 0.5) / spread]
@@ -265,7 +287,7 @@ def _worst_point(
     basis: Float[np.ndarray, "n r"],
     spread: Float[np.ndarray, " n"],
 ) -> _Mistake:
-    """The point whose residual is largest beside what noise leaves of it after the fit."""
+    """Return the mistake of an outlier at the point with the largest standardised residual."""
     kept = 1.0 - np.sum(basis**2, axis=1)
     left = off - basis @ (basis.T @ off)
     sizes = np.where(kept > INDISTINCT, np.abs(left) / np.sqrt(np.maximum(kept, INDISTINCT)), 0.0)
@@ -285,10 +307,11 @@ def _worst_point(
 def _correlated(
     off: Float[np.ndarray, " n"], known: Float[np.ndarray, "n r"], data: Data, level: float
 ) -> list[Caution]:
-    """Whether neighbours along the curve have residuals that are alike.
+    """Return a caution if the residuals of neighbouring points are positively correlated.
 
-    The statistic is that of Durbin and Watson 1950, Biometrika 37, 409–428, d = Σ (e_k+1 − e_k)²/
-    Σ e_k², with their approximation of d/4 by a beta distribution of its exact mean and variance.
+    The test is that of Durbin and Watson 1950, Biometrika 37, 409–428. Their statistic is
+    d = Σ (e_k+1 − e_k)²/Σ e_k²; they approximate the distribution of d/4 by a beta distribution
+    with the exact mean and variance.
     """
     names = list(dict.fromkeys(data.groups))
     group = np.array([names.index(each) for each in data.groups])
@@ -298,8 +321,8 @@ def _correlated(
     left = off[order] - basis @ (basis.T @ off[order])
     if free < FEWEST_FREE or not float(left @ left) > 0.0:
         return []
-    # A = DᵀD for the differences D between neighbours of a curve, applied to columns; M is 1 less
-    # the known directions. tr MA and tr MAMA follow from tr A, tr A² and the basis alone.
+    # D forms the differences of neighbours of a curve, A = DᵀD, and M = 1 − BBᵀ projects out the
+    # basis B. The traces of MA and MAMA follow from tr A, tr A² and B without large matrices.
     same = (np.diff(group[order]) == 0).astype(float)
     differences = same[:, None] * np.diff(basis, axis=0)
     applied = np.zeros_like(basis)

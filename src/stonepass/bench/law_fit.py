@@ -1,8 +1,8 @@
-"""Constants of a law from bench data: least squares, with intervals and what the data cannot tell.
+"""Least-squares fit of the constants of a law to laboratory data, with confidence intervals.
 
-The fit and the profile likelihood behind the intervals are lmfit's. A fit that is none is refused
-with its reason: constants that the data cannot tell from one another, that end where the search
-ends, or that explain the data no better than no law at all.
+The package lmfit does the fit and the profile likelihood of the intervals. A fit is refused if the
+data do not identify the constants separately, if a constant ends at a bound of the search, or if
+the law describes the data no better than chance.
 """
 
 from __future__ import annotations
@@ -13,25 +13,27 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import spearmanr
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
+from stonepass.bench.confidence_band import confidence_band
 from stonepass.bench.fit_checks import check_enough, check_fit, check_told, r_squared_of
 from stonepass.bench.fit_search import Search, best_fit, proportional_spread, search_for
 from stonepass.bench.lack_of_fit import lack_of_fit
 from stonepass.bench.least_squares import correlations, intervals
 from stonepass.bench.objective import Data, Objective
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, UnstableLaw
 from stonepass.materials.constants import Unit, shown_constant
 from stonepass.materials.known_laws import constants_by_name, name_of_law
 from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import SOFTEST_WALL, check
+from stonepass.result import Result
 
 __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
-FEWEST_OF_A_TREND = 8  # points
-UNLIKELY = 0.01  # chance of so clear a trend where there is none
-# Cautions after which 95 % intervals are approximate.
+FEWEST_OF_A_TREND = 8  # smallest number of points for the test of a trend
+UNLIKELY = 0.01  # significance level of the test of a trend
+# Codes of the cautions after which the 95 % intervals are only approximate.
 UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "lack_of_fit",
           "zero_offset", "rest_size", "slack", "axial_rest_length", "hysteresis", "runs_differ",
           "outlier")  # fmt: skip
@@ -39,10 +41,21 @@ UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "la
 
 @dataclass(frozen=True)
 class Constant:
-    """A constant of a law.
+    """A constant of a fitted law.
 
-    `low` and `high` bound its 95 % interval; None where it was given, and one of them None where
-    the data set no bound on that side. `unit` is that of the stored numbers.
+    Attributes
+    ----------
+    name : str
+        Name of the constant in law files.
+    value : float
+        Fitted or given value, in `unit`.
+    unit : {"Pa", "rad", "1"}
+        Unit of `value`, `low` and `high`.
+    low, high : float or None
+        Lower and upper end of the 95 % confidence interval. Both are None if the constant was
+        given; one is None if the data do not bound the constant on that side.
+    given : bool
+        Whether the constant was given instead of fitted.
     """
 
     name: str
@@ -53,43 +66,58 @@ class Constant:
     given: bool = False
 
 
-@compared_by_value
-@dataclass(frozen=True)
-class FittedLaw:
-    """A law fitted to data.
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class FittedLaw(Result):
+    """A law fitted to laboratory data.
 
     Attributes
     ----------
     material : Material
+        Material with the fitted law; its strain range is that of the data.
     constants : tuple of Constant
+        All constants of the law, fitted and given.
     data : Data
+        The n measured values.
     predicted : array (n)
-        In Pa.
+        Predicted stresses or pressures in Pa.
+    band : array (n)
+        Half the width of the 95 % confidence band of `predicted` in Pa.
     rmse : float
         Root mean square of the residuals in Pa.
     r_squared : float
-        1 − Σ residual²/Σ (observed − mean)²; not negative.
-    correlations : dict
-        Pairs of fitted constants and the correlation of their estimates.
+        Coefficient of determination 1 − Σ residual²/Σ (observed − mean)², 0 to 1.
+    correlations : dict of (str, str) to float
+        Correlation of the estimates of each pair of fitted constants, −1 to 1.
     unstable : str
-        Why the law describes no solid; empty where it does.
+        Reason why the fitted law is not stable; empty if it is stable.
     warnings : tuple of Caution
-        Cautions that speak against the fit come first.
+        Warnings; those that concern the agreement of law and data come first.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
 
     material: Material
     constants: tuple[Constant, ...]
     data: Data
     predicted: Float[np.ndarray, " n"]
+    band: Float[np.ndarray, " n"]
     rmse: float
     r_squared: float
     correlations: dict[tuple[str, str], float]
     unstable: str = ""
     warnings: tuple[Caution, ...] = ()
 
+    def summary(self) -> str:
+        """Return the law, its constants and how well it fits in one line."""
+        law = name_of_law(self.material.law)
+        return f"{law}, {self.told}; R² {self.r_squared:.4f}, RMSE {self.rmse / 1e3:.3g} kPa"
+
     @property
     def told(self) -> str:
-        """The constants in words."""
+        """Names and values of all constants, as text."""
         known = constants_by_name(name_of_law(self.material.law))
         return ", ".join(
             f"{c.name} {shown_constant(c.value, known[c.name])}" for c in self.constants
@@ -97,12 +125,12 @@ class FittedLaw:
 
     @property
     def approximate(self) -> bool:
-        """Whether the residuals are not those that the 95 % intervals assume."""
+        """True if the residuals violate the assumptions of the 95 % intervals."""
         return any(each.code in UNSURE for each in self.warnings)
 
     @property
     def residuals(self) -> Float[np.ndarray, " n"]:
-        """Predicted less observed in Pa."""
+        """Predicted minus observed values in Pa, an array (n)."""
         return self.predicted - self.data.observed
 
 
@@ -120,26 +148,35 @@ def fit_law(
     Parameters
     ----------
     data : Data
-        `bench.Tension` or `bench.Inflation`.
+        Measured values: `Tension` or `Inflation`.
     law : str
-        A name in `materials.known_laws.KNOWN_LAWS`.
-    given : mapping, optional
+        Name of the law in `materials.known_laws.KNOWN_LAWS`.
+    given : mapping of str to float, optional
         Constants that are not fitted, in SI units.
     name : str
-        Name of the material.
+        Name of the fitted material.
     relative : bool
-        Whether errors are proportional to what was measured, as a gauge's often are, instead of
-        equally large everywhere. Intervals are right only for the one that is true.
+        Whether the measuring errors are proportional to the predicted values. By default they have
+        the same size at all points. The intervals are right only if this choice is right.
     free : sequence of str
-        Constants to be fitted that otherwise keep their default, as the second and third term of
-        the Ogden law and the dispersion of fibres.
+        Names of constants to be fitted although they normally keep their default value. Examples
+        are the second and third term of the Ogden law and the dispersion of the fibres.
+
+    Returns
+    -------
+    FittedLaw
+        It is returned for unstable laws too; `FittedLaw.unstable` then has the reason.
 
     Raises
     ------
     BadInput
-        An unknown law or constant, fewer points than constants, constants that the data cannot
-        tell from one another or that end where the search ends, naming them, and data that no
-        constants meet better than no law would.
+        The law or a constant is unknown, there are no more points than constants, the data do not
+        identify some constants separately, a constant ends at a bound of the search, or the law
+        describes the data no better than chance.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     search = search_for(data, law, given or {}, free)
     check_enough(data, search.free)
@@ -163,6 +200,7 @@ def fit_law(
         constants=_constants(search, values, bounds),
         data=data,
         predicted=predicted,
+        band=confidence_band(objective, values, inside),
         rmse=float(np.sqrt(np.mean(off**2))),
         r_squared=r_squared_of(off, data.observed),
         correlations=correlations(result, search.free),
@@ -208,7 +246,7 @@ def _doubts(
     *,
     proportional: bool,
 ) -> list[Caution]:
-    """Lack of fit, with errors in proportion where the residuals are so."""
+    """Test for lack of fit; the errors are taken as proportional if the residuals look like it."""
     spread = objective.spread
     if proportional:
         spread = proportional_spread(objective.predicted(values))
@@ -218,7 +256,7 @@ def _doubts(
 
 
 def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
-    """Why the law is no solid, if so, and whether it is suspiciously soft."""
+    """Return why the law is unstable (empty if it is stable), and a caution if it is very soft."""
     try:
         state = check(material)
     except UnstableLaw as problem:
@@ -228,7 +266,7 @@ def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
                        f"check the unit of the {data.measured}") from problem  # fmt: skip
     at = data.unstable_at(material.law)
     if at is not None:
-        return f"at stretch {at:.3g} a strip would not keep its shape", []
+        return f"the width of a strip is unstable at stretch {at:.3g}", []
     if state.shear < SOFTEST_WALL:
         return "", [caution("soft_fit", modulus_Pa=state.shear, measured=data.measured)]
     return "", []
@@ -237,7 +275,7 @@ def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
 def _growing(
     off: Float[np.ndarray, " n"], observed: Float[np.ndarray, " n"], relative: bool
 ) -> list[Caution]:
-    """Whether residuals grow with what was measured, although they were taken as equal."""
+    """Return a caution if the residuals grow with the observed values (Spearman's rank test)."""
     if relative or len(off) < FEWEST_OF_A_TREND or np.ptp(np.abs(off)) == 0.0:
         return []
     trend = spearmanr(np.abs(off), np.abs(observed))

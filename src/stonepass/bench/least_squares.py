@@ -1,8 +1,9 @@
-"""Least squares with intervals: lmfit's fit and profile likelihood, for constants and friction."""
+"""Confidence intervals and correlations of least-squares estimates, with lmfit."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from importlib import import_module
 from typing import Any
 from warnings import catch_warnings, simplefilter
 
@@ -12,7 +13,6 @@ from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
 from stonepass.caution import Caution, caution
-from stonepass.io.optional_imports import library
 
 __all__ = [
     "LEVEL",
@@ -25,20 +25,21 @@ __all__ = [
     "profile_level",
 ]
 
-LEVEL = 0.95
-FARTHER = 1.5  # each step outwards over the last one
-STEPS = 60
-SMALLEST = 1e-9  # step, relative
-PARABOLIC = 0.02  # of the growth of χ², by which a parabola may miss it
+LEVEL = 0.95  # confidence level of all intervals
+FARTHER = 1.5  # ratio of successive steps outwards along a profile
+STEPS = 60  # largest number of these steps
+SMALLEST = 1e-9  # smallest first step, relative to the best value
+# Largest error of the parabola at an end of an interval, as a fraction of the increase of χ².
+PARABOLIC = 0.02
 TINY = np.finfo(float).tiny
 
-# Both ends of an interval; None where the data set no bound on that side.
+# Lower and upper end of an interval; None if the data do not bound it on that side.
 Interval = tuple[float | None, float | None]
 
 
 def lmfit() -> Any:
-    """Load lmfit, or say what to install."""
-    return library("lmfit", "fit constants", "laboratory")
+    """Load lmfit when a fit needs it, because loading it takes a third of a second."""
+    return import_module("lmfit")
 
 
 def intervals(
@@ -47,26 +48,36 @@ def intervals(
     free: Sequence[str],
     declared: Mapping[str, Any] | None = None,
 ) -> tuple[dict[str, Interval], list[Caution]]:
-    """95 % intervals of the free parameters, and what there is to say.
+    """Compute 95 % confidence intervals of fitted parameters.
 
-    The scatter is that of the residuals. Where χ² is a parabola as far as the intervals go, they
-    are Student's, which are exact for a model that is linear in its parameters and Gaussian errors;
-    else the likelihood is profiled. Where a profile cannot be followed the curvature at the best
-    fit stands in, and that is said. Every interval stays within the bounds of its parameter.
+    The residuals provide the variance of the errors. If χ² is a parabola out to the ends of the
+    intervals, Student's t intervals are returned; they are exact for Gaussian errors and a model
+    that is linear in its parameters. Otherwise the profile likelihood is used. If a profile cannot
+    be computed, the interval follows from the curvature at the best fit, and a caution says so.
 
     Parameters
     ----------
-    minimizer, result : lmfit.Minimizer, lmfit.minimizer.MinimizerResult
+    minimizer : lmfit.Minimizer
+        The minimizer after its fit.
+    result : lmfit.minimizer.MinimizerResult
+        Result of the fit.
     free : sequence of str
-        Parameters to bound; others that vary have none, as those that lie on a bound.
+        Names of the parameters for which intervals are wanted. Fitted parameters that lie at a
+        bound are left out.
     declared : mapping, optional
-        Objects with `low` and `high`, the bounds that are physical, by name of the parameter.
+        Declarations of the parameters by name.
 
     Returns
     -------
-    bounds : dict
-        Ends by name; None where an end is not bounded before the end of the search.
+    bounds : dict of str to (float or None, float or None)
+        Lower and upper end by name, in the unit of the parameter. An end that reaches the search
+        bound of its parameter is None.
     told : list of Caution
+        Cautions about open and approximate intervals.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     told: list[Caution] = []
     bounds = _by_parabola(minimizer, result, free)
@@ -79,7 +90,7 @@ def intervals(
 
 
 def _within(interval: Interval, parameter: Any) -> Interval:
-    """The interval, open where it goes to the end of the search or of what is physical."""
+    """Return the interval with None in place of an end that reaches a bound of the search."""
     low, high = interval
     return (
         None if low is None or low <= parameter.min else low,
@@ -93,7 +104,7 @@ def _profiled(
     fitting = lmfit()
     try:
         with np.errstate(all="ignore"), catch_warnings():
-            simplefilter("error", UserWarning)  # a profile that was not followed to its end
+            simplefilter("error", UserWarning)  # lmfit warns if a profile is incomplete
             profiles = fitting.conf_interval(
                 minimizer, result, p_names=list(free), sigmas=[LEVEL], maxiter=40,
                 min_rel_change=1e-3,
@@ -105,11 +116,11 @@ def _profiled(
 
 
 def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, Interval] | None:
-    """Student's intervals, or None where χ² at their ends is not what a parabola says.
+    """Return Student's t intervals, or None if χ² is not a parabola out to their ends.
 
-    At the ends of the interval of one parameter, the others moved along with it by their
-    covariance, a parabola has the χ² of `profile_level`. The bounds of the others do not count
-    here, so that an interval may be wider than it has to be, but not narrower.
+    At an end of the interval of one parameter the others follow it according to the covariance
+    matrix. If χ² is a parabola, it has the value `profile_level` there. The search bounds of the
+    other parameters are ignored here, so that an interval may be too wide but not too narrow.
     """
     if result.covar is None or not np.all(np.isfinite(result.covar)):
         return None
@@ -121,7 +132,7 @@ def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, 
     for name in free:
         k = names.index(name)
         error, centre = float(np.sqrt(covariance[k, k])), float(result.params[name].value)
-        if error == 0.0:  # the data are met exactly
+        if error == 0.0:  # the law fits the data exactly
             found[name] = (centre, centre)
             continue
         for sign in (-1.0, 1.0):
@@ -130,7 +141,7 @@ def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, 
             for other, by in zip(names, shift, strict=True):
                 value = float(result.params[other].value) + by
                 moved[other].set(value=value, min=-np.inf, max=np.inf)
-            with np.errstate(all="ignore"):  # no number there is no parabola
+            with np.errstate(all="ignore"):  # a χ² of NaN is not that of a parabola either
                 reached = float(np.sum(np.square(minimizer.userfcn(moved)))) / max(least, TINY)
             if not abs(reached - level) < PARABOLIC * (level - 1.0):
                 return None
@@ -139,7 +150,20 @@ def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, 
 
 
 def correlations(result: Any, free: Sequence[str]) -> dict[tuple[str, str], float]:
-    """Correlation of every pair of estimates."""
+    """Return the correlation of every pair of estimates.
+
+    Parameters
+    ----------
+    result : lmfit.minimizer.MinimizerResult
+        Result of the fit.
+    free : sequence of str
+        Names of the parameters.
+
+    Returns
+    -------
+    dict of (str, str) to float
+        Correlation, −1 to 1; pairs for which lmfit has none are left out.
+    """
     found = {}
     for k, one in enumerate(free):
         for other in free[k + 1 :]:
@@ -156,7 +180,15 @@ def _end(value: float) -> float | None:
 def open_ended(
     bounds: dict[str, Interval], both: str = "not_bounded", one: str = "bounded_on_one_side"
 ) -> list[Caution]:
-    """Return a caution for each interval that is open: code `both`, or `one` for one open end."""
+    """Return a caution for each interval without a lower or an upper end.
+
+    Parameters
+    ----------
+    bounds : dict of str to (float or None, float or None)
+        Ends of the intervals by name of the parameter.
+    both, one : str
+        Codes of the cautions for intervals with two open ends and with one.
+    """
     told = []
     for name, (low, high) in bounds.items():
         if low is None and high is None:
@@ -167,7 +199,7 @@ def open_ended(
 
 
 def _profile_of_one(minimizer: Any, result: Any, name: str) -> Interval:
-    """Where χ² has grown by the F distribution's share, on both sides of the best fit."""
+    """Return the values on both sides of the best fit at which χ² reaches `profile_level`."""
     best, parameter = float(result.params[name].value), result.params[name]
     least = float(np.sum(np.square(minimizer.userfcn(result.params))))
     moved = result.params.copy()
@@ -182,16 +214,34 @@ def _profile_of_one(minimizer: Any, result: Any, name: str) -> Interval:
 
 
 def profile_level(free: int) -> float:
-    """χ² over its least value at the ends of the interval of one parameter."""
+    """Return χ² at the ends of the interval of one parameter, divided by its least value.
+
+    `free` is the number of degrees of freedom of the residuals, at least 1. The quotient is
+    1 + F/free with the 95 % quantile F of the F distribution with 1 and `free` degrees of freedom.
+    """
     return 1.0 + float(f_distribution.ppf(LEVEL, 1, free)) / free
 
 
 def ends_of_profile(
     excess: Callable[[float], float], best: float, first: float, bounds: tuple[float, float]
 ) -> Interval:
-    """Where a profile crosses 0 on both sides of the best value; None where it does not.
+    """Find the zeros of a profile on both sides of the best value.
 
-    Steps grow outwards from the `first` one to the bounds.
+    Parameters
+    ----------
+    excess : callable
+        The profile minus its level at the ends of the interval; negative at the best value.
+    best : float
+        Best value of the parameter, within the bounds.
+    first : float
+        First step outwards; every further step is 1.5 times as large.
+    bounds : (float, float)
+        Smallest and largest value of the parameter.
+
+    Returns
+    -------
+    (float or None, float or None)
+        Lower and upper zero; None if the profile has no zero between the best value and the bound.
     """
     ends: list[float | None] = []
     for sign, bound in zip((-1.0, 1.0), bounds, strict=True):
@@ -211,7 +261,7 @@ def ends_of_profile(
 
 
 def _by_curvature(result: Any, free: Sequence[str]) -> tuple[dict[str, Interval], list[Caution]]:
-    """95 % of the t distribution about the best fit."""
+    """Return symmetric 95 % intervals of the t distribution about the best fit."""
     if any(result.params[name].stderr is None for name in free):
         return {}, [caution("no_interval")]
     factor = float(t_distribution.ppf(0.5 + LEVEL / 2.0, result.nfree))

@@ -1,4 +1,4 @@
-"""The residuals that a fit of a law makes small, and their sensitivities to its constants."""
+"""Residuals of a law against laboratory data, and their sensitivities to its constants."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from stonepass.materials.protocol import Law
 
 __all__ = ["SPAN", "Data", "Objective", "at_an_end", "starting_parameters", "stiffness_guess"]
 
-NUMBER = (1e-6, 1e3)  # widest interval of a positive constant that is no modulus
-ANY_SIGN = (-1e2, 1e2)  # widest interval of one that may be negative
-SPAN = 1e6  # of moduli over the first guess
-IMPOSSIBLE = 1e3  # times the data, where a law has no stress
-STEP = 1e-5  # relative, of differences over a constant
-LEAST = 1e-3  # of a typical constant, its size where it is near zero
-AT_END = 1e-3  # of a constant, or of its range, within which it lies at an end of the search
+NUMBER = (1e-6, 1e3)  # widest search range of a positive dimensionless constant
+ANY_SIGN = (-1e2, 1e2)  # widest search range of a dimensionless constant that may be negative
+SPAN = 1e6  # largest modulus of the search over the first guess
+IMPOSSIBLE = 1e3  # residual where the law predicts no stress, and largest residual
+STEP = 1e-5  # relative step of a constant in difference quotients
+LEAST = 1e-3  # least magnitude of a constant in a relative change, over a typical constant
+AT_END = 1e-3  # relative distance from a search bound within which a constant lies at the bound
 
 
 @runtime_checkable
@@ -31,15 +31,15 @@ class Data(Protocol):
 
     @property
     def lines(self) -> tuple[int, ...]:
-        """Line of the file that each point stands in; empty where there is no file."""
+        """Line number in the file of each point; empty if the data were not read from a file."""
 
     @property
     def observed(self) -> Float[np.ndarray, " n"]:
-        """The measured quantity, in Pa."""
+        """Measured stresses or pressures in Pa."""
 
     @property
     def abscissa(self) -> Float[np.ndarray, " n"]:
-        """The quantity on the horizontal axis of a drawing."""
+        """Stretch of a strip, or radius ratio r_a/R_a of a tube, at each point."""
 
     @property
     def groups(self) -> tuple[str, ...]:
@@ -47,33 +47,44 @@ class Data(Protocol):
 
     @property
     def strain_range(self) -> tuple[float, float]:
-        """Smallest and largest stretch."""
+        """Smallest and largest stretch of the data."""
 
     @property
     def mistaken(self) -> Mapping[str, Callable[[float], Data]]:
-        """The data with a size at rest, by name of the caution, that is wrong by a small part."""
+        """Functions that correct the data for a wrong size at rest, by the code of the caution.
+
+        The argument is the relative change of all stretches that belong to this size.
+        """
 
     def taut_from(self, stretch: float) -> Data | None:
-        """The data of strips that hang loose up to this stretch; None for what cannot."""
+        """Return the data corrected for strips that are slack up to a stretch.
+
+        None is returned for specimens that cannot be slack.
+        """
 
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
-        """The measured quantity as a law predicts it, in Pa; NaN where it predicts none."""
+        """Return the stresses or pressures that a law predicts, in Pa; NaN if it predicts none."""
 
     def unstable_at(self, law: Law) -> float | None:
-        """First stretch at which what was measured would not keep its shape; None where none."""
+        """Return the stretch nearest to 1 at which the specimen is unstable; None if stable."""
 
 
 @dataclass(frozen=True, eq=False)
 class Objective:
-    """Residuals of a law over the error that is expected of each point.
+    """Residuals of a law, each divided by the expected error of its point.
 
     Attributes
     ----------
     data : Data
+        The n measured stresses or pressures.
     law : type
         Class of the law.
     spread : array (n)
-        In Pa; only the ratios of the expected errors count.
+        Expected errors in Pa. A common factor on all of them has no influence on the fit.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
 
     data: Data
@@ -81,12 +92,12 @@ class Objective:
     spread: Float[np.ndarray, " n"]
 
     def predicted(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
-        """Return the prediction of the law in Pa.
+        """Return the prediction (n) of the law in Pa for constants by name, in SI units.
 
-        The constants may lie out of the bounds of the law: what it predicts is smooth across them,
-        and whether the constants that fit describe a solid is asked afterwards.
+        The constants may lie outside the bounds of the law, since the prediction is a smooth
+        function there too. The stability of the fitted law is checked after the fit.
         """
-        law = object.__new__(self.law)  # leaves out the check of the constants
+        law = object.__new__(self.law)  # the constructor would check the constants
         for name, value in values.items():
             object.__setattr__(law, name, value)
         try:
@@ -96,21 +107,37 @@ class Objective:
             return np.full(len(self.spread), np.nan)
 
     def off(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
-        """Predicted less observed over what is expected; far off where the law has no stress."""
+        """Return predicted minus observed values, divided by the expected errors; dimensionless.
+
+        A residual is 1000 if the law predicts no stress, and never exceeds 1000 in magnitude.
+        """
         found = (self.predicted(values) - self.data.observed) / self.spread
         return np.where(np.isfinite(found), np.clip(found, -IMPOSSIBLE, IMPOSSIBLE), IMPOSSIBLE)
 
     def residuals(self, parameters: Any) -> Float[np.ndarray, " n"]:
-        """`off`, of parameters of lmfit."""
+        """Return the residuals `off` for lmfit parameters."""
         return self.off(parameters.valuesdict())
 
     def sensitivities(
         self, values: Mapping[str, float], free: Sequence[str]
     ) -> Float[np.ndarray, "n free"]:
-        """Change of every residual with each constant, over a change of the constant's own size.
+        """Compute the derivatives of the residuals by relative changes of the constants.
 
-        A constant near zero counts as of the size of `LEAST` of a typical one, so that it is not
-        taken for one that does nothing.
+        Column k is the derivative of the residuals with respect to ln |constant k|. For a constant
+        near zero the relative change refers to 1e-3 of a typical constant instead, since the column
+        would otherwise vanish.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            Constants of the law in SI units.
+        free : sequence of str
+            Names of the constants by which the residuals are differentiated.
+
+        Returns
+        -------
+        array (n, free)
+            Dimensionless derivatives by central differences.
         """
         typical = {each.name: each.unit for each in constants_of(self.law)}
         modulus, columns = stiffness_guess(self.data), []
@@ -123,7 +150,7 @@ class Objective:
 
 
 def stiffness_guess(data: Data) -> float:
-    """First guess of a shear modulus in Pa: what was measured over the strain, the median of it."""
+    """Guess a shear modulus in Pa: a third of the median of measured stress over strain."""
     strain = np.abs(data.abscissa - 1.0)
     loaded = strain > 0.2 * strain.max()
     return float(max(np.median(np.abs(data.observed[loaded]) / strain[loaded]) / 3.0, 1e-3))
@@ -136,7 +163,21 @@ def starting_parameters(
     modulus: float,
     start: float,
 ) -> Any:
-    """Parameters of lmfit at a first guess; numbers without unit are times `start`."""
+    """Return lmfit parameters with first guesses and search bounds.
+
+    Parameters
+    ----------
+    fitting : module
+        The module lmfit.
+    declared : mapping of str to ConstantDeclaration
+        Declarations of the constants of a law.
+    fixed : mapping of str to float
+        Constants that keep a given value, in SI units.
+    modulus : float
+        First guess of the shear modulus in Pa; moduli are searched up to 1e6 times it.
+    start : float
+        Factor on the first guess of each dimensionless constant.
+    """
     parameters = fitting.Parameters()
     for name, each in declared.items():
         if name in fixed:
@@ -149,7 +190,7 @@ def starting_parameters(
             low, high = NUMBER if each.positive else ANY_SIGN
             low = each.low if each.low_allowed else max(low, each.low)
             high = min(high, each.high)
-            # A first guess beyond a bound would be put on it, where nothing changes any more.
+            # lmfit would move a guess beyond a bound onto the bound, where its gradient vanishes.
             guess = each.guess * start
             inside = guess if low < guess < high else (low + high) / 2.0
             parameters.add(name, inside, min=low, max=high)
@@ -157,7 +198,17 @@ def starting_parameters(
 
 
 def at_an_end(parameter: Any, declared: ConstantDeclaration, modulus: float) -> str:
-    """Whether a fitted constant lies at the "lower" or "upper" end of its search; else empty."""
+    """Return "lower" or "upper" if a fitted constant lies at that search bound, else "".
+
+    Parameters
+    ----------
+    parameter : lmfit.Parameter
+        The fitted constant with its search bounds.
+    declared : ConstantDeclaration
+        Declaration of the constant.
+    modulus : float
+        First guess of the shear modulus in Pa, the scale of constants in Pa.
+    """
     value, low, high = float(parameter.value), float(parameter.min), float(parameter.max)
     unit = modulus if declared.unit == "Pa" else 1.0
     near = max(AT_END * abs(low), 1e-5 * unit)

@@ -1,8 +1,8 @@
-"""A series of points as a smooth function of friction and stiffness, through a few solves.
+"""Critical pressures of a series as a smooth function of friction and stiffness.
 
-A wall s times as stiff needs s times the pressure under s times the load,
-P_ucr(s w, P_out) = s P_ucr(w, P_out/s), so that stiffness needs no solve of its own where nothing
-confines the tube.
+The function interpolates a few solved cases over friction. Stiffness needs no solves without a
+confining pressure, because a wall that is s times as stiff needs s times the pressure under s times
+the load: P_ucr(s w, P_out) = s P_ucr(w, P_out/s) (docs/theory.md, "A stiffer wall").
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.bench.comparison import Setting
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
@@ -28,22 +28,30 @@ from stonepass.units import Values
 
 __all__ = ["OverFriction", "PressureCurve", "SeriesModel", "series_curves"]
 
-NODES = (0.05, 0.2, 0.5, 1.0)  # of friction, solved first
-LOAD_FACTORS = (0.5, 1.0, 2.0)  # of confining pressures, where stiffness varies
+NODES = (0.05, 0.2, 0.5, 1.0)  # friction coefficients that are solved first
+# Factors on the confining pressure that are solved for the dependence on stiffness.
+LOAD_FACTORS = (0.5, 1.0, 2.0)
 
 
 @dataclass(frozen=True)
 class OverFriction:
-    """P_ucr of one case over friction: ln(P/μ) by a polynomial in √μ through what was solved.
+    """Critical pressure of one case as a function of friction.
+
+    ln(P_ucr/μ) is a polynomial in √μ through the solved friction coefficients.
 
     Attributes
     ----------
     friction : tuple of float
-        μ that were solved.
+        Solved friction coefficients μ.
     pressure : tuple of float
-        P_ucr in Pa at each.
+        P_ucr in Pa at each of them.
     end : float
-        Pressure in Pa where the paper's closure ends, the most that the model can say.
+        Pressure in Pa at which the paper's closure ends, the largest that the model can predict;
+        infinite without such an end.
+
+    References
+    ----------
+    docs/bench.md, "A series in vitro".
     """
 
     friction: tuple[float, ...]
@@ -58,22 +66,29 @@ class OverFriction:
 
     @cached_property
     def rise(self) -> float:
-        """Slope d ln P/dμ at the largest friction solved."""
+        """Slope d ln P_ucr/dμ at the largest solved friction coefficient."""
         most = max(self.friction)
         slope = np.polyval(np.polyder(self.coefficients), np.sqrt(most)) / (2.0 * np.sqrt(most))
         return max(float(1.0 / most + slope), 0.0)
 
     def __call__(self, mu: Values) -> Values:
-        """Return P_ucr in Pa at friction μ; beyond the largest one solved by the tangent there."""
+        """Return P_ucr in Pa at friction μ, extrapolated linearly beyond the solved range."""
         most = max(self.friction)
         inside = np.minimum(mu, most)
         value = inside * np.exp(np.polyval(self.coefficients, np.sqrt(inside)))
         return np.minimum(value * (1.0 + self.rise * (mu - inside)), self.end)
 
     def through(self, mu: float, pressure: float | None) -> OverFriction:
-        """Return the curve through one more solve, in place of one whose friction is close to it.
+        """Return the curve with one more solved point.
 
-        Without a pressure nothing changes.
+        It replaces points whose friction coefficient differs from μ by less than 10 %.
+
+        Parameters
+        ----------
+        mu : float
+            Friction coefficient of the new point.
+        pressure : float or None
+            P_ucr in Pa at the new point. The curve is returned unchanged if it is None or 0.
         """
         if not pressure:
             return self
@@ -87,21 +102,25 @@ class OverFriction:
 
 @dataclass(frozen=True)
 class PressureCurve:
-    """P_ucr of one point over friction and stiffness.
+    """Critical pressure of one measured point as a function of friction and stiffness.
 
     Attributes
     ----------
     factors : tuple of float
-        Factors on the confining pressure; 1 alone where nothing confines the tube.
+        Solved factors on the confining pressure; only the factor 1 without a confining pressure.
     over : tuple of OverFriction
-        One for each factor.
+        Dependence on friction for each factor.
+
+    References
+    ----------
+    docs/theory.md, "A stiffer wall".
     """
 
     factors: tuple[float, ...]
     over: tuple[OverFriction, ...]
 
     def __call__(self, mu: Any, stiffness: Any) -> Any:
-        """Return s P_ucr(μ; P_out/s) in Pa, by the polynomial through the load factors."""
+        """Return s P_ucr(μ; P_out/s) in Pa for stiffness s, interpolated over the load factors."""
         if len(self.factors) == 1:
             return stiffness * self.over[0](mu)
         factor = 1.0 / stiffness
@@ -114,7 +133,15 @@ class PressureCurve:
         return stiffness * total
 
     def through(self, mu: float, answers: Mapping[float, Answer]) -> PressureCurve:
-        """Return the curve through answers at one more friction, given by load factor."""
+        """Return the curve with answers at one more friction coefficient.
+
+        Parameters
+        ----------
+        mu : float
+            Friction coefficient of the answers.
+        answers : mapping of float to Answer
+            Answers by their factor on the confining pressure.
+        """
         found = [
             over if answers.get(factor) is None else over.through(mu, answers[factor].pressure)
             for factor, over in zip(self.factors, self.over, strict=True)
@@ -122,19 +149,25 @@ class PressureCurve:
         return replace(self, over=tuple(found))
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class SeriesModel:
-    """A series of points as a function of friction and stiffness.
+    """Predictions of the model for a series of points, by friction and stiffness.
 
     Attributes
     ----------
     curves : tuple of PressureCurve
+        Prediction for each of the n points.
     points : sequence of Point
-        One for each curve.
+        Measured critical pressures.
     weights : array (n)
-        Weights of the residuals, in 1/Pa.
+        Weights of the residuals in 1/Pa.
     setting : Setting
+        Material, confinement, model and numerics.
+
+    References
+    ----------
+    docs/bench.md, "A series in vitro".
     """
 
     curves: tuple[PressureCurve, ...]
@@ -143,12 +176,18 @@ class SeriesModel:
     setting: Setting
 
     def residuals(self, parameters: Any) -> Float[np.ndarray, " n"]:
-        """Return model less measured, weighted, for parameters of lmfit."""
+        """Return the weighted differences of prediction and measurement for lmfit parameters."""
         values = parameters.valuesdict()
         return self._residuals(values["friction"], values["stiffness"])
 
     def misfit(self, mu: Any, stiffness: Any) -> Any:
-        """Return the sum of squares of the residuals on a grid of frictions and stiffnesses."""
+        """Return the sum of the squared weighted residuals.
+
+        Parameters
+        ----------
+        mu, stiffness : float or array
+            Friction coefficients and stiffness factors that broadcast against each other.
+        """
         return np.sum(np.square(self._residuals(mu, stiffness)), axis=-1)
 
     def where(self, chosen: Sequence[bool]) -> SeriesModel:
@@ -161,16 +200,35 @@ class SeriesModel:
         )
 
     def ended(self, mu: float) -> list[bool]:
-        """Return which points lie at the end of the closure, where nothing depends on friction."""
+        """Return for each point whether it lies at the end of the paper's closure at friction μ.
+
+        The prediction is then a lower bound that does not depend on friction.
+        """
         return [any(float(over(mu)) >= over.end for over in curve.over) for curve in self.curves]
 
     def through(self, mu: float, answers: Sequence[Mapping[float, Answer]]) -> SeriesModel:
-        """Return the model through answers at one more friction, for each point by load factor."""
+        """Return the model with answers at one more friction coefficient.
+
+        Parameters
+        ----------
+        mu : float
+            Friction coefficient of the answers.
+        answers : sequence of mapping
+            For each point the answers by their factor on the confining pressure.
+        """
         pairs = zip(self.curves, answers, strict=True)
         return replace(self, curves=tuple(curve.through(mu, found) for curve, found in pairs))
 
     def solved_at(self, mu: float, solver: CaseSolver) -> SeriesModel:
-        """Return the model, solved at one more friction for every load factor."""
+        """Solve every point at one more friction coefficient and return the refined model.
+
+        Parameters
+        ----------
+        mu : float
+            Friction coefficient, 0 to 2.
+        solver : CaseSolver
+            Solves the cases, without error estimates.
+        """
         asked = [
             {factor: self.setting.case(point, mu, factor) for factor in curve.factors}
             for curve, point in zip(self.curves, self.points, strict=True)
@@ -188,14 +246,23 @@ class SeriesModel:
 def series_curves(
     points: Sequence[Point], setting: Setting, solver: CaseSolver
 ) -> tuple[list[PressureCurve | None], list[Caution]]:
-    """Solve every point at a few frictions, and at a few factors on its confining pressure.
+    """Solve every point at a few friction coefficients and factors on its confining pressure.
+
+    Parameters
+    ----------
+    points : sequence of Point
+        Measured critical pressures.
+    setting : Setting
+        Material, confinement, model and numerics.
+    solver : CaseSolver
+        Solves the cases, without error estimates.
 
     Returns
     -------
     curves : list of PressureCurve or None
-        None for a point with fewer than two answers.
+        None for a point with a critical pressure at fewer than two friction coefficients.
     warnings : list of Caution
-        Which points say nothing, and why.
+        Cautions about the points that have no curve.
     """
     asked = [_asked(point, setting) for point in points]
     flat = list(dict.fromkeys(case for each in asked for case in each.values()))

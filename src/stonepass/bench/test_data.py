@@ -1,4 +1,4 @@
-"""What a bench measures: strips in tension, tubes under pressure; read from CSV."""
+"""Laboratory data of strips in tension and of tubes under pressure, read from CSV files."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
 from stonepass.bench.bench_stress import strip_stress, tube_pressure
 from stonepass.bench.data_checks import check_inflation, check_tension, inner_ratio
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 from stonepass.io.csv_file import Columns, read_columns
 from stonepass.materials.protocol import Law
@@ -22,21 +22,25 @@ from stonepass.units import Length
 __all__ = ["Inflation", "Tension", "read_inflation", "read_tension"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Tension:
-    """Strips pulled along directions of the wall.
+    """Uniaxial tension tests of strips that were cut along an axis of the wall.
 
     Attributes
     ----------
     stretch : array (n)
-        Length over length at rest.
+        Stretch, the length over the length at rest.
     stress : array (n)
-        Force over the section at rest in Pa.
+        Nominal stress, the force over the cross-section at rest, in Pa.
     axis : tuple of str
-        "circumferential" or "axial", of each.
+        Direction of the strip of each point, "circumferential" or "axial".
     lines : tuple of int
-        Line of the file that each stands in; empty where there is no file.
+        Line number in the file of each point; empty if the data were not read from a file.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
 
     stretch: Float[np.ndarray, " n"]
@@ -48,41 +52,44 @@ class Tension:
 
     @property
     def observed(self) -> Float[np.ndarray, " n"]:
-        """The measured quantity, in Pa."""
+        """Measured nominal stress in Pa."""
         return self.stress
 
     @property
     def abscissa(self) -> Float[np.ndarray, " n"]:
-        """The quantity on the horizontal axis of a drawing."""
+        """Stretch of each point."""
         return self.stretch
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Name of the curve that each belongs to."""
+        """Name of the curve that each point belongs to: the direction of its strip."""
         return self.axis
 
     @property
     def strain_range(self) -> tuple[float, float]:
-        """Smallest and largest stretch."""
+        """Smallest and largest stretch of the data."""
         return float(self.stretch.min()), float(self.stretch.max())
 
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
-        """The measured quantity as a law predicts it, in Pa."""
+        """Return the nominal stress that a law predicts in Pa; NaN where it predicts none."""
         return strip_stress(law, self.stretch, self._around)[0]
 
     def unstable_at(self, law: Law) -> float | None:
-        """First stretch at which a strip of the law would not keep its shape; None where none."""
+        """Return the stretch nearest to 1 at which the width of a strip is unstable, or None."""
         _, stiffness = strip_stress(law, self.stretch, self._around)
         lost = self.stretch[~(stiffness > 0.0)]
         return float(lost[np.argmin(np.abs(lost - 1.0))]) if len(lost) else None
 
     @property
     def mistaken(self) -> Mapping[str, Callable[[float], Tension]]:
-        """The data with a size at rest, by name of the caution, that is wrong by a small part."""
+        """Function that changes all stretches by a fraction, for a wrong length at rest."""
         return {"rest_size": lambda part: replace(self, stretch=self.stretch * (1.0 + part))}
 
     def taut_from(self, stretch: float) -> Tension:
-        """The strips with their length at rest where they are taut, at this stretch, not before."""
+        """Return the data with the length at which the strips become taut as length at rest.
+
+        Points with a smaller stretch keep the stretch 1, at which a strip carries no load.
+        """
         loose = np.minimum(self.stretch, 1.0)
         return replace(self, stretch=np.maximum(self.stretch / stretch, loose))
 
@@ -91,22 +98,27 @@ class Tension:
         return np.array(self.axis) == AXES[0]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Inflation:
-    """A tube under pressure, its ends held at an axial stretch (paper, Eq. 12).
+    """Inflation test of a tube whose ends are held at a given axial stretch.
 
     Attributes
     ----------
     radius_ratio : array (n)
-        Inner radius over inner radius at rest.
+        Inner radius over the inner radius at rest, r_a/R_a.
     pressure : array (n)
-        Transmural pressure in Pa.
+        Transmural pressure, inside minus outside, in Pa.
     wall_ratio : float
-        η of the tube at rest.
+        Wall ratio η = R_b/R_a of the tube at rest.
     axial_stretch : array (n)
+        Axial stretch λ_z of each point.
     lines : tuple of int
-        Line of the file that each stands in; empty where there is no file.
+        Line number in the file of each point; empty if the data were not read from a file.
+
+    References
+    ----------
+    Liu et al. 2022, Eq. 12; docs/theory.md, "Far field".
     """
 
     radius_ratio: Float[np.ndarray, " n"]
@@ -119,35 +131,38 @@ class Inflation:
 
     @property
     def observed(self) -> Float[np.ndarray, " n"]:
-        """The measured quantity, in Pa."""
+        """Measured transmural pressure in Pa."""
         return self.pressure
 
     @property
     def abscissa(self) -> Float[np.ndarray, " n"]:
-        """The quantity on the horizontal axis of a drawing."""
+        """Radius ratio r_a/R_a of each point."""
         return self.radius_ratio
 
     @property
     def groups(self) -> tuple[str, ...]:
-        """Name of the curve that each belongs to."""
+        """Name of the curve that each point belongs to: its axial stretch."""
         return tuple(f"axial stretch {stretch:g}" for stretch in self.axial_stretch)
 
     @property
     def strain_range(self) -> tuple[float, float]:
-        """Smallest and largest circumferential stretch, of the inner wall."""
+        """Smallest and largest circumferential stretch of the inner wall."""
         return float(self.radius_ratio.min()), float(self.radius_ratio.max())
 
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
-        """The measured quantity as a law predicts it, in Pa."""
+        """Return the transmural pressure that a law predicts in Pa; NaN where it predicts none."""
         return tube_pressure(law, self.radius_ratio, self.wall_ratio, self.axial_stretch)
 
     def unstable_at(self, law: Law) -> float | None:
-        """None: a tube keeps its shape by its ends."""
+        """Return None: the radius of the tube is prescribed and its ends are held."""
         return None
 
     @property
     def mistaken(self) -> Mapping[str, Callable[[float], Inflation]]:
-        """The data with a size at rest, by name of the caution, that is wrong by a small part."""
+        """Functions that change all radius ratios, or all axial stretches, by a fraction.
+
+        They correct the data for a wrong diameter or a wrong length at rest.
+        """
         return {
             "rest_size": lambda part: replace(self, radius_ratio=self.radius_ratio * (1.0 + part)),
             "axial_rest_length": lambda part: replace(
@@ -156,7 +171,7 @@ class Inflation:
         }
 
     def taut_from(self, stretch: float) -> None:
-        """None: a tube does not hang loose."""
+        """Return None: a tube cannot be slack."""
         return
 
 
@@ -167,24 +182,35 @@ def read_tension(
     gauge_length: Length | None = None,
     section: float | None = None,
 ) -> Tension:
-    """Read ``stretch`` or ``extension_mm``, ``nominal_stress_kPa`` or ``force_N``, and ``axis``.
+    """Read the tension tests of strips from a CSV file.
 
     Parameters
     ----------
     path : str or Path
-        CSV file; without a column ``axis`` the strips are circumferential.
+        CSV file with a column ``stretch`` or ``extension_mm``, and a column ``nominal_stress_kPa``
+        or ``force_N``. An optional column ``axis`` has the direction of each strip, circumferential
+        (the default) or axial.
     width, thickness : Length, optional
-        Of the strip at rest; they turn a force into a stress.
+        Width and thickness of the strip at rest in m; needed if the file has forces.
     gauge_length : Length, optional
-        Length at rest to which ``extension_mm`` belongs; stretch is 1 + extension/length.
+        Gauge length at rest in m; needed if the file has extensions. The stretch is
+        1 + extension/gauge_length.
     section : float, optional
-        Section of the strip at rest in m², in place of `width` and `thickness`.
+        Cross-section of the strip at rest in m², instead of `width` and `thickness`.
+
+    Returns
+    -------
+    Tension
 
     Raises
     ------
     BadInput
-        Naming the file, and row and column where one is at fault; a section or a length at rest
-        that is missing or not needed; stresses of the wrong sign, strains in place of stretches.
+        The file cannot be read (the message names the row and the column), a size at rest is
+        missing or not needed, the stresses have the wrong sign, or strains are given as stretches.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     path = Path(path)
     along = "stretch" if gauge_length is None else "extension_mm"
@@ -193,10 +219,10 @@ def read_tension(
     except BadInput as problem:
         if gauge_length is None and _has_extensions(path):
             raise BadInput("length of the strip", "missing", "given as --gauge-length",
-                           f"{path.name} has extensions") from problem  # fmt: skip
+                           f"{path.name} has a column of extensions") from problem  # fmt: skip
         raise
-    along = _one_of(path, columns, "how far it was stretched", ("stretch", "extension_mm"))
-    across = _one_of(path, columns, "what was measured", ("nominal_stress_kPa", "force_N"))
+    along = _one_of(path, columns, "the column of stretches", ("stretch", "extension_mm"))
+    across = _one_of(path, columns, "the column of stresses", ("nominal_stress_kPa", "force_N"))
     stretch = columns[along]
     if gauge_length is not None:
         require(gauge_length > 0.0, "--gauge-length", f"{1e3 * gauge_length:g} mm", "above 0")
@@ -206,7 +232,7 @@ def read_tension(
     else:
         if not width is thickness is section is None:
             raise BadInput("section of the strip", "given", "left out",
-                           f"{path.name} has stresses")  # fmt: skip
+                           f"{path.name} has a column of stresses")  # fmt: skip
         stress = 1e3 * columns["nominal_stress_kPa"]
     check_tension(path.name, columns, along, stretch, stress)
     which = columns.get("axis", np.zeros(len(stress)))
@@ -228,25 +254,25 @@ def _has_extensions(path: Path) -> bool:
 
 
 def _one_of(path: Path, columns: Columns, what: str, names: tuple[str, str]) -> str:
-    """Name of the one of two columns that the table has."""
+    """Return which of two alternative columns the table has; it must have exactly one."""
     given = [name for name in names if name in columns]
     if len(given) != 1:
         state = "missing" if not given else "given twice"
-        raise BadInput(f"in {path.name}, {what}", state, f"given once, as {' or '.join(names)}")
+        raise BadInput(f"in {path.name}, {what}", state, f"given as either {' or '.join(names)}")
     return given[0]
 
 
 def _section(
     path: Path, width: Length | None, thickness: Length | None, section: float | None
 ) -> float:
-    """Section at rest in m²."""
+    """Return the cross-section of the strip at rest in m²."""
     if section is not None and (width, thickness) != (None, None):
         raise BadInput("section of the strip", "given twice",
                        "given as --section, or as --width and --thickness")  # fmt: skip
     if section is None and (width is None or thickness is None):
         raise BadInput("section of the strip", "missing",
                        "given as --width and --thickness, or as --section",
-                       f"{path.name} has forces")  # fmt: skip
+                       f"{path.name} has a column of forces")  # fmt: skip
     found = width * thickness if width is not None and thickness is not None else section
     if found is None or not found > 0.0:
         raise BadInput("section of the strip", f"{found:g} m²", "above 0")
@@ -254,16 +280,31 @@ def _section(
 
 
 def read_inflation(path: str | Path, ureter: Ureter) -> Inflation:
-    """Read ``pressure_kPa`` and ``inner_diameter_mm`` or ``outer_diameter_mm``.
+    """Read the inflation test of a tube from a CSV file.
 
-    ``axial_stretch`` may stand beside them, 1 without. `ureter` has the diameters at rest; of an
-    outer diameter the inner one follows from the volume of the wall.
+    Parameters
+    ----------
+    path : str or Path
+        CSV file with the columns ``pressure_kPa`` (transmural pressure) and ``inner_diameter_mm``
+        or ``outer_diameter_mm``. An optional column ``axial_stretch`` has the axial stretch, 0.5 to
+        3; it is 1 by default.
+    ureter : Ureter
+        Inner and outer diameter of the tube at rest. With a measured outer diameter the inner one
+        follows from the constant volume of the wall.
+
+    Returns
+    -------
+    Inflation
 
     Raises
     ------
     BadInput
-        Naming the file, and row and column where one is at fault; pressures of the wrong sign,
-        radii in place of diameters.
+        The file cannot be read (the message names the row and the column), `ureter` has no
+        diameters, the pressures have the wrong sign, or radii are given as diameters.
+
+    References
+    ----------
+    docs/bench.md, "Constants of a wall".
     """
     path = Path(path)
     columns = read_columns(
@@ -273,7 +314,8 @@ def read_inflation(path: str | Path, ureter: Ureter) -> Inflation:
         bounds={"pressure_kPa": (-1e3, 1e4), "inner_diameter_mm": (1e-3, 1e3),
                 "outer_diameter_mm": (1e-3, 1e3), "axial_stretch": (0.5, 3.0)},
     )  # fmt: skip
-    given = _one_of(path, columns, "the diameter", ("inner_diameter_mm", "outer_diameter_mm"))
+    names = ("inner_diameter_mm", "outer_diameter_mm")
+    given = _one_of(path, columns, "the column of diameters", names)
     if ureter.inner_diameter is None:
         raise BadInput("inner diameter", "missing", "given as --inner", "the data are in mm")
     axial = columns.get("axial_stretch", np.ones(len(columns["pressure_kPa"])))

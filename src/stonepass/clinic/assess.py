@@ -51,7 +51,7 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     BadInput
         The material is unstable, or almost no wall is compatible with the measurements.
     """
-    solver = solver or JobSolver()
+    solver = solver or JobSolver(progress=True)
     check(patient.material)
     case = patient.case()
     draws, possible = draw_patient(patient)

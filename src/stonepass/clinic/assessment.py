@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool
 from stonepass.caution import Caution
 from stonepass.clinic.cohorts import Row
@@ -16,6 +17,7 @@ from stonepass.clinic.fractions import Fraction, Present, Range, Samples
 from stonepass.clinic.patient import Patient
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
+from stonepass.result import Result
 from stonepass.studies.sensitivity_indices import SensitivityIndex
 
 __all__ = ["Assessment"]
@@ -23,8 +25,9 @@ __all__ = ["Assessment"]
 FEWEST_OF_A_CLASS = 30  # samples
 
 
-@dataclass(frozen=True)
-class Assessment:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class Assessment(Result):
     """The assessment of one patient.
 
     Attributes
@@ -80,6 +83,17 @@ class Assessment:
     solves: int = 0
     surface_error: float = 0.0
     warnings: tuple[Caution, ...] = ()
+
+    def summary(self) -> str:
+        """Return the interval of the critical pressure in one line."""
+        found = self.critical
+        if found is None:
+            return f"{self.outcome.name}: {self.message}"
+        low, median, high = (
+            "unknown" if each is None else f"{each / 1e3:.3g}"
+            for each in (found.low, found.median, found.high)
+        )
+        return f"{self.outcome.name}, P_ucr {median} kPa in the median, {low} to {high} kPa"
 
     def beside(self, row: Row) -> Fraction | None:
         """Return the model's fraction below the limit for the stones of a cohort's row.

@@ -1,7 +1,6 @@
-"""Options and limits of the input files for other finite-element programs.
+"""Options and limits that all input files for other finite-element programs have in common.
 
-The declarations of the formats, the functions that write them and the mesh share them, so this
-module loads no numerical library.
+This module loads no numerical library, because the declarations of the formats use it.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ __all__ = [
     "ELEMENT", "FINE", "FLAVOUR", "FROM_CONTACT", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS",
 ]  # fmt: skip
 
-LENGTHS = (0.002, 0.5)  # of an element in the contact, in inner radii: smallest and largest
+LENGTHS = (0.002, 0.5)  # smallest and largest length of the elements in the contact, inner radii
 FINE = Option(
     "fine",
     "length of the elements in the contact, in inner radii",

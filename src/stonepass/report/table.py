@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from pathlib import Path
 
 from rich import box
 from rich.markup import escape
@@ -14,6 +13,7 @@ from stonepass.model.answer import Answer, Quantity
 from stonepass.model.contact_state import SolvedState
 from stonepass.model.problem import Problem
 from stonepass.model.size import SizeAnswer
+from stonepass.report.case_line import case_line
 from stonepass.units import PASCAL_PER
 
 __all__ = [
@@ -205,41 +205,10 @@ def _quantity_row(pressures: Table, others: Table, quantity: Quantity) -> None:
 
 
 def case_title(case: Problem, *, with_stone: bool = True) -> str:
-    """Return the case in one line: millimetres where it has lengths, and the ratios."""
-    stone, ureter = case.stone, case.ureter
-    ratios = [f"η = {case.wall_ratio:.4g}"]
-    if with_stone:
-        ratios.insert(0, f"ξ = {case.size_ratio:.4g}")
-    parts = [
-        *_lengths(case, with_stone=with_stone),
-        ", ".join(ratios),
-        f"friction {stone.friction:g}",
-        escape(ureter.material.name),
-    ]
-    if not stone.shape.spheroidal:
-        name = Path(stone.shape.reference).name or "given by points"
-        parts.append(f"shape {escape(name)}")
-    elif stone.aspect != 1.0:
-        parts.append(f"aspect {stone.aspect:g}")
-    if case.load.confining_pressure > 0.0:
-        parts.append(f"P_out {case.load.confining_pressure / 1e3:g} kPa {case.load.confinement}")
-    if case.load.prestretch != 1.0:
-        parts.append(f"pre-stretch {case.load.prestretch:g}")
-    if getattr(getattr(case, "model", None), "as_printed", False):
-        parts.append("Eq. 5 as printed")
-    return " · ".join(parts)
-
-
-def _lengths(case: Problem, *, with_stone: bool) -> list[str]:
-    """Return the diameters in millimetres, as far as the case has lengths."""
-    inner, outer = case.ureter.inner_diameter, case.ureter.outer_diameter
-    if inner is None:
-        return []
-    tube = f"ureter {1e3 * inner:.4g} mm inside"
-    if outer is not None:
-        tube += f", {1e3 * outer:.4g} mm outside"
-    diameter = case.stone.diameter
-    return [f"stone {1e3 * diameter:.4g} mm", tube] if with_stone and diameter else [tube]
+    """Return the case in one line, as figures name it; text that looks like markup is escaped."""
+    line = escape(case_line(case, with_stone=with_stone))
+    printed = getattr(getattr(case, "model", None), "as_printed", False)
+    return f"{line} · Eq. 5 as printed" if printed else line
 
 
 def _deg(radians: float) -> float:

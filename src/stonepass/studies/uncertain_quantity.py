@@ -1,4 +1,4 @@
-"""Numbers with an uncertainty: ``"5 mm ± 1 mm"``, ``"5 mm ± 20 %"`` and ``"0.05 to 0.5"``."""
+"""Quantities with an uncertainty: ``"5 mm ± 1 mm"``, ``"5 mm ± 20 %"``, ``"0.05 to 0.5"``."""
 
 from __future__ import annotations
 
@@ -22,25 +22,32 @@ EXAMPLE = {
     True: "'5 mm ± 1 mm', '5 mm ± 20 %' or '3 mm to 4 mm'",
     False: "'0.3 ± 0.1', '0.3 ± 30 %' or '0.05 to 0.5'",
 }
-LONGEST = 100  # characters
-FARTHEST = 6.0  # standard deviations
+LONGEST = 100  # largest number of characters of a text
+FARTHEST = 6.0  # largest distance from the mean in standard deviations
 
 
 @dataclass(frozen=True)
 class UncertainQuantity:
-    """A number and its uncertainty.
+    """A quantity with its uncertainty, in SI units.
+
+    A range is uniformly distributed. A value with a standard deviation has a truncated normal
+    distribution, or a lognormal distribution if the quantity is a factor.
 
     Attributes
     ----------
     value : float
-        The measured value; the middle of a range.
+        Measured value, or the middle of a range.
     sd : float or None
-        Standard deviation of its error; 0 for an exact number, None for a range.
+        Standard deviation of the measuring error; 0 for an exact value, None for a range.
     low, high : float
-        Ends of the range, or the bounds at which the distribution is cut off.
+        Ends of the range, or bounds at which the distribution is truncated.
     factor : bool
-        Whether the quantity is a factor. A factor has a lognormal distribution with the median
-        `value`, any other quantity a normal one.
+        Whether the quantity is a factor, such as a relative stiffness. Its distribution is then
+        lognormal with the median `value`.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
 
     value: float
@@ -56,7 +63,7 @@ class UncertainQuantity:
 
     @property
     def distribution(self) -> Any:
-        """The distribution, as a frozen one of `scipy.stats`; an exact number has none."""
+        """Distribution as a frozen distribution of `scipy.stats`; not for an exact value."""
         from scipy.stats import lognorm, truncnorm, uniform  # takes a second to load
 
         if self.sd is None:
@@ -68,13 +75,21 @@ class UncertainQuantity:
         return truncnorm(first, last, loc=self.value, scale=self.sd)
 
     def quantiles(self, fractions: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """Return the quantiles for fractions between 0 and 1."""
+        """Return the quantiles (n) of the distribution for fractions (n) between 0 and 1."""
         if self.exact:
             return np.full(len(fractions), self.value)
         return np.clip(self.distribution.ppf(fractions), self.low, self.high)
 
     def describe(self, scale: float = 1.0, unit: str = "") -> str:
-        """Write the quantity, divided by `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
+        """Return the quantity as text, e.g. ``5 ± 1 mm`` or ``0.05 to 0.5``.
+
+        Parameters
+        ----------
+        scale : float
+            Size of the unit of the text in SI units, e.g. 1e-3 for mm.
+        unit : str
+            Unit of the text; empty for a dimensionless quantity.
+        """
         tail = f" {unit}" if unit else ""
         if self.exact:
             return f"{self.value / scale:.4g}{tail}"
@@ -84,22 +99,25 @@ class UncertainQuantity:
 
 
 def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> UncertainQuantity:
-    """Read a length with its uncertainty.
+    """Read a length with its uncertainty; ``±`` means one standard deviation.
 
     Parameters
     ----------
     text : str
-        ``5 mm ± 1 mm``, ``5 ± 1 mm`` or ``5 mm ± 20 %``, where ``±`` is one standard deviation, or
-        a range, ``3 mm to 4 mm``.
+        A text such as ``"5 mm ± 1 mm"``, ``"5 mm ± 20 %"`` or ``"3 mm to 4 mm"``.
     argument : str
-        Name of the quantity in refusals.
+        Name of the quantity in messages.
     bounds : (float, float)
-        Smallest and largest value in m.
+        Smallest and largest length in m.
 
     Raises
     ------
     BadInput
-        The text has no uncertainty or no unit, or the value is out of bounds.
+        The text has no uncertainty or no unit, or the length is out of bounds.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
     return _read(text, argument, bounds, lambda part: float(length(part, argument)), lengths=True)
 
@@ -107,9 +125,27 @@ def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Un
 def measured_number(
     text: str, argument: str, bounds: tuple[float, float], *, factor: bool = False
 ) -> UncertainQuantity:
-    """Read a number without unit and its uncertainty, such as ``1 ± 0.3``, ``1 ± 30 %``.
+    """Read a dimensionless number with its uncertainty; ``±`` means one standard deviation.
 
-    For the parameters see `measured_length`; `factor` is that of `UncertainQuantity`.
+    Parameters
+    ----------
+    text : str
+        A text such as ``"0.3 ± 0.1"``, ``"0.3 ± 30 %"`` or ``"0.05 to 0.5"``.
+    argument : str
+        Name of the quantity in messages.
+    bounds : (float, float)
+        Smallest and largest number.
+    factor : bool
+        Whether the number is a factor with a lognormal distribution (see `UncertainQuantity`).
+
+    Raises
+    ------
+    BadInput
+        The text has no uncertainty, or the number is out of bounds.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
 
     def number(part: str) -> float:
@@ -130,7 +166,7 @@ def _read(
     *,
     lengths: bool,
 ) -> UncertainQuantity:
-    if len(text) > LONGEST:  # the patterns take long over long ones
+    if len(text) > LONGEST:  # matching the patterns to a long text takes too long
         raise _unreadable(argument, text, lengths=lengths)
     stripped = text.strip()
     spread, span = _PLUS_MINUS.fullmatch(stripped), _RANGE.fullmatch(stripped)
@@ -165,5 +201,5 @@ def _percentage(part: str, argument: str, text: str) -> float:
 
 def _unreadable(argument: str, text: str, *, lengths: bool) -> BadInput:
     what = "a length with its uncertainty" if lengths else "a number with its uncertainty"
-    remedy = f"write it like {EXAMPLE[lengths]}; '± 0' where it is exact"
+    remedy = f"write it like {EXAMPLE[lengths]}; an exact value has the uncertainty '± 0'"
     return BadInput(argument, text, what, remedy)

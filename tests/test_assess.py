@@ -36,7 +36,7 @@ from stonepass.report.assess_figure import (
     sizes_figure,
 )
 from stonepass.report.assess_page import write_assessment
-from stonepass.report.assess_report import describe_range
+from stonepass.report.assess_report import describe_range, sentence
 from stonepass.report.assess_sketch import sketch_figure
 from stonepass.studies.case_solver import JobSolver
 from stonepass.studies.conditions import Conditions, lumen_ratios
@@ -411,7 +411,7 @@ def test_page_needs_nothing_beside_it_and_gives_no_verdict(contradicting, page):
     for verdict in ("will not pass", "will pass", "should", "recommend", "treatment"):
         assert verdict not in words
     for warning in found.warnings:
-        assert str(warning).split("'")[0][1:] in text
+        assert sentence(str(warning)).split("'")[0] in text
     assert "Case 12 &lt;b&gt;" in text
     assert "Report of 2026-11-27" in text
     assert 'name="viewport"' in text

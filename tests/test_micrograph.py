@@ -451,7 +451,7 @@ def test_a_file_that_needs_more_memory_than_it_may_is_refused(tmp_path):
     [
         ("exit 1", "its reader ended with exit 1"),
         ("kill -9 $$", "its reader ended with signal 9"),
-        ("echo ready; exec sleep 60", "readable in 0.5 s"),
+        ("echo ready; exec sleep 60", "read within 0.5 s (reading it took longer)"),
         ("echo ready; echo nonsense", "its reader sent invalid data"),
         ("echo ready; echo '[1]'", "its reader sent invalid data"),
         ('echo ready; echo \'{"refused": ["a"]}\'', "its reader sent invalid data"),
@@ -784,5 +784,8 @@ def test_the_limit_that_was_met_is_named(tmp_path):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
         patch.setattr("stonepass.sandbox.sandbox.PATIENCE", 300.0)
-        with pytest.raises(BadInput, match=r"readable in 0.2 s of processor time; cut out"):
+        with pytest.raises(
+            BadInput,
+            match=r"read within 0.2 s of processor time \(reading it took longer\); cut out",
+        ):
             parse_in_child("endless", {}, Limits(seconds=0.2), "image", "a.png")

@@ -1,5 +1,6 @@
 """Pages that follow from the code: the Python interface and the command line."""
 
+import re
 from pathlib import Path
 from types import ModuleType
 
@@ -9,6 +10,8 @@ from typer.main import get_command
 import stonepass
 from stonepass.cli.app import app as command_line
 
+# The examples at the end of a command's help; "\b" keeps their lines apart in a terminal.
+EXAMPLES = re.compile(r"\x08\nExamples:\n((?: +\S.*\n)+)")
 # Groups of the Python interface: title, and the packages whose public names it has.
 GROUPS = {
     "Questions, cases and answers": ("model",),
@@ -82,7 +85,15 @@ def command_line_page():
     with command.make_context("stonepass", ["--help"], resilient_parsing=True) as context:
         context.resilient_parsing = False
         text = get_docs_for_click(obj=command, ctx=context, name="stonepass", title="Command line")
-    return text.replace("* `", "- `")
+    return EXAMPLES.sub(_examples, text.replace("* `", "- `"))
+
+
+def _examples(found):
+    """Return the examples of a command as a block of code, each after what it answers."""
+    lines = [line.strip() for line in found[1].strip().splitlines()]
+    pairs = zip(lines[::2], lines[1::2], strict=True)
+    shown = "\n".join(f"# {meaning}\n$ {command}" for command, meaning in pairs)
+    return f"**Examples**:\n\n```console\n{shown}\n```\n"
 
 
 def write(app):

@@ -136,14 +136,15 @@ def require(condition: bool, argument: str, value: Any, allowed: str, remedy: st
         raise BadInput(argument, value, allowed, remedy)
 
 
-def did_you_mean(value: str, known: Iterable[str]) -> str:
+def did_you_mean(value: str, known: Iterable[str], near: float = NEAR) -> str:
     """Return ``; did you mean 'x'`` with the nearest of the known names; empty without a near one.
 
-    Capital letters make no difference.
+    `near` is the smallest similarity of a near name, from 0 to 1. Capital letters make no
+    difference.
     """
     names = {each.casefold(): each for each in known}
-    near = get_close_matches(value.casefold(), names, n=1, cutoff=NEAR)
-    return f"; did you mean '{names[near[0]]}'" if near else ""
+    found = get_close_matches(value.casefold(), names, n=1, cutoff=near)
+    return f"; did you mean '{names[found[0]]}'" if found else ""
 
 
 def refuse_unknown(argument: str, value: str, known: list[str], otherwise: str = "") -> NoReturn:

@@ -40,7 +40,7 @@ LONG = 1.0  # seconds of work whose duration is shown
 
 @lru_cache
 def _console(*, stderr: bool = False) -> Console:
-    """Return the console of stdout or stderr; a command that prints JSON alone needs none."""
+    """Return the console of stdout or stderr; it is loaded only if it is needed."""
     from rich.console import Console
 
     return Console(stderr=stderr, highlight=False, soft_wrap=False)

@@ -7,24 +7,41 @@ import os
 import shutil
 import threading
 import unicodedata
+from itertools import islice
 from pathlib import Path
 
-from stonepass.errors import BadInput, require
+from stonepass.errors import BadInput, did_you_mean, require
 
 __all__ = ["WRITING", "check_writable", "existing", "read_text", "replace_file", "write_file"]
 
+MOST_NAMES = 1000  # files of a folder that are compared with a missing one
 WRITING = threading.RLock()  # held while a file is half written; see `studies.executor`
 
 
 def existing(path: Path, what: str = "file") -> Path:
-    """The path, refused where no file is there."""
+    """Return the path of a file that exists.
+
+    Raises
+    ------
+    BadInput
+        There is no such file; a file of a similar name beside it is named.
+    """
     try:
         there = path.is_file()
     except (OSError, ValueError):  # a name too long for the system, or with a NUL
         there = False
     if not there:
-        raise BadInput(what, path, "a file that exists", "check the path")
+        raise BadInput(what, path, "a file that exists", _similar(path) or "check the path")
     return path
+
+
+def _similar(path: Path) -> str:
+    """Return ``did you mean 'x'`` with a file of a similar name; empty without one."""
+    try:
+        names = [each.name for each in islice(path.parent.iterdir(), MOST_NAMES) if each.is_file()]
+    except (OSError, ValueError):
+        return ""
+    return did_you_mean(path.name, names, 0.75).removeprefix("; ")
 
 
 def read_text(

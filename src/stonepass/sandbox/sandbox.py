@@ -33,6 +33,7 @@ START = 30.0  # s that the libraries of the task may take to load
 PATIENCE = 10.0
 # Exit code of a process that has spent its processor time; Windows has no such signal.
 OUT_OF_TIME = (-signal.SIGXCPU,) if hasattr(signal, "SIGXCPU") else ()
+LATE = "(reading it took longer)"
 SIMPLER = "cut out the part that matters, or save it without compression"
 BUSY = "try again when the machine is less busy, or cut out the part that matters"
 LIMITS_PROCESSOR_TIME = importlib.util.find_spec("resource") is not None  # not on Windows
@@ -118,9 +119,9 @@ def parse_in_child(
         finally:
             process.kill()
     if late.is_set():
-        raise BadInput(what, name, f"readable in {limits.seconds * patience:g} s", BUSY)
+        raise BadInput(what, name, f"read within {limits.seconds * patience:g} s {LATE}", BUSY)
     if code in OUT_OF_TIME:
-        allowed = f"readable in {limits.seconds:g} s of processor time"
+        allowed = f"read within {limits.seconds:g} s of processor time {LATE}"
         raise BadInput(what, name, allowed, SIMPLER)
     allowed = f"readable within {limits.memory // 1_000_000} MB and {limits.seconds:g} s"
     if code != 0:

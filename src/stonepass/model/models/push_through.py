@@ -1,4 +1,7 @@
-"""The direct model: finite-element solution of the push-through, without a closure."""
+"""The direct model: finite-element solution of the push-through, without a closure.
+
+See "The push-through, solved directly" in docs/theory.md.
+"""
 
 from __future__ import annotations
 

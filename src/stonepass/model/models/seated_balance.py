@@ -114,14 +114,14 @@ class SeatedBalance:
     closure_start: str = declared(
         Kind.CHOICE,
         "--closure-start",
-        "Where the closure starts: the unloaded inner radius, or the lumen that the load leaves.",
+        "Radius at which the closure starts: unloaded inner radius, or lumen under the load.",
         default="inner-radius",
         choices=("inner-radius", "lumen"),
     )
     closure: str = declared(
         Kind.CHOICE,
         "--closure",
-        "Eq. 15 (linear), or the series of Eqs 13-14, fitted.",
+        "Relation of opened angle and tube radius: Eq. 15 (linear) or a fitted series (Eqs 13-14).",
         default="linear",
         choices=("linear", "series"),
     )
@@ -139,7 +139,7 @@ class SeatedBalance:
     far_field_ground: bool = declared(
         Kind.FLAG,
         "--far-field-ground/--far-field-fibres",
-        "Whether the far field contains the ground matrix.",
+        "Include the ground matrix in the far field, or only the fibres.",
         default=False,
         shown_default="fibres",
     )

@@ -164,7 +164,7 @@ def test_a_corrupt_file_is_set_aside_and_solved_again(tmp_path, canned, where):
     raw[where] ^= 1
     path.write_bytes(raw)
     assert set_aside(tmp_path) == 0
-    with pytest.warns(CacheWarning, match=r"damaged result was set aside in .*corrupt"):
+    with pytest.warns(CacheWarning, match=r"damaged result was moved to .*corrupt"):
         assert_same(first.pressure, sp.solve(case(), states=store).pressure)
     assert set_aside(tmp_path) == 1
     assert len(canned) == 2

@@ -17,7 +17,16 @@ from typing import Any
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.units import format_length, format_pressure, length, pressure
 
-__all__ = ["DeclaredInput", "Input", "Kind", "check_inputs", "declared", "inputs_of", "set_inputs"]
+__all__ = [
+    "DeclaredInput",
+    "Input",
+    "Kind",
+    "check_inputs",
+    "declared",
+    "described",
+    "inputs_of",
+    "set_inputs",
+]
 
 
 class Kind(enum.Enum):
@@ -183,6 +192,42 @@ def set_inputs(instance: Any, **given: Any) -> None:
             object.__setattr__(instance, each.name, chosen)
     assert not given, given
     check_inputs(instance)
+
+
+def described(instance: Any, *left_out: str) -> str:
+    """Write a value as its constructor would be called, without inputs that have their default.
+
+    It serves as ``__repr__`` of dataclasses with declared inputs.
+
+    Parameters
+    ----------
+    instance : dataclass with declared inputs
+    left_out : str
+        Names of inputs that follow from the others.
+
+    Examples
+    --------
+    >>> import stonepass as sp
+    >>> sp.Load("2 kPa"), sp.Numerics("fast"), sp.Ureter(wall_ratio=1.5, material="latex")
+    (Load(confining_pressure='2 kPa'), Numerics(accuracy='fast'), Ureter(material='latex', \
+wall_ratio=1.5))
+    """
+    parts = []
+    for each in inputs_of(type(instance)).values():
+        value = getattr(instance, each.name)
+        if each.name not in left_out and value is not None and value != each.default:
+            parts.append(f"{each.name}={_written(each.declaration.kind, value)}")
+    return f"{type(instance).__name__}({', '.join(parts)})"
+
+
+def _written(kind: Kind, value: Any) -> str:
+    if kind is Kind.LENGTH:
+        return repr(format_length(value))
+    if kind is Kind.PRESSURE:
+        return repr(format_pressure(value))
+    if kind is Kind.MATERIAL and value.reference:
+        return repr(value.reference)
+    return repr(value)
 
 
 def _optional(each: Field[Any]) -> bool:

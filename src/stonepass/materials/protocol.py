@@ -123,6 +123,9 @@ class Material:
     strain_range: tuple[float, float]
     reference: str = ""
 
+    def __repr__(self) -> str:
+        return f"Material({self.name!r}, {self.law!r})"
+
     def __post_init__(self) -> None:
         try:
             hash(self.law)

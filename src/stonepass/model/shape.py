@@ -65,6 +65,12 @@ class Shape:
     deviation: float = field(default=0.0, compare=False)
     reference: str = field(default="", compare=False)
 
+    def __repr__(self) -> str:
+        if self.spheroidal:
+            return f"Shape({self.aspect:g})"
+        source = f" of {self.reference}" if self.reference else ""
+        return f"<Shape{source}: length over diameter {self.length:.4g}>"
+
     def __post_init__(self) -> None:
         require(0.0 < self.aspect < np.inf, "aspect", self.aspect, "a number above zero")
         require(len(self.outline) > 0, "outline of the stone", "empty", "at least one number")

@@ -1,4 +1,4 @@
-"""Whoever answers many cases at a time: fits and response surfaces ask this interface."""
+"""The interface to solvers of many cases, which fits and response surfaces use."""
 
 from __future__ import annotations
 
@@ -18,10 +18,18 @@ __all__ = ["CaseSolver", "JobSolver"]
 
 @runtime_checkable
 class CaseSolver(Protocol):
-    """A source of critical pressures."""
+    """A solver of the critical pressures of many cases."""
 
     def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
-        """Return the answer of every case; without `error` its estimate may be left out."""
+        """Return the answer of every case, in the order of the cases.
+
+        Parameters
+        ----------
+        cases : sequence of Case
+            Cases to be solved.
+        error : bool
+            Whether the discretisation error is estimated too, which needs a second solve per case.
+        """
 
 
 @dataclass(frozen=True)
@@ -43,7 +51,15 @@ class JobSolver:
     progress: bool | Progress = False
 
     def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
-        """Return the answer of every case; equal cases are solved once."""
+        """Return the answer of every case, in the order of the cases; equal cases are solved once.
+
+        Parameters
+        ----------
+        cases : sequence of Case
+            Cases to be solved.
+        error : bool
+            Whether the discretisation error is estimated too.
+        """
         jobs = [PressureJob(case, error=error) for case in cases]
         with reported(self.progress, "cases") as told:
             results = run_jobs(jobs, self.executor, self.cache_folder, told)

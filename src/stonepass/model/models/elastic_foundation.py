@@ -14,7 +14,7 @@ import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
-from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.secant import STRETCH, secant_moduli
@@ -97,6 +97,8 @@ class ElasticFoundation:
         default=False,
         shown_default="fibres",
     )
+
+    __repr__ = described
 
     def __post_init__(self) -> None:
         check_inputs(self)

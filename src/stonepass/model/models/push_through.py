@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from stonepass.caution import caution
-from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import ErrorEstimate, Level
@@ -61,6 +61,8 @@ class PushThrough:
         default=False,
         shown_default="fibres",
     )
+
+    __repr__ = described
 
     def __post_init__(self) -> None:
         check_inputs(self)

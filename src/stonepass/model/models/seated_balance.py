@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from stonepass.caution import caution
-from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.protocol import Law
@@ -143,6 +143,8 @@ class SeatedBalance:
         default=False,
         shown_default="fibres",
     )
+
+    __repr__ = described
 
     def __post_init__(self) -> None:
         check_inputs(self)

@@ -83,7 +83,7 @@ def test_the_code_names_sections_that_exist():
         for page, title in after + before:
             found += 1
             assert title in headings(DOCS / page), f"{path.name}: {page} has no section {title!r}"
-    assert found >= 3
+    assert found > 50
 
 
 def test_links_lead_somewhere():

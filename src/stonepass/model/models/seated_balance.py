@@ -87,7 +87,8 @@ class SeatedBalance:
     seating: str = declared(
         Kind.CHOICE,
         "--seating",
-        "How the stone is brought into the wall.",
+        "How the stone was seated: pressed in along the ureter, without friction, or by growing in "
+        "its place.",
         default="pressed",
         choices=SEATINGS,
     )
@@ -117,19 +118,20 @@ class SeatedBalance:
     closure: str = declared(
         Kind.CHOICE,
         "--closure",
-        "Eq. 15 (linear), or the series of Eqs 13-14, fitted.",
+        "Closure of the opening wall: linear in the width of the stone (Eq. 15), or a fitted "
+        "series (Eqs 13-14).",
         default="linear",
         choices=("linear", "series"),
     )
     series_order: int = declared(
-        Kind.WHOLE, "--series-order", "Order of the series closure.", default=3, bounds=ORDER
+        Kind.WHOLE, "--series-order", "Order of the fitted series.", default=3, bounds=ORDER
     )
     opening_curve: OpeningCurve | None = declared(
         Kind.OPENING_CURVE,
         "--opening-curve",
-        "Table with the angles and radii to which the series is fitted: alpha_deg, radius_ratio.",
+        "Points that the series is fitted to, in the columns alpha_deg and radius_ratio.",
         default=None,
-        shown_default="loaded states of the case",
+        shown_default="computed loaded states",
         metavar="FILE.csv",
     )
     far_field_ground: bool = declared(

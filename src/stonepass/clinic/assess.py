@@ -1,8 +1,8 @@
-"""From one patient's measurements to an assessment, by Monte Carlo samples.
+"""Assessment of one patient's stone by Monte Carlo samples of the measured quantities.
 
-Inputs are drawn from what was measured (a scrambled Sobol sequence, fixed seed), kept where the
-wall they describe could exist, and answered by a response surface through solved cases
-(docs/assess.md).
+Samples of the inputs follow a scrambled Sobol sequence with a fixed seed. Samples that describe no
+possible wall are rejected. A response surface through solved cases gives the critical pressure of
+the other samples (docs/assess.md).
 """
 
 from __future__ import annotations
@@ -30,32 +30,45 @@ from stonepass.studies.sensitivity_indices import SensitivityIndex, rank_sensiti
 
 __all__ = ["assess"]
 
-WIDEST = 1.0 + OVERSIZE[1]  # opening beyond which the present pressure is only known to exceed it
-SIZES = np.arange(1.0, 10.01, 0.5)  # mm, of fractions by size
+# Opening r_a/R_a up to which the present pressure is computed; beyond it is a lower bound.
+WIDEST = 1.0 + OVERSIZE[1]
+SIZES = np.arange(1.0, 10.01, 0.5)  # stone diameters in mm at which the fraction is computed
+# Inputs without influence on the critical pressure.
 NOT_OF_RESISTANCE = ("dilated_inner_diameter", "dilated_outer_diameter")
-MOST_LOST = 0.5  # of the samples may be next to a case without an answer
+MOST_LOST = 0.5  # largest fraction of samples whose nearest case has no answer
 
 
 def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
-    """Assess one patient.
+    """Assess the stone of one patient.
 
     Parameters
     ----------
     patient : Patient
+        Measured quantities with their uncertainties, and the pressure limit.
     solver : CaseSolver, optional
-        By default the cases are solved in this process, without a cache.
+        Solves about fifty cases; by default in this process, without a cache.
+
+    Returns
+    -------
+    Assessment
+        Its outcome is NO_SOLUTION if the model has an answer for too few of the possible cases.
 
     Raises
     ------
     BadInput
-        An unstable material, or measurements that hardly any wall could have together.
+        The material is unstable, or almost no sample of the measurements is consistent with a wall
+        of constant volume.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
     solver = solver or JobSolver()
     check(patient.material)
     case = patient.case()
     draws, possible = draw_patient(patient)
     at_values = solver.answers([case])[0]
-    under_load = replace(case, load=patient.load)  # each sample divides it by its own stiffness
+    under_load = replace(case, load=patient.load)  # samples divide the load by their own stiffness
     present = _present(patient, under_load, draws)
     surface = response_surface(under_load, conditions(draws), solver)
     known = Assessment(
@@ -90,7 +103,7 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
 
 
 def _headline(found: Assessment, below: Fraction) -> str:
-    """Say the fraction below the limit, of the samples in which the stone is held at all."""
+    """Return the outcome as a sentence: the fraction below the limit where the stone is held."""
     pressure = f"{found.patient.limit / 1e3:.4g} kPa"
     limit = f"the critical pressure is below the pressure limit, {pressure}"
     if found.loose == 0.0:
@@ -100,20 +113,24 @@ def _headline(found: Assessment, below: Fraction) -> str:
         return f"In {apart} of the Monte Carlo samples the stone is no larger than the lumen."
     return (
         f"In {held.describe()} of the Monte Carlo samples in which the stone is held {limit}; in "
-        f"{apart} of all samples it is no larger than the lumen, and so not held."
+        f"{apart} of all samples it is no larger than the lumen, and therefore not held."
     )
 
 
 def _lost(surface: ResponseSurface) -> str:
-    """Why too few cases have an answer."""
-    lost = f"{len(surface.lost.friction)} of {surface.tried} cases that the inputs span"
-    return f"{Outcome.NO_SOLUTION.value} for {lost}; mostly: {surface.reason}."
+    """Return the outcome as a sentence if too few cases have an answer."""
+    lost = f"{len(surface.lost.friction)} of {surface.tried} cases in the range of the inputs"
+    return f"{Outcome.NO_SOLUTION.value} for {lost}; the most frequent reason: {surface.reason}."
 
 
 def _critical(
     surface: ResponseSurface, draws: Draws
 ) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
-    """P_ucr in Pa of many draws, s P_ucr(P_out/s) for a wall s times as stiff; where censored."""
+    """Return P_ucr in Pa of n samples, and which values are only lower bounds.
+
+    For a wall that is s times as stiff P_ucr is s P_ucr(P_out/s), see "A stiffer wall" in
+    docs/theory.md.
+    """
     found, censored = surface(conditions(draws))
     return draws["stiffness"] * found, censored
 
@@ -127,7 +144,10 @@ def _samples(surface: ResponseSurface, draws: Draws) -> Samples:
 
 
 def _present(patient: Patient, case: Case, draws: Draws) -> Present | None:
-    """Urine pressure by the far field at the dilated diameter; None where it was not measured."""
+    """Return the present urine pressure of the samples from the dilated diameter and the far field.
+
+    None is returned if the dilated segment was not measured.
+    """
     if not patient.dilated:
         return None
     wall = held_wall_ratio(draws)
@@ -135,14 +155,15 @@ def _present(patient: Patient, case: Case, draws: Draws) -> Present | None:
     held = np.minimum(opening, WIDEST)
     across = draws["stiffness"] * transmural(case, held, wall)
     outside = np.asarray(confining_traction(held, wall, patient.load))
-    # No lower than what keeps the tube open: a narrower one was not measured, but misread.
+    # A dilated segment that is narrower than the tube at rest is a measuring error, so that the
+    # transmural pressure is at least 0.
     return Present(np.maximum(across, 0.0) + outside, opening > WIDEST, opening)
 
 
 def _sensitivity(
     patient: Patient, surface: ResponseSurface, samples: Samples
 ) -> tuple[SensitivityIndex, ...]:
-    """Total indices of the inputs that resistance depends on, for the rank of P_ucr."""
+    """Return the total sensitivity indices of the inputs for the rank of P_ucr."""
     uncertain = {
         name: each
         for name, each in patient.measured.items()

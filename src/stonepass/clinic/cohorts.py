@@ -1,8 +1,8 @@
-"""What happened to stones of a size and place in published cohorts.
+"""Published cohorts: the fraction of stones that passed, by size and by place in the ureter.
 
-Only numbers that were read in the source itself, or in a secondary source that quotes it; `read`
-says which. Cohorts differ in what they call the size, in how long they watched, and in whom they
-left out.
+All numbers were read in the publication itself or in another one that quotes it; the attribute
+`Cohort.read` says which. The cohorts differ in the definition of size, in the duration of the
+follow-up, and in the patients that were excluded.
 """
 
 from __future__ import annotations
@@ -12,17 +12,26 @@ from dataclasses import dataclass
 
 __all__ = ["COHORTS", "PLACES", "Cohort", "Rate", "Row", "rows_for"]
 
-PLACES = ("proximal", "mid", "distal", "UVJ")
-ITSELF, QUOTED = "itself", "quoted"
+PLACES = ("proximal", "mid", "distal", "UVJ")  # UVJ: ureterovesical junction
+ITSELF, QUOTED = "itself", "quoted"  # where a number was read
 
 
 @dataclass(frozen=True)
 class Rate:
-    """The fraction of stones of a size that passed.
+    """The passage rate of the stones of a size class.
 
-    `label` is the size class as printed; `low` ≤ size < `high`, in mm, is how it is looked up.
-    `days` is the mean time to pass where the source has it; `passed` is None where it has that
-    alone.
+    Attributes
+    ----------
+    label : str
+        Size class as printed.
+    low, high : float
+        Bounds of the class in mm: low ≤ size < high.
+    passed : float or None
+        Fraction of stones that passed, 0 to 1; None if only the time was published.
+    days : float or None
+        Mean time to passage in days; None if it was not published.
+    count : int or None
+        Number of stones; None if it was not published.
     """
 
     label: str
@@ -35,7 +44,23 @@ class Rate:
 
 @dataclass(frozen=True)
 class Cohort:
-    """A published cohort: fractions that passed by size, and by place."""
+    """A published cohort.
+
+    Attributes
+    ----------
+    name : str
+        Author and year.
+    source : str
+        Publication, as a DOI or a citation.
+    read : {"itself", "quoted"}
+        Whether the numbers were read in the publication itself or in another one that quotes it.
+    about : str
+        Imaging method, number of patients and follow-up.
+    by_size : tuple of Rate
+        Passage rates by size class.
+    by_place : tuple of (str, float)
+        Fraction of stones that passed by place in the ureter (`PLACES`).
+    """
 
     name: str
     source: str
@@ -47,7 +72,23 @@ class Cohort:
 
 @dataclass(frozen=True)
 class Row:
-    """One number of a cohort that concerns a stone; `sizes` in mm, None where it is of a place."""
+    """One passage rate of a cohort that applies to a stone.
+
+    Attributes
+    ----------
+    cohort : Cohort
+        The cohort.
+    group : str
+        Size class or place, as printed.
+    passed : float or None
+        Fraction of stones that passed, 0 to 1; None if only the time was published.
+    sizes : (float, float) or None
+        Bounds of the size class in mm; None for a place.
+    days : float or None
+        Mean time to passage in days.
+    count : int or None
+        Number of stones.
+    """
 
     cohort: Cohort
     group: str
@@ -156,7 +197,19 @@ COHORTS = (
 
 
 def rows_for(low: float, high: float, place: str | None) -> list[Row]:
-    """What cohorts say of stones from `low` to `high` mm, and of stones at `place`."""
+    """Return the published passage rates for a range of sizes and for a place in the ureter.
+
+    Parameters
+    ----------
+    low, high : float
+        Smallest and largest diameter of the stone in mm.
+    place : str or None
+        Place in the ureter, one of `PLACES`; None if it is unknown.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
+    """
     rows = []
     for cohort in COHORTS:
         for rate in cohort.by_size:
@@ -168,7 +221,7 @@ def rows_for(low: float, high: float, place: str | None) -> list[Row]:
 
 
 def _overlap(rate: Rate, low: float, high: float) -> bool:
-    """Whether a size class and a range have more than an end in common."""
+    """Return whether a size class and a range overlap, in more than a single point."""
     if low == high:
         return rate.low <= low < rate.high
     return rate.low < high and low < rate.high

@@ -1,4 +1,4 @@
-"""One patient: what imaging says of stone and ureter, each number with its uncertainty."""
+"""One patient: the measured quantities of stone and ureter with their uncertainties."""
 
 from __future__ import annotations
 
@@ -32,19 +32,20 @@ from stonepass.units import Length, Pressure, pressure
 
 __all__ = ["INPUTS", "Patient", "read_patient"]
 
-STIFFNESS = (0.05, 20.0)
-LIMIT = (100.0, 1e5)  # Pa
-SAMPLES = (256, 65_536)
-LARGEST_SEED = 2**32
-# What nobody measures in a patient, and what stands in where the file is silent.
+STIFFNESS = (0.05, 20.0)  # smallest and largest factor on the stiffness of the material
+LIMIT = (100.0, 1e5)  # smallest and largest pressure limit in Pa
+SAMPLES = (256, 65_536)  # smallest and largest number of samples
+LARGEST_SEED = 2**32  # seeds are smaller than this
+# Values that are assumed if the file does not give friction and stiffness, which are not measured
+# in patients.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
-# Inputs of the sections that are those of a case file, as the file names them.
+# Names in the file, by their title, of the inputs that a patient file shares with case files.
 SHARED_WORDS = {
     each.title: f"'{key}'"
     for key, each in all_inputs().items()
     if each.section in ("load", "method")
 }
-# Every number that may be uncertain, by its name in the file.
+# Names in messages of all quantities that may be uncertain, by their key.
 INPUTS = {
     "stone_diameter": "stone diameter",
     "friction": "friction",
@@ -59,27 +60,39 @@ INPUTS = {
 
 @dataclass(frozen=True)
 class Patient:
-    """What is known of one patient.
+    """The measured quantities of one patient, and the settings of the assessment.
 
     Attributes
     ----------
-    measured : dict of str to UncertainQuantity
-        By the names in `INPUTS`: the stone's diameter across the ureter, friction, inner and either
-        outer diameter or wall thickness of the ureter where nothing dilates it, stiffness as a
-        factor on the material's, and, where the segment above the stone was measured, its
-        diameters. Lengths in m.
+    measured : mapping of str to UncertainQuantity
+        The uncertain quantities by the keys of `INPUTS`, lengths in m. They are the diameter of the
+        stone across the ureter, the friction coefficient, the inner diameter and either the outer
+        diameter or the wall thickness of the undilated ureter, and the relative stiffness (a factor
+        on that of the material). The diameters of the dilated segment above the stone are optional.
     material : Material
+        Material of the wall.
     limit : Pressure
-        Bearable urine pressure.
+        Maximum tolerable urine pressure in Pa, 100 Pa to 100 kPa.
     place : str or None
-        In `cohorts.PLACES`.
+        Place of the stone in the ureter, one of `cohorts.PLACES`; None if it is unknown.
     shape : Shape
+        Shape of the stone.
     load : Load
+        Confining pressure and pre-stretch.
     model : Model
+        Model of the critical pressure.
     numerics : Numerics
-    samples, seed : int
+        Accuracy and length of the tube.
+    samples : int
+        Number of Monte Carlo samples, 256 to 65536.
+    seed : int
+        Seed of the samples, 0 to 2³² − 1.
     assumed : tuple of Caution
-        What the file leaves to us, in sentences.
+        Warnings about quantities that the file does not give.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
 
     measured: Mapping[str, UncertainQuantity]
@@ -100,11 +113,15 @@ class Patient:
         return "dilated_inner_diameter" in self.measured
 
     def with_limit(self, limit: str | Pressure) -> Patient:
-        """Return the same patient with another pressure limit."""
+        """Return the patient with another pressure limit, in Pa or as text with a unit."""
         return replace(self, limit=_limit(limit))
 
     def case(self) -> Case:
-        """The case at the measured values; s P_ucr of it is that of a wall s times as stiff."""
+        """Return the case at the measured values, with the stiffness of the material.
+
+        The confining pressure is divided by the measured relative stiffness s, so that the critical
+        pressure of the patient is s times that of this case (docs/theory.md, "A stiffer wall").
+        """
         value = {name: each.value for name, each in self.measured.items()}
         inner = value["inner_diameter"]
         outer = value.get("outer_diameter", inner + 2.0 * value.get("wall_thickness", 0.0))
@@ -158,13 +175,22 @@ _PatientFile = create_model("_PatientFile", __base__=_OwnSections, **_SHARED)
 
 
 def read_patient(path: str | Path) -> Patient:
-    """Read a patient's file; files of materials and shapes are looked for beside it.
+    """Read a patient file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file. Relative paths of materials and shapes in it start at its folder.
 
     Raises
     ------
     BadInput
-        Naming the file and the key: an unknown key (with the nearest known one), a missing one, a
-        length without its uncertainty or unit, values that no ureter has.
+        A key is unknown (the message names the nearest known one) or missing, a length has no
+        uncertainty or no unit, or a value is out of bounds. The message names the file and the key.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
     path = Path(path)
     parsed = read_toml(path, _PatientFile)
@@ -180,7 +206,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
     if sum(wall is not None for wall in walls) != 1:
         state = "missing" if walls == [None, None] else "given twice"
         raise BadInput(
-            "wall of the ureter", state, "given once, as outer_diameter or wall_thickness"
+            "wall of the ureter", state, "given as either outer_diameter or wall_thickness"
         )
     texts = {
         "stone_diameter": stone.diameter,
@@ -211,7 +237,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
             ("friction_assumed", stone.friction, ASSUMED_FRICTION),
             ("stiffness_assumed", ureter.stiffness, ASSUMED_STIFFNESS),
         )
-        if given == default  # written out or not, nobody measured it
+        if given == default  # the file may contain the assumed value, too
     ]
     values = section_values(parsed.method, "method")
     model, numerics = build_method(values, folder)
@@ -228,7 +254,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
         seed=seed,
         assumed=tuple(assumed),
     )
-    patient.case()  # refuses what the measured values themselves cannot be
+    patient.case()  # checks the measured values
     return patient
 
 
@@ -247,7 +273,7 @@ def _check(measured: Mapping[str, UncertainQuantity]) -> None:
 
 def _shape(stone: _Stone, folder: Path) -> Shape:
     if stone.shape is not None and stone.aspect is not None:
-        raise BadInput("aspect", stone.aspect, "left out beside a shape, which has its own")
+        raise BadInput("aspect", stone.aspect, "left out if a shape is given")
     if stone.shape is not None:
         return read_shape(folder / stone.shape)
     aspect = 1.0 if stone.aspect is None else stone.aspect

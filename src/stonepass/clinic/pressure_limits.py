@@ -1,4 +1,4 @@
-"""Pressure limits that were measured or proposed, each with its source."""
+"""Published pressure limits with their sources."""
 
 from __future__ import annotations
 
@@ -11,7 +11,17 @@ __all__ = ["LIMITS", "PressureLimit", "describe_limit"]
 
 @dataclass(frozen=True)
 class PressureLimit:
-    """A pressure in Pa, what it is, and who says so."""
+    """A published pressure limit.
+
+    Attributes
+    ----------
+    pressure : Pressure
+        The pressure in Pa.
+    what : str
+        How it was measured or why it was proposed.
+    source : str
+        The publication.
+    """
 
     pressure: Pressure
     what: str
@@ -51,7 +61,7 @@ LIMITS = (
 
 
 def describe_limit(limit: float) -> str:
-    """Return what a limit in Pa stands for: that of the list, or the user's own."""
+    """Return the description and the source of a limit in Pa, if it is one of `LIMITS`."""
     for known in LIMITS:
         if abs(limit - known.pressure) < 1e-6 * known.pressure:
             return f"{known.what} ({known.source})"

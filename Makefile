@@ -3,10 +3,13 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
+# A warning is an error, and so is a reference without a target.
+SPHINX = $(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --nitpicky -d docs/_build/doctrees
+
 # Tests that touch every library that is depended on.
 LOWEST := cli fit imports micrograph new_laws records user_law
 
-.PHONY: help run test test-slow test-all test-lowest lint verify bench lock clean
+.PHONY: help run test test-slow test-all test-lowest lint docs docs-links verify bench lock clean
 
 help: ## list the commands
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 11
@@ -31,6 +34,14 @@ lint: $(VENV)/.dev ## format, lint, types, layers
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
 
+docs: $(VENV)/.dev ## build the documentation site in docs/_build/html; runs its notebooks and examples
+	$(SPHINX) -b html docs docs/_build/html
+	$(SPHINX) -b doctest docs docs/_build/doctest
+	$(BIN)/python docs/check_offline.py docs/_build/html
+
+docs-links: $(VENV)/.dev ## check the links of the documentation to other sites
+	$(SPHINX) -b linkcheck docs docs/_build/links
+
 verify: $(VENV)/.dev ## slow verification; writes docs/verification.md
 	$(BIN)/python verification/run.py
 
@@ -39,11 +50,11 @@ bench: $(VENV)/.dev ## timings against their targets
 
 lock: ## renew the lock files (needs uv)
 	uv pip compile pyproject.toml --group build --universal --generate-hashes --no-annotate --no-header -o requirements.lock
-	uv pip compile pyproject.toml --group dev --extra imaging --extra laboratory --universal --generate-hashes --no-annotate --no-header -o requirements-dev.lock
-	uv pip compile pyproject.toml --group build --group test --extra imaging --extra laboratory --resolution lowest-direct --python-version 3.11 --generate-hashes --no-annotate --no-header -o requirements-lowest.lock
+	uv pip compile pyproject.toml --group dev --extra imaging --universal --generate-hashes --no-annotate --no-header -o requirements-dev.lock
+	uv pip compile pyproject.toml --group build --group test --extra imaging --resolution lowest-direct --python-version 3.11 --generate-hashes --no-annotate --no-header -o requirements-lowest.lock
 
 clean: ## remove the environment and caches
-	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) docs/_build docs/generated .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
 $(VENV)/.python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \

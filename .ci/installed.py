@@ -7,7 +7,7 @@ from pathlib import Path
 
 import stonepass as sp
 
-EXTRAS = {"lmfit", "tifffile", "SurfaceTopography"}  # of optional dependencies, not installed here
+EXTRAS = {"SurfaceTopography"}  # the extra `imaging`, not installed here
 MODULES = 100  # at least; fewer means that a package was left out of the wheel
 
 

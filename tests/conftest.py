@@ -27,6 +27,15 @@ DOORS = {
         ],
         "the constructors of values refuse wrong types with a sentence",
     ),
+    **dict.fromkeys(
+        [
+            "stonepass.model.problem",
+            "stonepass.model.critical",
+            "stonepass.model.size",
+            "stonepass.studies.curve",
+        ],
+        "public questions refuse arguments in a wrong order with a sentence",
+    ),
     "stonepass.materials.protocol": "the constructor of a material refuses a law with a sentence",
     "stonepass.materials.user_law": "a user's function may return anything; refused with a sentence",
 }

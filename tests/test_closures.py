@@ -20,7 +20,7 @@ from stonepass.model.energy_balance import opening_pressure
 from stonepass.model.far_field import urine_pressure
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.opening import solve_opening_curve
-from stonepass.studies.closures import CLOSURES, compare_closures
+from stonepass.studies.closures import CLOSURES, closures
 from stonepass.studies.rising import contact_deviation, raise_pressure
 
 pytestmark = pytest.mark.usefixtures("shared_solutions")
@@ -76,7 +76,7 @@ def test_the_pressure_that_opens_the_tube_to_the_stone_by_the_far_field():
 
 @pytest.fixture(scope="module")
 def compared():
-    return compare_closures(case())
+    return closures(case())
 
 
 def test_pairs_begin_at_the_seated_state_and_lie_below_the_linear_closure(compared):
@@ -179,7 +179,7 @@ def test_a_map_takes_the_material_of_a_case_file(tmp_path, capsys):
 @pytest.mark.slow
 def test_under_a_load_the_comparison_carries_the_warnings_of_its_models():
     stone = sp.Stone(size_ratio=1.2, friction=0.3)
-    found = compare_closures(sp.Case(stone, sp.Ureter(wall_ratio=1.3), sp.Load("4 kPa"), **FAST))
+    found = closures(sp.Case(stone, sp.Ureter(wall_ratio=1.3), sp.Load("4 kPa"), **FAST))
     assert any("would fold this tube" in str(each) for each in found.warnings)
     assert any("hoop compression" in str(each) for each in found.warnings)
     assert not any("error is not estimated" in str(each) for each in found.warnings)
@@ -249,7 +249,7 @@ def test_pairs_that_are_none_are_refused_with_their_place(tmp_path, text, senten
             {"closure": "series", "opening_curve": OpeningCurve((1.3,), (1.0,))},
             "opening_curve is 1 points, but must be at least as many points as coefficients, 3",
         ),
-        ({"closure": "series", "opening_curve": "pairs.csv"}, "as read_opening_curve gives it"),
+        ({"closure": "series", "opening_curve": "pairs.csv"}, "as read_opening_curve returns it"),
     ],
 )
 def test_a_method_asks_for_a_series_that_can_be(method, sentence):

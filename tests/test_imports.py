@@ -119,6 +119,7 @@ LATE_LIBRARIES = {
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
     "scipy.ndimage": ("surface.grey_scale",),
+    "stonepass.report": ("stonepass",),  # results are shown by it, from their first table on
 }
 
 

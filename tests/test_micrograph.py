@@ -413,12 +413,14 @@ def test_without_the_extra_it_says_what_to_install(tmp_path, monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    save_tiff(tmp_path / "a.tif", some_grey())
     monkeypatch.setattr(optional_imports, "import_module", missing)
-    with pytest.raises(BadInput, match=r"library is tifffile, but must be installed.*pip install"):
-        read_surface_image(tmp_path / "a.tif")
-    Image.fromarray(some_grey()).save(tmp_path / "a.png")
-    assert read_surface_image(tmp_path / "a.png").values.shape == (60, 80)
+    remedy = (
+        r"library is SurfaceTopography, but must be installed.*pip install 'stonepass\[imaging\]'"
+    )
+    with pytest.raises(BadInput, match=remedy):
+        read_surface_image(EXAMPLES / "crystals.x3p")
+    save_tiff(tmp_path / "a.tif", some_grey())
+    assert read_surface_image(tmp_path / "a.tif").values.shape == (60, 80)
 
 
 # The process of its own

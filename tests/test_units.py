@@ -125,3 +125,18 @@ def test_what_is_written_is_read_again(value):
     assert math.isclose(length(format_length(value)), value, rel_tol=1e-11)
     assert math.isclose(pressure(format_pressure(value)), value, rel_tol=1e-11)
     assert isinstance(pressure("1 kPa"), Pressure)
+
+
+def test_quantities_of_pint_are_read():
+    registry = pint.UnitRegistry()
+    assert length(4.2 * registry.mm, "stone diameter") == 0.0042
+    assert isinstance(length(4.2 * registry.mm, "stone diameter"), Length)
+    assert pressure(90 * registry.mmHg) == pytest.approx(11999.014867, rel=1e-9)
+    for wrong, words in [
+        (3 * registry.kPa, "3 kilopascal, but must be one value that is a length"),
+        ([1, 2] * registry.mm, "must be one value that is a length"),
+        (float("nan") * registry.mm, "nan millimeter, but must be a finite length"),
+        (4 * registry.dimensionless, "4 dimensionless"),
+    ]:
+        with pytest.raises(BadInput, match=words):
+            length(wrong, "stone diameter")

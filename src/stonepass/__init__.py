@@ -2,32 +2,54 @@
 
 A Python implementation of the stone–ureter interaction model of Liu et al. 2022
 (doi 10.1016/j.jmbbm.2022.105432), with its errata corrected openly. Research use only.
+
+>>> import stonepass as sp
+>>> sp.critical_pressure(sp.Stone("3 mm"), sp.Ureter("3.5 mm", "4.54 mm")).outcome.name
+'LOOSE'
 """
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from stonepass.about import VERSION
+from stonepass.result import Presentation, present_with
 
 if TYPE_CHECKING:
+    from stonepass import export
     from stonepass.bench.comparison import Setting
-    from stonepass.bench.invitro import fit_friction
-    from stonepass.bench.law_fit import fit_law
-    from stonepass.bench.test_data import read_inflation, read_tension
+    from stonepass.bench.invitro import InVitro, fit_friction
+    from stonepass.bench.law_fit import FittedLaw, fit_law
+    from stonepass.bench.test_data import Inflation, Tension, read_inflation, read_tension
     from stonepass.caution import Caution
     from stonepass.clinic.assess import assess
     from stonepass.clinic.assessment import Assessment
-    from stonepass.clinic.patient import read_patient
-    from stonepass.errors import BadInput, Outcome, StonepassError
+    from stonepass.clinic.patient import Patient, read_patient
+    from stonepass.errors import (
+        BadInput,
+        CacheWarning,
+        Misplaced,
+        Outcome,
+        StonepassError,
+        UnstableLaw,
+    )
     from stonepass.inputs.case_file import read_case, write_case
     from stonepass.inputs.material_file import load_material
-    from stonepass.inputs.measured_pressures import read_points
+    from stonepass.inputs.measured_pressures import Point, read_points
     from stonepass.inputs.opening_curve_file import read_opening_curve
     from stonepass.inputs.schema import case_schema
     from stonepass.inputs.shape_file import read_shape
-    from stonepass.materials.protocol import Material
+    from stonepass.materials.catalogue import CATALOGUE, material
+    from stonepass.materials.demiray import Demiray
+    from stonepass.materials.fung import Fung
+    from stonepass.materials.holzapfel import HolzapfelGasserOgden
+    from stonepass.materials.mooney_rivlin import MooneyRivlin
+    from stonepass.materials.neo_hookean import NeoHookean
+    from stonepass.materials.ogden import Ogden
+    from stonepass.materials.protocol import Law, Material
+    from stonepass.materials.yeoh import Yeoh
     from stonepass.model.answer import Answer, Model
     from stonepass.model.case import Case
     from stonepass.model.case_states import push_through, seat
@@ -43,6 +65,7 @@ if TYPE_CHECKING:
     from stonepass.model.size import SizeAnswer, critical_size
     from stonepass.model.states.loaded_state import PushedState
     from stonepass.model.states.seated_state import SeatedState
+    from stonepass.model.states.state_solver import StateSolver
     from stonepass.model.stone import Stone
     from stonepass.model.ureter import Ureter
     from stonepass.records.answer import AnswerRecord, answer_record
@@ -55,11 +78,21 @@ if TYPE_CHECKING:
     from stonepass.records.invitro import InVitroRecord, invitro_record
     from stonepass.records.rising import RisingRecord, rising_record
     from stonepass.records.size import SizeRecord, size_record
+    from stonepass.result import Result
+    from stonepass.studies.case_solver import JobSolver
+    from stonepass.studies.closures import ClosureComparison, closures
+    from stonepass.studies.curve import CriticalCurve, Curve, critical_curve
+    from stonepass.studies.executor import process_pool
+    from stonepass.studies.jobs import PressureJob, SizeJob
+    from stonepass.studies.rising import Rising, raise_pressure
+    from stonepass.studies.solution_cache import SolutionCache, default_folder
+    from stonepass.studies.study import Study, run_study
     from stonepass.surface.friction import SurfaceFriction, surface_friction
     from stonepass.surface.paths import StraightPath
     from stonepass.surface.readers import read_surface_image
     from stonepass.surface.surface_image import SurfaceImage
     from stonepass.surface.untrusted import read_untrusted
+    from stonepass.units import Length, Pressure, length, pressure
 
 __version__ = VERSION
 
@@ -70,52 +103,91 @@ _HOME = {
     "AssessRecord": "records.assess",
     "Assessment": "clinic.assessment",
     "BadInput": "errors",
+    "CATALOGUE": "materials.catalogue",
+    "CacheWarning": "errors",
     "Case": "model.case",
     "Caution": "caution",
+    "ClosureComparison": "studies.closures",
     "ClosuresRecord": "records.closures",
     "CompareRecord": "records.compare",
+    "CriticalCurve": "studies.curve",
+    "Curve": "studies.curve",
     "CurvePointRecord": "records.curve",
+    "Demiray": "materials.demiray",
     "ElasticFoundation": "model.models.elastic_foundation",
     "FitRecord": "records.fit",
+    "FittedLaw": "bench.law_fit",
     "FrictionRecord": "records.friction",
+    "Fung": "materials.fung",
+    "HolzapfelGasserOgden": "materials.holzapfel",
+    "InVitro": "bench.invitro",
     "InVitroRecord": "records.invitro",
+    "Inflation": "bench.test_data",
+    "JobSolver": "studies.case_solver",
+    "Law": "materials.protocol",
+    "Length": "units",
     "Load": "model.load",
     "Material": "materials.protocol",
+    "Misplaced": "errors",
     "Model": "model.answer",
+    "MooneyRivlin": "materials.mooney_rivlin",
+    "NeoHookean": "materials.neo_hookean",
     "Numerics": "model.numerics",
+    "Ogden": "materials.ogden",
     "OpeningCurve": "model.opening_curve",
     "Outcome": "errors",
+    "Patient": "clinic.patient",
+    "Point": "inputs.measured_pressures",
+    "Pressure": "units",
+    "PressureJob": "studies.jobs",
     "PushThrough": "model.models.push_through",
     "PushedState": "model.states.loaded_state",
+    "Result": "result",
+    "Rising": "studies.rising",
     "RisingRecord": "records.rising",
     "SeatedBalance": "model.models.seated_balance",
     "SeatedState": "model.states.seated_state",
     "Setting": "bench.comparison",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
+    "SizeJob": "studies.jobs",
     "SizeRecord": "records.size",
+    "SolutionCache": "studies.solution_cache",
+    "StateSolver": "model.states.state_solver",
     "Stone": "model.stone",
     "StonepassError": "errors",
     "StraightPath": "surface.paths",
+    "Study": "studies.study",
     "SurfaceFriction": "surface.friction",
     "SurfaceImage": "surface.surface_image",
+    "Tension": "bench.test_data",
+    "UnstableLaw": "errors",
     "Ureter": "model.ureter",
+    "Yeoh": "materials.yeoh",
     "answer_record": "records.answer",
     "assess": "clinic.assess",
     "assess_record": "records.assess",
     "case_schema": "inputs.schema",
+    "closures": "studies.closures",
     "closures_record": "records.closures",
     "compare_record": "records.compare",
+    "critical_curve": "studies.curve",
     "critical_pressure": "model.critical",
     "critical_size": "model.size",
     "curve_records": "records.curve",
+    "default_folder": "studies.solution_cache",
     "fit_friction": "bench.invitro",
     "fit_law": "bench.law_fit",
     "fit_record": "records.fit",
     "friction_record": "records.friction",
     "invitro_record": "records.invitro",
+    "length": "units",
     "load_material": "inputs.material_file",
+    "material": "materials.catalogue",
+    "pressure": "units",
+    "process_pool": "studies.executor",
     "push_through": "model.case_states",
+    "raise_pressure": "studies.rising",
     "read_case": "inputs.case_file",
     "read_inflation": "bench.test_data",
     "read_opening_curve": "inputs.opening_curve_file",
@@ -126,6 +198,7 @@ _HOME = {
     "read_tension": "bench.test_data",
     "read_untrusted": "surface.untrusted",
     "rising_record": "records.rising",
+    "run_study": "studies.study",
     "seat": "model.case_states",
     "shape_through": "model.shape_fit",
     "size_record": "records.size",
@@ -134,58 +207,119 @@ _HOME = {
     "write_case": "inputs.case_file",
 }
 
+_PACKAGES = ("export",)  # public packages of their own: stonepass.export.write(case, "stone.inp")
+
+# What people look for under another name.
+_OTHER_NAMES = {
+    "beam": "ElasticFoundation",
+    "catalogue": "CATALOGUE",
+    "compare_closures": "closures",
+    "curve": "critical_curve",
+    "direct": "PushThrough",
+    "fit": "fit_law",
+    "friction": "surface_friction",
+    "invitro": "fit_friction",
+    "load_case": "read_case",
+    "materials": "CATALOGUE",
+    "paper": "SeatedBalance",
+    "pressure_curve": "critical_curve",
+    "push": "PushThrough",
+    "size": "critical_size",
+    "solve_pressure": "critical_pressure",
+}
+
 __all__ = [
+    "CATALOGUE",
     "Answer",
     "AnswerRecord",
     "AssessRecord",
     "Assessment",
     "BadInput",
+    "CacheWarning",
     "Case",
     "Caution",
+    "ClosureComparison",
     "ClosuresRecord",
     "CompareRecord",
+    "CriticalCurve",
+    "Curve",
     "CurvePointRecord",
+    "Demiray",
     "ElasticFoundation",
     "FitRecord",
+    "FittedLaw",
     "FrictionRecord",
+    "Fung",
+    "HolzapfelGasserOgden",
+    "InVitro",
     "InVitroRecord",
+    "Inflation",
+    "JobSolver",
+    "Law",
+    "Length",
     "Load",
     "Material",
+    "Misplaced",
     "Model",
+    "MooneyRivlin",
+    "NeoHookean",
     "Numerics",
+    "Ogden",
     "OpeningCurve",
     "Outcome",
+    "Patient",
+    "Point",
+    "Pressure",
+    "PressureJob",
     "PushThrough",
     "PushedState",
+    "Result",
+    "Rising",
     "RisingRecord",
     "SeatedBalance",
     "SeatedState",
     "Setting",
     "Shape",
     "SizeAnswer",
+    "SizeJob",
     "SizeRecord",
+    "SolutionCache",
+    "StateSolver",
     "Stone",
     "StonepassError",
     "StraightPath",
+    "Study",
     "SurfaceFriction",
     "SurfaceImage",
+    "Tension",
+    "UnstableLaw",
     "Ureter",
+    "Yeoh",
     "answer_record",
     "assess",
     "assess_record",
     "case_schema",
+    "closures",
     "closures_record",
     "compare_record",
+    "critical_curve",
     "critical_pressure",
     "critical_size",
     "curve_records",
+    "default_folder",
+    "export",
     "fit_friction",
     "fit_law",
     "fit_record",
     "friction_record",
     "invitro_record",
+    "length",
     "load_material",
+    "material",
+    "pressure",
+    "process_pool",
     "push_through",
+    "raise_pressure",
     "read_case",
     "read_inflation",
     "read_opening_curve",
@@ -196,6 +330,7 @@ __all__ = [
     "read_tension",
     "read_untrusted",
     "rising_record",
+    "run_study",
     "seat",
     "shape_through",
     "size_record",
@@ -205,10 +340,23 @@ __all__ = [
 ]
 
 
+def _presentation() -> Presentation:
+    from stonepass.report import presentation  # loads matplotlib and the finite elements
+
+    return presentation
+
+
+present_with(_presentation)
+
+
 def __getattr__(name: str) -> Any:
-    if name not in _HOME:
-        raise AttributeError(f"module 'stonepass' has no attribute '{name}'")
-    return getattr(import_module(f"stonepass.{_HOME[name]}"), name)
+    if name in _PACKAGES:
+        return import_module(f"stonepass.{name}")
+    if name in _HOME:
+        return getattr(import_module(f"stonepass.{_HOME[name]}"), name)
+    meant = _OTHER_NAMES.get(name) or next(iter(get_close_matches(name, __all__, n=1)), None)
+    remedy = f"; did you mean stonepass.{meant}?" if meant else ""
+    raise AttributeError(f"module 'stonepass' has no attribute '{name}'{remedy}")
 
 
 def __dir__() -> list[str]:

@@ -56,6 +56,7 @@ _EXAMPLES = {
     Area: "'12 mm2'",
 }
 _WORDS = {Length: "a length", Pressure: "a pressure", Area: "an area"}
+_SI = {Length: "meter", Pressure: "pascal", Area: "meter ** 2"}
 # SI units in one unit. The list is closed: of a large vocabulary of units too many short words are
 # lengths or pressures by chance, such as "px", 1/96 inch.
 _FACTORS = {
@@ -87,6 +88,18 @@ LONGEST = 100  # characters of a number with its unit
 def length(value: Any, argument: str = "length") -> Length:
     """Read a length, e.g. ``length("4.2 mm") == 0.0042``.
 
+    Parameters
+    ----------
+    value : str, Length or pint.Quantity
+        Text is a number and a unit: m, cm, mm, um, nm, in or Fr.
+    argument : str
+        How the caller names the value in an error message.
+
+    Returns
+    -------
+    Length
+        A float in m.
+
     Raises
     ------
     BadInput
@@ -98,6 +111,18 @@ def length(value: Any, argument: str = "length") -> Length:
 def pressure(value: Any, argument: str = "pressure") -> Pressure:
     """Read a pressure or modulus, e.g. ``pressure("12 kPa") == 12000.0``.
 
+    Parameters
+    ----------
+    value : str, Pressure or pint.Quantity
+        Text is a number and a unit: Pa, kPa, MPa, mmHg, cmH2O, bar and others.
+    argument : str
+        How the caller names the value in an error message.
+
+    Returns
+    -------
+    Pressure
+        A float in Pa.
+
     Raises
     ------
     BadInput
@@ -108,6 +133,18 @@ def pressure(value: Any, argument: str = "pressure") -> Pressure:
 
 def area(value: Any, argument: str = "area") -> Area:
     """Read an area, e.g. ``area("12 mm2") == 1.2e-05``.
+
+    Parameters
+    ----------
+    value : str, Area or pint.Quantity
+        Text is a number and a unit: m2, cm2 or mm2.
+    argument : str
+        How the caller names the value in an error message.
+
+    Returns
+    -------
+    Area
+        A float in m².
 
     Raises
     ------
@@ -143,6 +180,8 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
     if isinstance(value, kind):
         return value
     word, example = _WORDS[kind], _EXAMPLES[kind]
+    if _is_quantity(value):
+        return _of_quantity(value, argument, kind)
     if not isinstance(value, str):
         raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
     if len(value) <= LONGEST and _DECIMAL_COMMA.fullmatch(value):
@@ -155,6 +194,23 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
     if not math.isfinite(si):
         raise BadInput(argument, value, f"a finite {word.split()[-1]}")
     # 15 digits: 4.2 mm is 0.0042 m, not 0.004200000000000001 m.
+    return kind(f"{si:.15g}")
+
+
+def _is_quantity(value: Any) -> bool:
+    """Whether a value has a magnitude and units, as the quantities of pint have."""
+    return all(hasattr(value, name) for name in ("magnitude", "units", "m_as"))
+
+
+def _of_quantity(value: Any, argument: str, kind: type[Q]) -> Q:
+    """Read a quantity of pint, which need not be installed otherwise."""
+    try:
+        si = float(value.m_as(_SI[kind]))
+    except (TypeError, ValueError) as problem:  # pint's DimensionalityError is a TypeError
+        allowed, remedy = f"one value that is {_WORDS[kind]}", f"write it like {_EXAMPLES[kind]}"
+        raise BadInput(argument, str(value), allowed, remedy) from problem
+    if not math.isfinite(si):
+        raise BadInput(argument, str(value), f"a finite {_WORDS[kind].split()[-1]}")
     return kind(f"{si:.15g}")
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.materials.protocol import Material
@@ -154,7 +154,7 @@ def compare(
     return Comparison(friction, tuple(points), tuple(solver.answers(cases)))
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class SizeCurve:
     """Critical pressure as a function of the size ratio for one tube under one load.

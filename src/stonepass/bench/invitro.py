@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.stats import f as f_distribution
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.bench.agreement import OBJECTIONS, disagreement
 from stonepass.bench.comparison import Comparison, Setting, compare
@@ -30,10 +31,10 @@ from stonepass.bench.least_squares import (
 )
 from stonepass.bench.series_model import SeriesModel, series_curves
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.stone import FRICTION
+from stonepass.result import Result
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.units import Values
 
@@ -67,7 +68,7 @@ class Estimate:
     high: float | None
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class JointFit:
     """Friction and stiffness fitted together.
@@ -97,8 +98,9 @@ class JointFit:
     level: float
 
 
-@dataclass(frozen=True)
-class InVitro:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class InVitro(Result):
     """Result of the comparison of a measured series with the model.
 
     Attributes
@@ -126,6 +128,18 @@ class InVitro:
     setting: Setting
     weighted: bool
     warnings: tuple[Caution, ...] = ()
+
+    def summary(self) -> str:
+        """Return the fitted friction with its interval, and how it was found, in one line."""
+        low, high = (
+            "unbounded" if end is None else f"{end:.3g}"
+            for end in (self.friction.low, self.friction.high)
+        )
+        holds = "" if not self.objections else "; series and model do not agree"
+        return (
+            f"friction {self.friction.value:.3g}, 95 % interval {low} to {high}, from "
+            f"{len(self.comparison.points)} points{holds}"
+        )
 
     @property
     def objections(self) -> tuple[Caution, ...]:
@@ -173,7 +187,7 @@ def fit_friction(
     ----------
     docs/bench.md, "A series in vitro".
     """
-    library, solver = lmfit(), solver or JobSolver()
+    library, solver = lmfit(), solver or JobSolver(progress=True)
     if not setting.model.NEEDS_ELEMENTS:
         raise BadInput("model", "beam", "'paper' or 'direct'",
                        "the beam model holds for thin walls only")  # fmt: skip

@@ -13,19 +13,21 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import spearmanr
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
+from stonepass.bench.confidence_band import confidence_band
 from stonepass.bench.fit_checks import check_enough, check_fit, check_told, r_squared_of
 from stonepass.bench.fit_search import Search, best_fit, proportional_spread, search_for
 from stonepass.bench.lack_of_fit import lack_of_fit
 from stonepass.bench.least_squares import correlations, intervals
 from stonepass.bench.objective import Data, Objective
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, UnstableLaw
 from stonepass.materials.constants import Unit, shown_constant
 from stonepass.materials.known_laws import constants_by_name, name_of_law
 from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import SOFTEST_WALL, check
+from stonepass.result import Result
 
 __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
@@ -64,9 +66,9 @@ class Constant:
     given: bool = False
 
 
-@compared_by_value
-@dataclass(frozen=True)
-class FittedLaw:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class FittedLaw(Result):
     """A law fitted to laboratory data.
 
     Attributes
@@ -79,6 +81,8 @@ class FittedLaw:
         The n measured values.
     predicted : array (n)
         Predicted stresses or pressures in Pa.
+    band : array (n)
+        Half the width of the 95 % confidence band of `predicted` in Pa.
     rmse : float
         Root mean square of the residuals in Pa.
     r_squared : float
@@ -99,11 +103,17 @@ class FittedLaw:
     constants: tuple[Constant, ...]
     data: Data
     predicted: Float[np.ndarray, " n"]
+    band: Float[np.ndarray, " n"]
     rmse: float
     r_squared: float
     correlations: dict[tuple[str, str], float]
     unstable: str = ""
     warnings: tuple[Caution, ...] = ()
+
+    def summary(self) -> str:
+        """Return the law, its constants and how well it fits in one line."""
+        law = name_of_law(self.material.law)
+        return f"{law}, {self.told}; R² {self.r_squared:.4f}, RMSE {self.rmse / 1e3:.3g} kPa"
 
     @property
     def told(self) -> str:
@@ -190,6 +200,7 @@ def fit_law(
         constants=_constants(search, values, bounds),
         data=data,
         predicted=predicted,
+        band=confidence_band(objective, values, inside),
         rmse=float(np.sqrt(np.mean(off**2))),
         r_squared=r_squared_of(off, data.observed),
         correlations=correlations(result, search.free),

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.bench.comparison import Setting
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
@@ -149,7 +149,7 @@ class PressureCurve:
         return replace(self, over=tuple(found))
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class SeriesModel:
     """Predictions of the model for a series of points, by friction and stiffness.

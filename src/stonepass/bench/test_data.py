@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
 from stonepass.bench.bench_stress import strip_stress, tube_pressure
 from stonepass.bench.data_checks import check_inflation, check_tension, inner_ratio
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 from stonepass.io.csv_file import Columns, read_columns
 from stonepass.materials.protocol import Law
@@ -22,7 +22,7 @@ from stonepass.units import Length
 __all__ = ["Inflation", "Tension", "read_inflation", "read_tension"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Tension:
     """Uniaxial tension tests of strips that were cut along an axis of the wall.
@@ -98,7 +98,7 @@ class Tension:
         return np.array(self.axis) == AXES[0]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Inflation:
     """Inflation test of a tube whose ends are held at a given axial stretch.

@@ -41,6 +41,7 @@ VARIED = (
     "stone.diameter",
     "ureter.inner_diameter",
     "ureter.outer_diameter",
+    "ureter.wall_thickness",
     "stone.size_ratio",
     "ureter.wall_ratio",
     "stone.friction",

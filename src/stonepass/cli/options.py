@@ -61,7 +61,7 @@ _MORE_WORDS = {
 }
 _REMEDIES = {
     "stone size": "given as --stone, or as --xi",
-    "ureter size": "given as --inner and --outer, or as --eta",
+    "ureter size": "given as --inner with --outer or --wall-thickness, or as --eta",
 }
 
 

@@ -63,7 +63,7 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     ----------
     docs/assess.md, "What is done".
     """
-    solver = solver or JobSolver()
+    solver = solver or JobSolver(progress=True)
     check(patient.material)
     case = patient.case()
     draws, possible = draw_patient(patient)

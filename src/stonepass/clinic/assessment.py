@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool
 from stonepass.caution import Caution
 from stonepass.clinic.cohorts import Row
@@ -17,6 +18,7 @@ from stonepass.clinic.fractions import Fraction, Present, Range, Samples
 from stonepass.clinic.patient import Patient
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
+from stonepass.result import Result
 from stonepass.studies.sensitivity_indices import SensitivityIndex
 
 __all__ = ["Assessment"]
@@ -24,8 +26,9 @@ __all__ = ["Assessment"]
 FEWEST_OF_A_CLASS = 30  # smallest number of samples for which a fraction is computed
 
 
-@dataclass(frozen=True)
-class Assessment:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class Assessment(Result):
     """The assessment of one patient's stone.
 
     Attributes
@@ -95,6 +98,17 @@ class Assessment:
     solves: int = 0
     surface_error: float = 0.0
     warnings: tuple[Caution, ...] = ()
+
+    def summary(self) -> str:
+        """Return the interval of the critical pressure in one line."""
+        found = self.critical
+        if found is None:
+            return f"{self.outcome.name}: {self.message}"
+        low, median, high = (
+            "unknown" if each is None else f"{each / 1e3:.3g}"
+            for each in (found.low, found.median, found.high)
+        )
+        return f"{self.outcome.name}, P_ucr {median} kPa in the median, {low} to {high} kPa"
 
     def beside(self, row: Row) -> Fraction | None:
         """Return the fraction of samples below the limit that corresponds to a row of a cohort.

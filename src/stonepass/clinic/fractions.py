@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
-from stonepass.equality import compared_by_value
 
 __all__ = [
     "FEWER",
@@ -77,7 +77,7 @@ class Fraction:
         return "more than 99 %" if low == 100 else f"{low} %"
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Present:
     """Present urine pressure of n samples, from the diameter of the dilated segment.
@@ -101,7 +101,7 @@ class Present:
     opening: Float[np.ndarray, " n"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Samples:
     """The n Monte Carlo samples of a patient.

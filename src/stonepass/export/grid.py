@@ -7,15 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float, Int
-from stonepass.equality import compared_by_value
 
 __all__ = ["Grid", "grid"]
 
 Values = Float[np.ndarray, "..."]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Grid:
     """Eight-node quadrilaterals in rows (first index) and columns (second index).

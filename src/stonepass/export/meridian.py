@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float, Int
-from stonepass.equality import compared_by_value
 from stonepass.fe.axisymmetric.wall_values import STRESSES, Field
 
 __all__ = ["SEGMENTS", "Meridian", "meridian"]
@@ -15,7 +15,7 @@ __all__ = ["SEGMENTS", "Meridian", "meridian"]
 SEGMENTS = 48  # number of segments around the axis of a wall that is rotated about it
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Meridian:
     """Points in the meridian plane of the wall with stresses, and quadrilaterals between them.

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from stonepass.about import VERSION
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 from stonepass.export.checks import checked_value
 from stonepass.export.element_strip import CLEARANCE, element_strip
@@ -52,7 +52,7 @@ KPA, MM = PASCAL_PER["kPa"], METRE_PER_MM
 LONGEST_NAME = 60  # largest number of characters of a material name in a file
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Seating:
     """Meshes and prescribed displacements; all lengths are in inner radii.

@@ -117,7 +117,7 @@ def values_of(case: Case, folder: Path) -> dict[str, Any]:
             if value is not None:
                 values[each.key] = _raw(value, folder)
     if case.ureter.outer_diameter is not None:
-        del values["ureter.wall_ratio"]
+        del values["ureter.wall_ratio"], values["ureter.wall_thickness"]
     shape = case.stone.shape
     if shape.reference:
         del values["stone.aspect"]

@@ -16,6 +16,8 @@ __all__ = ["EXCLUSIVE", "of_other_models", "overlay", "refuse_pairs"]
 EXCLUSIVE = (
     ("stone.diameter", "stone.size_ratio"),
     ("ureter.outer_diameter", "ureter.wall_ratio"),
+    ("ureter.outer_diameter", "ureter.wall_thickness"),
+    ("ureter.wall_thickness", "ureter.wall_ratio"),
     ("stone.aspect", "stone.shape"),
     ("method.circumferential_modulus", "method.secant_stretch"),
     ("method.longitudinal_modulus", "method.secant_stretch"),

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar, Protocol, runtime_checkable
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.caution import Caution
 from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
@@ -13,6 +14,8 @@ from stonepass.model.contact_state import ContactState
 from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
 from stonepass.model.states.state_solver import StateSolver
+from stonepass.result import Result
+from stonepass.units import PASCAL_PER
 
 __all__ = ["Answer", "Detail", "Model", "Quantity", "unanswered"]
 
@@ -117,35 +120,50 @@ class Model(Protocol):
         """
 
 
-@dataclass(frozen=True)
-class Answer:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class Answer(Result):
     """The critical pressure of one case, or why there is none.
+
+    Two answers are equal where all their numbers are; the time that they took does not count.
 
     Attributes
     ----------
     case : Problem
+        The stone, the ureter and the load.
     model : Model
+        The model that answered.
     numerics : Numerics
+        Accuracy and length of the tube.
     outcome : Outcome
+        How the question ended; `outcome.answered` is False where there is no answer.
     reason : str
         Why there is no answer; empty where there is one.
     pressure : float or None
-        Critical urine pressure P_ucr in Pa.
+        Critical urine pressure P_ucr in Pa; None where there is none, 0 for a loose stone.
     critical_angle : float or None
         α_cr in rad, the contact angle at which the stone starts to move.
     contact : ContactState or None
-        Where stone and wall touch: the seated state of the paper's model, the loaded state in which
-        the stone starts to move (or the last one before urine passes) of the direct model, or the
+        Where stone and wall touch: the seated state of the paper's model, the loaded state of the
+        direct model in which the stone starts to move (or the last one before urine passes), or the
         contact of sphere and beam.
     detail : Detail or None
-        What only this model knows, in a record of its own file.
+        The numbers that only this model knows.
     error : ErrorEstimate or None
-        Estimated discretisation error of α₀ (in the direct model of the contact's upstream edge),
-        σ(π/2) and P_ucr; None where there is no state or no second solve could be made.
-    newton_steps, seconds : int, float
-        Work of the finite elements, also where they failed.
+        Estimated discretisation error of α₀ (in the direct model, of the upstream edge of the
+        contact), σ(π/2) and P_ucr; None where there is no state or no second solve could be made.
+    newton_steps : int
+        Newton steps of all finite-element solves, also of those that failed.
+    seconds : float
+        Wall-clock time of the solves in s.
     warnings : tuple of Caution
-        Where the answer leaves what its parts are known for; ``str`` of one is its sentence.
+        Where the answer must be read with care; ``str`` of one is its sentence.
+
+    Examples
+    --------
+    >>> import stonepass as sp
+    >>> sp.critical_pressure(sp.Stone(size_ratio=0.9), sp.Ureter(wall_ratio=1.5))
+    <Answer: LOOSE, P_ucr 0 kPa; ξ 0.9, η 1.5, ureter, friction 0.5, model paper>
     """
 
     case: Problem
@@ -159,8 +177,44 @@ class Answer:
     detail: Detail | None = None
     error: ErrorEstimate | None = None
     newton_steps: int = 0
-    seconds: float = 0.0
+    seconds: float = field(default=0.0, compare=False)
     warnings: tuple[Caution, ...] = ()
+
+    def summary(self) -> str:
+        """Return outcome, pressure and case in one line."""
+        return f"{self.outcome.name}{self._pressure_in_words()}; {self._case_in_words()}"
+
+    def _pressure_in_words(self) -> str:
+        if self.pressure is None:
+            return ""
+        error = None if self.error is None else self.error.critical_pressure
+        shown = f", P_ucr {self.pressure / 1e3:.4g}"
+        return f"{shown} kPa" if error is None else f"{shown} ± {error / 1e3:.1g} kPa"
+
+    def _case_in_words(self) -> str:
+        case = self.case
+        return (
+            f"ξ {case.size_ratio:.4g}, η {case.wall_ratio:.4g}, {case.ureter.material.name}, "
+            f"friction {case.stone.friction:g}, model {self.model.NAME}"
+        )
+
+    @property
+    def pressure_kPa(self) -> float | None:
+        """P_ucr in kPa; None where there is none."""
+        return self._pressure_in("kPa")
+
+    @property
+    def pressure_mmHg(self) -> float | None:
+        """P_ucr in mmHg; None where there is none."""
+        return self._pressure_in("mmHg")
+
+    @property
+    def pressure_cmH2O(self) -> float | None:
+        """P_ucr in cmH₂O; None where there is none."""
+        return self._pressure_in("cmH2O")
+
+    def _pressure_in(self, unit: str) -> float | None:
+        return None if self.pressure is None else self.pressure / PASCAL_PER[unit]
 
     @property
     def message(self) -> str:

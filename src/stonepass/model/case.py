@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from stonepass.errors import BadInput
 from stonepass.model.answer import Model
 from stonepass.model.load import Load
+from stonepass.model.models.push_through import PushThrough
+from stonepass.model.models.registry import MODELS
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.model.numerics import Numerics
-from stonepass.model.problem import Problem
+from stonepass.model.problem import Problem, require_kind
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 
@@ -24,7 +25,9 @@ class Case(Problem):
     Parameters
     ----------
     stone : Stone
+        The stone by its diameter, or by its size ratio.
     ureter : Ureter
+        The wall by its diameters, or by its wall ratio.
     load : Load, optional
         Confining pressure and pre-stretch; none by default.
     model : Model, optional
@@ -36,20 +39,28 @@ class Case(Problem):
     Raises
     ------
     BadInput
-        Where the parts do not go together: a stone with a diameter in a ureter without one, a size
-        ratio out of bounds, a tube that is too short for the stone.
+        The parts do not go together: a stone with a diameter in a ureter without one, a size ratio
+        out of bounds, a tube that is too short for the stone, or an argument of another type.
+
+    Examples
+    --------
+    >>> import stonepass as sp
+    >>> case = sp.Case(sp.Stone("4.2 mm"), sp.Ureter("3.5 mm", "4.54 mm"))
+    >>> round(case.size_ratio, 3), round(case.wall_ratio, 3)
+    (1.2, 1.297)
     """
 
     model: Model = field(default_factory=SeatedBalance)
     numerics: Numerics = field(default_factory=Numerics)
 
+    def __repr__(self) -> str:
+        parts = (self.stone, self.ureter, self.load, self.model, self.numerics)
+        return f"Case({', '.join(map(repr, parts))})"
+
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name, value, kind in (
-            ("model", self.model, Model),
-            ("numerics", self.numerics, Numerics),
-        ):
-            _require_kind(name, value, kind)
+        require_kind("model", self.model, Model, _model_example(self.model))
+        require_kind("numerics", self.numerics, Numerics, 'Numerics("fast")')
         self.numerics.check(self.extent)
 
     def with_size_ratio(self, size_ratio: float) -> Case:
@@ -65,7 +76,7 @@ class Case(Problem):
         return super().with_size_ratio(size_ratio)
 
 
-def _require_kind(name: str, value: Any, kind: Any) -> None:
-    if isinstance(value, type) or not isinstance(value, kind):
-        remedy = "e.g. PushThrough()" if name == "model" else ""
-        raise BadInput(name, value, f"a {kind.__name__}", remedy)
+def _model_example(given: Any) -> str:
+    """The constructor of the model that a name stands for; that of another model otherwise."""
+    named = MODELS.get(given, PushThrough) if isinstance(given, str) else PushThrough
+    return f"{named.__name__}()"

@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.caution import Caution
 from stonepass.errors import Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.answer import Answer, Model
 from stonepass.model.case import Case
-from stonepass.model.critical import solve
+from stonepass.model.critical import refuse_parts, solve
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.load import Load
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.model.numerics import Numerics
+from stonepass.model.problem import EXAMPLES, require_kind
 from stonepass.model.shape import Shape
 from stonepass.model.size_search import (
     NoValue,
@@ -28,6 +30,7 @@ from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
+from stonepass.result import Result
 from stonepass.units import Length, Pressure, pressure
 
 __all__ = ["SizeAnswer", "critical_size"]
@@ -40,14 +43,19 @@ SMALL_LIMIT = 100.0  # Pa; only below it can a limit lie under every stuck stone
 LIMIT = (1.0, 1e6)
 
 
-@dataclass(frozen=True)
-class SizeAnswer:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class SizeAnswer(Result):
     """The critical size at a pressure limit, or why there is none.
 
     Attributes
     ----------
+    case : Case
+        The question; its stone has the largest size ratio that was searched, not an answer.
     outcome : Outcome
         SOLVED where a size was found.
+    message : str
+        The outcome as a sentence.
     size_ratio : float or None
         ξ_cr, critical stone size over inner diameter.
     diameter : Length or None
@@ -58,6 +66,8 @@ class SizeAnswer:
         The answer at the critical size; without one, at the size where the search ended.
     size_ratio_error : float or None
         Estimated discretisation error of ξ_cr: that of P_ucr over its slope dP_ucr/dξ.
+    warnings : tuple of Caution
+        Where the answer must be read with care.
     """
 
     case: Case
@@ -70,9 +80,28 @@ class SizeAnswer:
     size_ratio_error: float | None = None
     warnings: tuple[Caution, ...] = ()
 
+    def summary(self) -> str:
+        """Return outcome, size and question in one line."""
+        case, size = self.case, ""
+        if self.size_ratio is not None:
+            error = "" if self.size_ratio_error is None else f" ± {self.size_ratio_error:.1g}"
+            size = f", ξ_cr {self.size_ratio:.4f}{error}"
+        if self.diameter is not None:
+            size += f" ({self.diameter * 1e3:.3f} mm)"
+        return (
+            f"{self.outcome.name}{size} at {self.limit / 1e3:.4g} kPa; η {case.wall_ratio:.4g}, "
+            f"{case.ureter.material.name}, friction {case.stone.friction:g}, "
+            f"model {case.model.NAME}"
+        )
+
+    @property
+    def diameter_mm(self) -> float | None:
+        """Critical stone diameter in mm; None without a size or without lengths."""
+        return None if self.diameter is None else self.diameter * 1e3
+
 
 def critical_size(
-    ureter: Ureter,
+    ureter: Ureter | Case,
     limit: str | Pressure,
     friction: float | None = None,
     load: Load | None = None,
@@ -82,7 +111,7 @@ def critical_size(
     shape: Shape | None = None,
     states: StateSolver = UNCACHED,
 ) -> SizeAnswer:
-    """How large may a stone be that moves at `limit`?
+    """Find the largest stone that moves at a pressure limit.
 
     P_ucr rises with ξ from 0 at the lumen, so ξ_cr is bracketed by the lumen and the largest size
     that the model is used for (the end of the material's strain range, or what the beam model holds
@@ -90,44 +119,62 @@ def critical_size(
 
     Parameters
     ----------
-    ureter : Ureter
-    limit : str or Pressure
+    ureter : Ureter or Case
+        A case contains friction, load, model, numerics and shape; the size of its stone is ignored.
+    limit : str, Pressure or pint.Quantity
         Maximum tolerable urine pressure, e.g. ``"12 kPa"``; 0.001 to 1000 kPa.
     friction : float, optional
-        Coefficient of friction between stone and wall; by default that of `Stone`.
+        Coefficient of friction between stone and wall, 0 to 2; by default that of `Stone`.
     load : Load, optional
         Confining pressure and pre-stretch; none by default.
     model : Model, optional
-        The paper's by default.
+        `SeatedBalance` (the paper's) by default.
     numerics : Numerics, optional
+        Accuracy and length of the tube.
     progress : callable, optional
         Called with every size ratio that is tried.
     shape : Shape, optional
-        Shape of the stone; a sphere by default, ``Shape(1.4)`` a spheroid 1.4 times as long as
+        Shape of the stone; a sphere by default, ``Shape(1.4)`` is a spheroid 1.4 times as long as
         wide.
     states : StateSolver, optional
-        Where finite-element states come from (`studies.solution_cache`); by default they are
-        solved.
+        Where finite-element states come from: a `SolutionCache` reads and stores them; by default
+        they are solved.
 
     Returns
     -------
     SizeAnswer
+        `size_ratio` is ξ_cr and `diameter` the critical diameter, where there is one.
 
     Raises
     ------
     BadInput
         A limit out of bounds, or parts that do not go together.
+    UnstableLaw
+        The material law describes no solid.
+
+    Notes
+    -----
+    docs/theory.md, section "The question"; Liu et al. 2022.
+
+    Examples
+    --------
+    >>> import stonepass as sp
+    >>> beam = sp.ElasticFoundation("0.4 MPa", "0.02 MPa")
+    >>> ureter = sp.Ureter("3.5 mm", wall_thickness="0.5 mm")
+    >>> f"{sp.critical_size(ureter, '6 kPa', model=beam).size_ratio:.3f}"
+    '1.131'
     """
+    if isinstance(ureter, Case):
+        refuse_parts(friction=friction, load=load, model=model, numerics=numerics, shape=shape)
+        case = ureter
+    else:
+        require_kind("ureter", ureter, Ureter, EXAMPLES["ureter"])
+        high = ureter.material.strain_range[1]
+        stone = Stone(size_ratio=high, friction=friction, shape=shape)
+        case = Case(stone, ureter, load or Load(), model or SeatedBalance(), numerics or Numerics())
     bound = pressure(limit, "limit")
     require(LIMIT[0] <= bound <= LIMIT[1], "limit", limit, "0.001 kPa to 1000 kPa")
-    high = ureter.material.strain_range[1]
-    case = Case(
-        Stone(size_ratio=high, friction=friction, shape=shape),
-        ureter,
-        load or Load(),
-        model or SeatedBalance(),
-        numerics or Numerics(),
-    )
+    case = case.with_size_ratio(case.ureter.material.strain_range[1])
     case = case.with_size_ratio(case.model.largest_size(case))
     return _search(case, bound, progress or (lambda size_ratio: None), states)
 

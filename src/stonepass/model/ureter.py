@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from stonepass.declaration import Kind, declared, set_inputs
+from stonepass.declaration import Kind, declared, described, set_inputs
 from stonepass.errors import BadInput, Misplaced, require
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.protocol import Material, names_a_file
@@ -15,22 +15,39 @@ from stonepass.units import Length, format_length
 __all__ = ["BY_RATIO", "WALL_RATIO", "Ureter"]
 
 WALL_RATIO = (1.02, 10.0)
-BY_RATIO = "give both diameters, or the ratio alone"
+CONSISTENT = 1e-9  # relative difference of a length that is given twice
+BY_RATIO = "give the inner diameter with the outer one or the wall thickness, or the ratio alone"
 
 
 @dataclass(frozen=True, init=False)
 class Ureter:
-    """A uniform tube without load, by its diameters or by its wall ratio η = R_b/R_a.
+    """A uniform tube without load, by its lengths or by its wall ratio η = R_b/R_a.
 
     Parameters
     ----------
-    inner_diameter, outer_diameter : str or Length, optional
-        Text with a unit, e.g. ``"3.5 mm"``; in metres once read.
-    material : str or Material
-        Catalogue name (human wall by default) or a `Material`; `load_material` reads one from a
-        file.
+    inner_diameter : str, Length or pint.Quantity, optional
+        Inner diameter 2 R_a, e.g. ``"3.5 mm"``; 0.01 mm to 1 m, in m once read.
+    outer_diameter : str, Length or pint.Quantity, optional
+        Outer diameter 2 R_b; not beside `wall_thickness`.
+    material : str or Material, optional
+        Catalogue name or a `Material`; the human wall, ``"ureter"``, by default. `load_material`
+        reads one from a file.
     wall_ratio : float, optional
-        η, where no lengths are known (also beside `inner_diameter` alone); 1.02 to 10.
+        η, 1.02 to 10, where no outer diameter is given.
+    wall_thickness : str, Length or pint.Quantity, optional
+        R_b − R_a, e.g. ``"0.52 mm"``, with `inner_diameter` and in place of `outer_diameter`.
+
+    Raises
+    ------
+    BadInput
+        A size is missing or given twice, has no unit, or is out of bounds; or the material is
+        unknown.
+
+    Examples
+    --------
+    >>> import stonepass as sp
+    >>> sp.Ureter("3.5 mm", wall_thickness="0.52 mm") == sp.Ureter("3.5 mm", "4.54 mm")
+    True
     """
 
     SECTION: ClassVar[str] = "ureter"
@@ -68,31 +85,65 @@ class Ureter:
         bounds=WALL_RATIO,
     )
 
+    wall_thickness: Length | None = declared(
+        Kind.LENGTH,
+        "--wall-thickness",
+        "Wall thickness, in place of the outer diameter.",
+        default=None,
+        title="wall thickness",
+        bounds=DIAMETER,
+        metavar="LENGTH",
+    )
+
     def __init__(
         self,
         inner_diameter: str | Length | None = None,
         outer_diameter: str | Length | None = None,
         material: str | Material | None = None,
         wall_ratio: float | None = None,
+        wall_thickness: str | Length | None = None,
     ) -> None:
-        if outer_diameter is not None and inner_diameter is None:
-            raise BadInput("inner diameter", "missing", "given with the outer one", BY_RATIO)
-        if outer_diameter is None and wall_ratio is None:
+        thick = wall_thickness is not None
+        if inner_diameter is None and (thick or outer_diameter is not None):
+            beside = "the wall thickness" if thick else "the outer one"
+            raise BadInput("inner diameter", "missing", f"given with {beside}", BY_RATIO)
+        if outer_diameter is None and wall_ratio is None and not thick:
             what = "size of the ureter" if inner_diameter is None else "outer diameter"
             raise BadInput(what, "missing", "given", BY_RATIO)
+        by_length = outer_diameter is not None or thick
         set_inputs(
             self,
             inner_diameter=inner_diameter,
             outer_diameter=outer_diameter,
             material=material,
-            wall_ratio=wall_ratio if outer_diameter is None else None,
+            wall_ratio=None if by_length else wall_ratio,
+            wall_thickness=wall_thickness,
         )
         object.__setattr__(self, "material", _material(self.material))
-        if self.inner_diameter is not None and self.outer_diameter is not None:
-            ratio = _ratio(self.inner_diameter, self.outer_diameter)
-            if wall_ratio is not None and not abs(wall_ratio - ratio) <= 1e-9 * ratio:
-                raise Misplaced("wall_ratio", "both diameters", "", f"they give {ratio:.6g}")
-            object.__setattr__(self, "wall_ratio", ratio)
+        if self.inner_diameter is not None:
+            self._complete(self.inner_diameter, wall_ratio)
+
+    def __repr__(self) -> str:
+        implied = () if self.outer_diameter is None else ("wall_ratio",)
+        return described(self, "wall_thickness", *implied)
+
+    def _complete(self, inner: Length, wall_ratio: float | None) -> None:
+        """Derive the lengths that were not given, and refuse those that contradict each other."""
+        outer, thickness = self.outer_diameter, self.wall_thickness
+        if thickness is not None:
+            derived = Length(f"{inner + 2.0 * thickness:.15g}")
+            if outer is not None and not abs(outer - derived) <= CONSISTENT * outer:
+                remedy = f"the diameters give {format_length((outer - inner) / 2.0)}"
+                raise Misplaced("wall thickness", "both diameters", "", remedy)
+            outer = derived if outer is None else outer
+        if outer is None:
+            return
+        ratio = _ratio(inner, outer)
+        if wall_ratio is not None and not abs(wall_ratio - ratio) <= CONSISTENT * ratio:
+            raise Misplaced("wall_ratio", "both diameters", "", f"they give {ratio:.6g}")
+        object.__setattr__(self, "outer_diameter", outer)
+        object.__setattr__(self, "wall_ratio", ratio)
+        object.__setattr__(self, "wall_thickness", Length(f"{(outer - inner) / 2.0:.15g}"))
 
 
 def _ratio(inner: Length, outer: Length) -> float:

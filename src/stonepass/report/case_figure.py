@@ -12,10 +12,19 @@ from stonepass.model.answer import Answer
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.models.seated_balance import SeatedBalance, SeatedBalanceDetail
 from stonepass.model.states.seated_state import SeatedState
-from stonepass.report.balance import draw_balance
-from stonepass.report.section import draw_section
-from stonepass.report.stone import draw_radii
-from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
+from stonepass.report.balance import draw_balance, draw_critical_angle
+from stonepass.report.case_line import case_line
+from stonepass.report.section import add_colour_bar, draw_section
+from stonepass.report.stone import draw_radii, mark_angle
+from stonepass.report.style import (
+    COLOURS,
+    add_heading,
+    angle_label,
+    in_style,
+    new_figure,
+    series,
+    tidy,
+)
 
 __all__ = ["case_figure"]
 
@@ -28,7 +37,8 @@ def case_figure(answer: Answer) -> Figure:
         raise BadInput(
             "figure", answer.outcome.name, "asked for where there is a seated state to draw"
         )
-    figure = new_figure(8.4, 6.6)
+    figure = new_figure(8.4, 6.8)
+    add_heading(figure, case_line(answer.case, answer.model))
     rows = figure.add_gridspec(2, 2, height_ratios=(1.15, 1.0))
     _wall(figure.add_subplot(rows[0, :]), seated, seated.wall)
     _contact(figure.add_subplot(rows[1, 0]), answer, seated)
@@ -40,44 +50,27 @@ def _wall(axes: Axes, seated: SeatedState, wall: Field) -> None:
     """The meridian section, upstream left, coloured by the radial compression of the wall."""
     case, alpha = seated.case, seated.contact_angle
     sides = (-1.0, 1.0) if case.stone.shape.symmetric else (1.0,)
-    draw_section(axes, wall, case, seated.peak_contact_pressure, sides)
+    add_colour_bar(axes, draw_section(axes, wall, case, seated.peak_contact_pressure, sides))
     draw_radii(axes, case, (alpha, seated.downstream_angle))
-    axes.annotate(
-        rf"$\alpha_0$ = {np.degrees(alpha):.1f}°",
-        (-0.12 * case.size_ratio * case.stone.aspect, 0.0),
-        ha="right",
-        va="center",
-    )
+    mark_angle(axes, case, alpha, r"$\alpha_0$")
     axes.set_title("Seated stone: radial compression in the wall")
 
 
 def _contact(axes: Axes, answer: Answer, seated: SeatedState) -> None:
     degrees, pressure = np.degrees(seated.theta), seated.contact_pressure / 1e3
     axes.fill_between(degrees, pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
-    axes.plot(degrees, pressure, color=COLOURS["blue"], label="pressure σ")
+    axes.plot(degrees, pressure, **series(0, marker=False), label="contact pressure σ")
     if np.any(seated.friction_traction != 0.0):
-        traction = np.abs(seated.friction_traction) / 1e3
-        axes.plot(
-            degrees, traction, color=COLOURS["grey"], linewidth=0.9, label="friction while seated"
-        )
-        axes.legend(fontsize=8, loc="center")
-    if answer.critical_angle is not None:
-        axes.axvline(np.degrees(answer.critical_angle), color=COLOURS["orange"], linewidth=1.0)
-        axes.annotate(
-            f"opens to {np.degrees(answer.critical_angle):.1f}°",
-            (np.degrees(answer.critical_angle), 0.97),
-            xycoords=("data", "axes fraction"),
-            xytext=(-4, 0),
-            textcoords="offset points",
-            ha="right",
-            va="top",
-            color=COLOURS["orange"],
-        )
+        axes.plot(degrees, np.abs(seated.friction_traction) / 1e3, color=COLOURS["ink"],
+                  linestyle=":", linewidth=1.2,
+                  label="friction while seated (kinks: load increments)")  # fmt: skip
+    draw_critical_angle(axes, answer, pressure.max())
     axes.set(
         xlabel=angle_label(sphere=answer.case.stone.shape.spherical),
         ylabel="stress on the stone (kPa)",
-        ylim=(0, None),
+        ylim=(0, 1.42 * pressure.max()),  # the legend stands above the curves
     )
+    axes.legend(loc="upper center")
     axes.set_title("Contact pressure")
     tidy(axes)
 

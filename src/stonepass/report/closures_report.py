@@ -5,12 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from rich import box
 from rich.table import Table
 
 from stonepass.model.closure import linear_closure
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.case_line import case_line
+from stonepass.report.style import (
+    COLOURS,
+    SERIES,
+    add_heading,
+    angle_label,
+    in_style,
+    new_figure,
+    ordered_colours,
+    series,
+    tidy,
+)
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 
 __all__ = ["closures_figure", "closures_table", "map_figure"]
@@ -37,7 +49,8 @@ def closures_table(found: ClosureComparison) -> Table:
 @in_style
 def closures_figure(found: ClosureComparison) -> Figure:
     """How wide the tube is when the wall has opened to α: direct states, series, Eq. 15."""
-    figure = new_figure(6.0, 4.2)
+    figure = new_figure(6.4, 4.4)
+    add_heading(figure, case_line(found.case))
     axes = figure.add_subplot()
     if found.opening_curve is not None and found.series is not None:
         alpha, radius = found.opening_curve.arrays
@@ -47,21 +60,22 @@ def closures_figure(found: ClosureComparison) -> Figure:
         axes.plot(
             np.degrees(fine),
             linear_closure(width, float(width[0]), xi),
-            color=COLOURS["orange"],
+            **series(1, marker=False),
             label="Eq. 15, linear in the stone's width",
         )
         axes.plot(
             np.degrees(fine),
             found.series(width, float(width[0]), xi),
-            color=COLOURS["blue"],
+            **series(0, marker=False),
             label=f"series, order {len(found.series.coefficients)}",
         )
         axes.plot(np.degrees(alpha), radius, "o", color=COLOURS["ink"], ms=4, label="direct states")
         axes.legend()
     axes.set(
-        xlabel="angle α up to which the wall is open (°)", ylabel="inner radius of the tube / $R_a$"
+        xlabel=angle_label(sphere=found.case.stone.shape.spherical, name="α"),
+        ylabel="inner radius upstream $r_a$ / $R_a$",
     )
-    axes.set_title("Closure: the tube above the stone")
+    axes.set_title("Closure: width of the tube when the wall is open up to α")
     tidy(axes)
     return figure
 
@@ -70,40 +84,48 @@ def closures_figure(found: ClosureComparison) -> Figure:
 def map_figure(found: Sequence[ClosureComparison]) -> Figure:
     """Error of each closure against direct over ξ, a panel for each η, friction by shade."""
     walls = sorted({each.case.wall_ratio for each in found})
-    frictions = sorted({each.case.stone.friction for each in found})
-    names = [name for name in CLOSURES if name not in ("direct",)]
-    figure = new_figure(3.1 * len(walls) + 0.6, 2.0 * len(names) + 0.6)
-    grid = figure.subplots(len(names), len(walls), sharex=True, sharey="row", squeeze=False)
-    colours = [COLOURS[name] for name in ("green", "blue", "orange", "pink", "grey", "ink")]
-    for i, name in enumerate(names):
-        for j, eta in enumerate(walls):
-            axes = grid[i, j]
-            axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.8)
-            for k, mu in enumerate(frictions):
-                mine = [
-                    each
-                    for each in found
-                    if (each.case.wall_ratio, each.case.stone.friction) == (eta, mu)
-                ]
-                mine.sort(key=lambda each: each.case.size_ratio)
-                errors = [each.error(name) for each in mine]
-                axes.plot(
-                    [each.case.size_ratio for each in mine],
-                    [np.nan if e is None else 100.0 * e for e in errors],
-                    marker="o",
-                    markersize=2.5,
-                    color=colours[k % len(colours)],
-                    label=f"friction {mu:g}",
-                )
-            if i == 0:
-                axes.set_title(f"η = {eta:.3g}")
-            if j == 0:
-                axes.set_ylabel(f"{name}\n(% of direct)")
-            if i == len(names) - 1:
+    names = [name for name in CLOSURES if name != "direct"]
+    figure = new_figure(3.1 * len(walls) + 0.6, 2.2 * len(names) + 1.2)
+    rows = figure.subfigures(len(names), 1)
+    for name, row in zip(names, np.atleast_1d(rows), strict=True):
+        row.suptitle(CLOSURES[name], x=0.01, ha="left", fontweight="bold")
+        panels = row.subplots(1, len(walls), sharey=True, squeeze=False)[0]
+        for axes, eta in zip(panels, walls, strict=True):
+            _draw_errors(axes, [each for each in found if each.case.wall_ratio == eta], name, found)
+            axes.set_title(f"η = {eta:.3g}", fontsize=9, fontweight="normal")
+            if name == names[-1]:
                 axes.set_xlabel("size ratio ξ")
-            tidy(axes)
-    grid[0, -1].legend(fontsize=7)
-    figure.suptitle(
-        f"Critical pressure against the direct model: {found[0].case.ureter.material.name}"
+        panels[0].set_ylabel("error (% of direct)")
+    handles, labels = figure.subfigs[0].axes[0].get_legend_handles_labels()
+    add_heading(
+        figure,
+        "Error of the critical pressure against that of the direct push-through model. "
+        f"{found[0].case.ureter.material.name}; each row of panels is one closure, each column one "
+        "wall ratio η, each line one coefficient of friction μ.",
     )
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return figure
+
+
+def _draw_errors(
+    axes: Axes,
+    found: Sequence[ClosureComparison],
+    name: str,
+    everything: Sequence[ClosureComparison],
+) -> None:
+    """Errors of one closure for one wall, a line for each friction."""
+    frictions = sorted({each.case.stone.friction for each in everything})
+    axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.8)
+    for k, (mu, colour) in enumerate(zip(frictions, ordered_colours(len(frictions)), strict=True)):
+        mine = [each for each in found if each.case.stone.friction == mu]
+        mine.sort(key=lambda each: each.case.size_ratio)
+        errors = [each.error(name) for each in mine]
+        axes.plot(
+            [each.case.size_ratio for each in mine],
+            [np.nan if e is None else 100.0 * e for e in errors],
+            marker=SERIES[k % len(SERIES)][2],
+            markersize=3,
+            color=colour,
+            label=f"μ = {mu:g}",
+        )
+    tidy(axes)

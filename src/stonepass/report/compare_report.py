@@ -8,7 +8,16 @@ from rich import box
 from rich.table import Table
 
 from stonepass.export.comparison import Comparison
-from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
+from stonepass.report.case_line import case_line
+from stonepass.report.style import (
+    COLOURS,
+    add_heading,
+    angle_label,
+    in_style,
+    new_figure,
+    series,
+    tidy,
+)
 from stonepass.report.table import case_title, significant
 
 __all__ = ["compare_figure", "compare_table"]
@@ -61,19 +70,27 @@ def _kpa(pressure: float | None) -> str:
 @in_style
 def compare_figure(found: Comparison) -> Figure:
     """Draw the contact pressure of both programs over the angle."""
-    figure = new_figure(6.4, 3.6)
+    figure = new_figure(6.4, 4.0)
+    add_heading(figure, case_line(found.answer.case, found.answer.model))
     axes = figure.add_subplot()
-    for contact, colour, label, width in (
-        (found.seated, COLOURS["blue"], "stonepass", 1.8),
-        (found.contact, COLOURS["orange"], "CalculiX", 1.2),
+    error = found.answer.error
+    if error is not None:
+        degrees, pressure = np.degrees(found.seated.theta), found.seated.contact_pressure / KPA
+        off = error.equator_contact_pressure / KPA
+        axes.fill_between(degrees, np.maximum(pressure - off, 0.0), pressure + off, linewidth=0,
+                          color=COLOURS["blue"], alpha=0.25,
+                          label=f"± discretisation error at 90°, {off:.2g} kPa")  # fmt: skip
+    for k, (contact, label) in enumerate(
+        ((found.seated, "stonepass"), (found.contact, "CalculiX"))
     ):
-        axes.plot(np.degrees(contact.theta), contact.contact_pressure / KPA, color=colour,
-                  label=label, linewidth=width)  # fmt: skip
+        axes.plot(np.degrees(contact.theta), contact.contact_pressure / KPA,
+                  **series(k, marker=False), label=label)  # fmt: skip
     axes.set(
         xlabel=angle_label(sphere=found.answer.case.stone.shape.spherical),
-        ylabel="contact pressure in kPa",
+        ylabel="contact pressure (kPa)",
         ylim=(0.0, None),
     )
-    axes.legend()
+    axes.set_title("Contact pressure of the seated stone, by both programs")
+    axes.legend(loc="lower center")
     tidy(axes)
     return figure

@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from stonepass.model.answer import Answer
-from stonepass.report.style import COLOURS, angle_label, in_style, new_figure, tidy
+from stonepass.report.case_line import case_line
+from stonepass.report.style import COLOURS, add_heading, angle_label, in_style, new_figure, tidy
 
 __all__ = ["contact_figure"]
 
@@ -17,6 +18,7 @@ def contact_figure(answer: Answer) -> Figure:
     contact = answer.contact
     assert contact is not None
     figure = new_figure(6.4, 4.0)
+    add_heading(figure, case_line(answer.case, answer.model))
     axes = figure.add_subplot()
     theta = np.linspace(contact.contact_angle, contact.downstream_angle, 400)
     pressure = contact.pressure_at(theta) / 1e3
@@ -26,6 +28,6 @@ def contact_figure(answer: Answer) -> Figure:
         xlabel=angle_label(sphere=answer.case.stone.shape.spherical),
         ylabel="pressure on the stone (kPa)",
     )
-    axes.set_title(f"Contact pressure, model '{answer.model.NAME}'")
+    axes.set_title("Contact pressure")
     tidy(axes)
     return figure

@@ -10,43 +10,61 @@ from matplotlib.figure import Figure
 
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
-from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
+from stonepass.report.case_line import case_line, length_unit
+from stonepass.report.style import (
+    COLOURS,
+    SERIES,
+    add_heading,
+    add_mmhg_axis,
+    in_style,
+    mark_unanswered,
+    new_figure,
+    series,
+    tidy,
+)
 
 __all__ = ["curve_figure", "draw_curve", "frame_curve"]
 
 
 @in_style
 def curve_figure(answers: Sequence[Answer]) -> Figure:
-    """Draw one curve; size ratios without an answer are marked on the axis."""
-    figure = new_figure(6.0, 4.2)
+    """Draw one curve; size ratios without an answer are marked at the top of the axes."""
+    figure = new_figure(6.4, 4.4)
     axes = figure.add_subplot()
-    case = answers[0].case
-    label = (
-        f"{case.ureter.material.name}, η = {case.wall_ratio:.3g}, friction {case.stone.friction:g}"
-    )
-    draw_curve(axes, answers, COLOURS["blue"], label)
+    first = answers[0]
+    add_heading(figure, case_line(first.case, first.model, with_stone=False))
+    draw_curve(axes, answers, 0, "critical pressure")
     frame_curve(axes)
-    axes.set_title("Critical pressure")
+    inner = first.case.ureter.inner_diameter
+    if inner is not None:
+        across = 1e3 * inner
+        top = axes.secondary_xaxis("top", functions=(lambda x: x * across, lambda d: d / across))
+        top.set_xlabel(f"stone diameter ({length_unit(first.case)[1]})")
     axes.legend(loc="upper left")
     return figure
 
 
-def draw_curve(axes: Axes, answers: Sequence[Answer], colour: str, label: str) -> None:
-    """Add the answered part as a line, the rest as crosses at the bottom."""
-    axes.plot(
-        [a.case.size_ratio for a in answers],
-        [np.nan if a.pressure is None else a.pressure / 1e3 for a in answers],
-        color=colour,
-        marker="o",
-        markersize=2.5,
-        label=label,
-    )
+def draw_curve(axes: Axes, answers: Sequence[Answer], k: int, label: str) -> None:
+    """Add curve number `k`: answers with bars of their error, crosses where there is none."""
+    answered = [answer for answer in answers if answer.pressure is not None]
+    sizes = [answer.case.size_ratio for answer in answers]
+    pressures = [np.nan if a.pressure is None else a.pressure / 1e3 for a in answers]
+    axes.plot(sizes, pressures, **series(k), markersize=3, label=label)
+    errors = [0.0 if a.error is None else a.error.critical_pressure / 1e3 for a in answered]
+    if any(errors):
+        axes.errorbar(
+            [answer.case.size_ratio for answer in answered],
+            [answer.pressure / 1e3 for answer in answered if answer.pressure is not None],
+            yerr=errors,
+            fmt="none",
+            ecolor=COLOURS["grey"],
+            elinewidth=1.0,
+            capsize=2.5,
+            label=None if k else "± discretisation error",
+        )
     for outcome in (Outcome.BEYOND_CLOSURE, Outcome.NO_SOLUTION):
         lost = [a.case.size_ratio for a in answers if a.outcome is outcome]
-        if lost:
-            axes.plot(
-                lost, np.zeros(len(lost)), "x", color=colour, clip_on=False, label=outcome.name
-            )
+        mark_unanswered(axes, lost, f"no answer: {outcome.name}", COLOURS[SERIES[k][0]])
 
 
 def frame_curve(axes: Axes) -> None:

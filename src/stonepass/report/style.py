@@ -1,14 +1,17 @@
-"""How every figure looks: fonts, colours, saving."""
+"""How every figure looks: fonts, colours, line styles, axes, saving."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+import textwrap
+from collections.abc import Callable, Sequence
 from functools import wraps
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
+import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -16,12 +19,25 @@ from stonepass.errors import BadInput
 from stonepass.io.text_file import write_file
 from stonepass.units import PASCAL_PER
 
-__all__ = ["COLOURS", "add_mmhg_axis", "in_style", "new_figure", "save", "tidy"]
+__all__ = [
+    "COLOURS",
+    "SERIES",
+    "add_heading",
+    "add_mmhg_axis",
+    "in_style",
+    "mark_unanswered",
+    "new_figure",
+    "ordered_colours",
+    "save",
+    "series",
+    "signed",
+    "tidy",
+]
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
-# Distinguishable with colour blindness and in grey (Okabe–Ito).
+# After Okabe and Ito. A test measures how far apart they are with deuteranopia and protanopia.
 COLOURS = {
     "blue": "#0072B2",
     "orange": "#D55E00",
@@ -31,7 +47,16 @@ COLOURS = {
     "ink": "#1F2937",
     "stone": "#D6CFC4",
 }
+# Colour, line style and marker of each curve of a figure, so that no curve is told by colour alone.
+SERIES: tuple[tuple[str, Any, str], ...] = (
+    ("blue", "-", "o"),
+    ("orange", "--", "s"),
+    ("green", "-.", "^"),
+    ("ink", ":", "D"),
+    ("pink", (0, (6, 1, 1, 1, 1, 1)), "v"),
+)
 FORMATS = ("svg", "png", "pdf")
+LETTERS_PER_INCH = 12.5  # of the heading's font, somewhat more than are needed
 
 _STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -39,6 +64,8 @@ _STYLE: Any = {
     "axes.titlesize": 10.0,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
+    "figure.titlesize": 9.0,
+    "legend.fontsize": 8.0,
     "axes.labelcolor": COLOURS["ink"],
     "axes.edgecolor": COLOURS["grey"],
     "xtick.color": COLOURS["ink"],
@@ -76,8 +103,26 @@ def tidy(axes: Axes) -> None:
     axes.set_axisbelow(True)
 
 
+def series(k: int, *, marker: bool = True) -> dict[str, Any]:
+    """Return colour, line style and, if wanted, marker of the curve number `k` of a figure."""
+    colour, line, mark = SERIES[k % len(SERIES)]
+    look = {"color": COLOURS[colour], "linestyle": line}
+    return look | {"marker": mark} if marker else look
+
+
+def ordered_colours(count: int) -> list[Any]:
+    """Return `count` colours for the values of an ordered parameter, from dark to light."""
+    return list(colormaps["viridis"](np.linspace(0.0, 0.85, count)))
+
+
+def add_heading(figure: Figure, text: str) -> None:
+    """Write above all panels, from the left, which case the figure shows; long text is wrapped."""
+    lines = textwrap.fill(text, round(LETTERS_PER_INCH * figure.get_figwidth()))
+    figure.suptitle(lines, x=0.01, ha="left")
+
+
 def add_mmhg_axis(axes: Axes) -> None:
-    """Put a scale in mmHg on the right of axes in kPa."""
+    """Put a second axis of pressure, in mmHg, on the right of axes in kPa."""
     factor = PASCAL_PER["kPa"] / PASCAL_PER["mmHg"]
 
     def to_mmhg(kilopascals: Any) -> Any:
@@ -87,12 +132,37 @@ def add_mmhg_axis(axes: Axes) -> None:
         return mmhg / factor
 
     right = axes.secondary_yaxis("right", functions=(to_mmhg, to_kpa))
-    right.set_ylabel("mmHg")
+    right.set_ylabel("pressure (mmHg)")
 
 
-def angle_label(*, sphere: bool) -> str:
+def mark_unanswered(axes: Axes, at: Sequence[float], why: str, colour: str) -> None:
+    """Mark abscissas without an answer by crosses at the top of the axes, where no value is read.
+
+    Parameters
+    ----------
+    axes : Axes
+    at : sequence of float
+        Abscissas; none draws nothing.
+    why : str
+        Entry of the legend.
+    colour : str
+        Any colour of matplotlib.
+    """
+    if at:
+        heights = np.full(len(at), 0.985)
+        axes.plot(at, heights, "x", color=colour, markersize=5, label=why, clip_on=False,
+                  transform=axes.get_xaxis_transform())  # fmt: skip
+
+
+def angle_label(*, sphere: bool, name: str = "θ") -> str:
     """Label of an axis of θ, which is parametric for a stone that is no sphere."""
-    return "θ from the upstream axis (°)" if sphere else "parametric angle θ, from upstream (°)"
+    kind = "angle" if sphere else "parametric angle"
+    return f"{kind} {name} from the upstream axis (°)"
+
+
+def signed(value: float, digits: int) -> str:
+    """Return a number with its sign, of which a minus is that of print and no hyphen."""
+    return f"{value:+.{digits}f}".replace("-", "−")
 
 
 @in_style

@@ -11,6 +11,7 @@ from typing import Protocol, runtime_checkable
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.studies.jobs import PressureJob, Progress, run_jobs
+from stonepass.studies.progress import reported
 
 __all__ = ["CaseSolver", "JobSolver"]
 
@@ -33,21 +34,22 @@ class CaseSolver(Protocol):
 
 @dataclass(frozen=True)
 class JobSolver:
-    """A solver that runs one job for each case.
+    """A case solver that runs one job for each case.
 
     Attributes
     ----------
-    executor : concurrent.futures.Executor or None
-        Where the jobs run; None for this process.
-    cache_folder : Path or None
-        Folder of the solution cache; None for no cache.
-    progress : callable or None
-        Function that is called with (done, all) after each job.
+    executor : concurrent.futures.Executor, optional
+        Where the jobs run, e.g. the executor of `process_pool`; by default in this process.
+    cache_folder : Path, optional
+        Folder of the solution cache; by default there is no cache.
+    progress : bool or callable
+        True shows a progress bar in a terminal and in a notebook. A function is called with
+        (done, all) after each job.
     """
 
     executor: Executor | None = None
     cache_folder: Path | None = None
-    progress: Progress | None = None
+    progress: bool | Progress = False
 
     def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
         """Return the answer of every case, in the order of the cases; equal cases are solved once.
@@ -60,5 +62,6 @@ class JobSolver:
             Whether the discretisation error is estimated too.
         """
         jobs = [PressureJob(case, error=error) for case in cases]
-        results = run_jobs(jobs, self.executor, self.cache_folder, self.progress)
+        with reported(self.progress, "cases") as told:
+            results = run_jobs(jobs, self.executor, self.cache_folder, told)
         return [results[job] for job in jobs]

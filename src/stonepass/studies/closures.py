@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.model.accuracy import LEVELS
@@ -22,6 +23,7 @@ from stonepass.model.states.loaded_state import PushedState
 from stonepass.model.states.seated_state import SeatedState
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED
+from stonepass.result import Result
 from stonepass.studies.jobs import Results, state_solver
 from stonepass.units import Pressure
 
@@ -30,7 +32,7 @@ __all__ = [
     "ClosureComparison",
     "ClosureJob",
     "ClosureMap",
-    "compare_closures",
+    "closures",
     "seated_model",
 ]
 
@@ -47,8 +49,9 @@ SERIES_ORDER = 3  # default order of the fitted series
 NEAR = 0.03
 
 
-@dataclass(frozen=True)
-class ClosureComparison:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class ClosureComparison(Result):
     """Critical pressures of one stone by every closure.
 
     Attributes
@@ -82,6 +85,18 @@ class ClosureComparison:
     series: Series | None = None
     opening_curve: OpeningCurve | None = None
 
+    def summary(self) -> str:
+        """Return the pressures of all closures in one line."""
+        pressures = ", ".join(
+            f"{name} {'none' if found is None else f'{found / 1e3:.4g} kPa'}"
+            for name, found in self.pressures.items()
+        )
+        case = self.case
+        return (
+            f"{pressures}; ξ {case.size_ratio:.4g}, η {case.wall_ratio:.4g}, "
+            f"{case.ureter.material.name}, friction {case.stone.friction:g}"
+        )
+
     def error(self, name: str) -> float | None:
         """Return the relative error of P_ucr by the closure `name` against the direct model.
 
@@ -91,7 +106,7 @@ class ClosureComparison:
         return None if found is None or not direct else found / direct - 1.0
 
 
-def compare_closures(
+def closures(
     case: Case,
     order: int = SERIES_ORDER,
     states: StateSolver = UNCACHED,
@@ -183,7 +198,7 @@ class ClosureJob:
     Attributes
     ----------
     case, order, wetted
-        Arguments of `compare_closures`.
+        Arguments of `closures`.
     """
 
     case: Case
@@ -191,9 +206,9 @@ class ClosureJob:
     wetted: bool = False
 
     def run(self, cache_folder: Path | None) -> ClosureComparison:
-        """Return the result of `compare_closures`."""
+        """Return the result of `closures`."""
         states = state_solver(cache_folder)
-        return compare_closures(self.case, self.order, states, wetted=self.wetted)
+        return closures(self.case, self.order, states, wetted=self.wetted)
 
 
 @dataclass(frozen=True)
@@ -205,7 +220,7 @@ class ClosureMap:
     cases : sequence of Case
         Cases of the paper's model; the outcome is a list in their order.
     order, wetted
-        Arguments of `compare_closures`.
+        Arguments of `closures`.
     """
 
     cases: Sequence[Case]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import elementwise
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
-from stonepass.equality import compared_by_value
 from stonepass.model.case import Case
 from stonepass.model.far_field import (
     SMALLEST_LUMEN,
@@ -20,7 +20,7 @@ from stonepass.model.far_field import (
 __all__ = ["Conditions", "lumen_ratios", "transmural"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Conditions:
     """The quantities that differ between n cases of one material, load and method.

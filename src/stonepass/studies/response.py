@@ -19,8 +19,8 @@ from scipy.interpolate import RBFInterpolator
 from scipy.spatial import KDTree
 from scipy.stats import qmc
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -49,7 +49,7 @@ NEAR_END = 0.02
 HALF_LENGTHS = 2.5  # half length of the tube, in radii of the largest stone
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class ResponseSurface:
     """The solved cases of a response surface, and the interpolant through them.

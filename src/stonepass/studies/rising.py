@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 from stonepass.errors import Outcome, require
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -19,6 +19,7 @@ from stonepass.model.states.loaded_state import NoPush, PushedState
 from stonepass.model.states.seated_state import NoSeat, SeatedState
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED
+from stonepass.result import Result
 from stonepass.studies.closures import seated_model
 from stonepass.studies.jobs import Results, state_solver
 from stonepass.units import Pressure
@@ -29,9 +30,9 @@ STEPS = (2, 200)  # smallest and largest number of pressures
 SAMPLES = 400  # number of angles in the integrals over the contact
 
 
-@compared_by_value
-@dataclass(frozen=True)
-class Rising:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class Rising(Result):
     """States of one held stone under rising urine pressure.
 
     Attributes
@@ -59,6 +60,11 @@ class Rising:
     seated: SeatedState | None
     deviation: Float[np.ndarray, " states"]
     reason: str
+
+    def summary(self) -> str:
+        """Return how many states were found, and the critical pressure, in one line."""
+        top = f" up to {self.states[-1].urine_pressure / 1e3:.4g} kPa" if self.states else ""
+        return f"{len(self.states)} states{top}; {self.critical.summary()}"
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from stonepass.studies.executor import executor_for
 from stonepass.studies.jobs import Job, Progress, Results, run_jobs
+from stonepass.studies.progress import reported
 
 __all__ = ["Study", "run_studies", "run_study"]
 
@@ -62,7 +63,7 @@ def run_study(
     study: Study[Outcome],
     executor: Executor | None = None,
     cache_folder: Path | None = None,
-    progress: Progress | None = None,
+    progress: bool | Progress = False,
 ) -> Outcome:
     """Run the jobs of a study and return its outcome.
 
@@ -74,8 +75,9 @@ def run_study(
         Where the jobs run; by default in this process.
     cache_folder : Path, optional
         Folder of the solution cache; by default there is no cache.
-    progress : callable, optional
-        Function that is called with (done, all) after each job.
+    progress : bool or callable
+        True shows a progress bar in a terminal and in a notebook. A function is called with
+        (done, all) after each job.
 
     Raises
     ------
@@ -87,7 +89,8 @@ def run_study(
     CacheWarning
         The cache folder cannot be written, or it contained a damaged result.
     """
-    return study.reduce(run_jobs(study.jobs(), executor, cache_folder, progress))
+    with reported(progress, "jobs") as told:
+        return study.reduce(run_jobs(study.jobs(), executor, cache_folder, told))
 
 
 def run_studies(

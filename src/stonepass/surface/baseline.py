@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 
 __all__ = ["MARGIN", "POWERS", "Baseline", "fit_baseline"]
 
@@ -24,7 +24,7 @@ MARGIN = 0.5
 MOST = 0.25  # widest margin at each end, as a fraction of the length
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Baseline:
     """A baseline fitted to a profile.

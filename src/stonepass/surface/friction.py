@@ -17,10 +17,11 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
+from stonepass.result import Result
 from stonepass.surface.baseline import MARGIN, POWERS, Baseline, fit_baseline
 from stonepass.surface.gaps import BRIDGED
 from stonepass.surface.grey_scale import Greys, check_surface, grey_ranges, to_heights
@@ -125,9 +126,9 @@ class Spread:
         return total if np.isfinite(total) else None
 
 
-@compared_by_value
-@dataclass(frozen=True)
-class SurfaceFriction:
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class SurfaceFriction(Result):
     """The friction coefficient of a surface with the data and intermediate results behind it.
 
     Attributes
@@ -181,6 +182,14 @@ class SurfaceFriction:
     levelled: bool = False
     friction_levelled: float | None = None
     warnings: tuple[Caution, ...] = ()
+
+    def summary(self) -> str:
+        """Return the friction coefficient and its spread in one line."""
+        spread = "" if self.spread.sd is None else f" ± {self.spread.sd:.2g}"
+        return (
+            f"friction {self.friction:.3g}{spread} (spread over analysis choices), "
+            f"{len(self.paths)} paths"
+        )
 
     @property
     def mean(self) -> Float[np.ndarray, " n"]:

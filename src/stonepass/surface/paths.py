@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float, Num
 from stonepass.caution import Caution, caution
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 from stonepass.surface.gaps import bridge, bridgeable, gap_length, known_area
 from stonepass.surface.surface_image import Area, SurfaceImage
@@ -53,7 +53,7 @@ class StraightPath:
         )
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Profiles:
     """Values of a picture along several paths, at n equal distances from their starts.

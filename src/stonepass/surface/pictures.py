@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import tifffile
 
 from stonepass.array_types import Num
 from stonepass.errors import BadInput
-from stonepass.io.optional_imports import library
 from stonepass.surface.data_bar import find_bar
 from stonepass.surface.decoded import Decoded
 from stonepass.surface.file_name import short_name
@@ -26,7 +26,7 @@ from stonepass.surface.scan import Scan
 from stonepass.surface.side_files import scan_beside
 from stonepass.surface.surface_image import Area, SurfaceImage
 
-__all__ = ["EXTRA", "JPEG", "PNG", "READ", "TIFF", "read_plain", "read_tiff"]
+__all__ = ["JPEG", "PNG", "TIFF", "read_plain", "read_tiff"]
 
 TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 PNG, JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
@@ -37,7 +37,6 @@ RESOLUTION = (282, 283)  # tags with the pixels per unit, across and down
 PAGES = 200  # largest number of pages that are examined
 PLAIN = (1, 8, 32946)  # TIFF compressions that tifffile decodes without a codec: none, and deflate
 WHITE_IS_ZERO, PALETTE = 0, 3  # photometric interpretations
-READ, EXTRA = "read this file", "imaging"
 
 
 def read_tiff(path: Path, area: Area | None) -> SurfaceImage:
@@ -55,10 +54,9 @@ def read_tiff(path: Path, area: Area | None) -> SurfaceImage:
     BadInput
         The picture is too large, in colour, turned, or of another number of bits.
     """
-    tifffile = library("tifffile", READ, EXTRA)
     with tifffile.TiffFile(path) as file:
         index, notes = _page(file)
-        page = file.pages[index]
+        page: Any = file.pages[index]
         bits, kind = page.bitspersample, int(page.photometric)
         _check_samples(path, page)
         tag = page.tags.get(ORIENTATION)

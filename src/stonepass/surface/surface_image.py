@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Num
-from stonepass.equality import compared_by_value
 from stonepass.errors import BadInput, require
 
 __all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]
@@ -53,7 +53,7 @@ class Area:
         )
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class SurfaceImage:
     """Grey levels of a micrograph or heights of a height map.

@@ -1,7 +1,8 @@
-"""The active-set solve: contact as an inequality, on meshes that are moved to the edges it finds.
+"""The active-set solve: contact as an inequality, with remeshing to the contact edges found.
 
-It is the fallback for walls without a smooth contact edge, as where axial fibres of a wall that has
-lost its stability buckle: the edges are known to one nodal spacing.
+It is the fallback if the fitted solve fails because the wall has no smooth contact edge. An example
+is a wall that has lost its stability and whose axial fibres buckle. The active-set solve locates
+the edges to within one nodal spacing only.
 """
 
 from __future__ import annotations
@@ -45,22 +46,27 @@ MOST_MESHES = 6
 def solve_active_set(
     tube: Tube, stone: Profile, start: Start, resolution: Resolution, friction: float
 ) -> EquilibriumState | Failure:
-    """Solve the contact inequality on one mesh after the other until its edges are where it ends.
+    """Solve the contact inequality on a sequence of meshes, each refined at the last edges found.
+
+    The sequence ends when the contact edges of the solution agree with those for which the mesh was
+    graded.
 
     Parameters
     ----------
     tube : Tube
     stone : Profile
-        At its last place.
+        The stone in its final position, lengths in inner radii.
     start : Start
+        First guess; it also supplies the contact edges for the first mesh.
     resolution : Resolution
     friction : float
-        Coulomb coefficient, zero or positive; without effect where `start` has no slip origins.
+        Coulomb coefficient, zero or positive. It has no effect if `start` has no slip origins.
 
     Returns
     -------
     EquilibriumState or Failure
-        `edge_uncertainty` of the state is the length of the columns beside the edges.
+        `edge_uncertainty` of the state is the length of the columns next to the edges, in inner
+        radii.
     """
     edges, steps, whole = start.contact, 0, start.discretisation.whole
     for _ in range(MOST_MESHES):
@@ -74,7 +80,7 @@ def solve_active_set(
         steps += report.steps
         found = contact_edges(d) if report.converged else None
         if found is None:
-            return Failure(report.reason or "the wall left the stone", steps)
+            return Failure(report.reason or "the wall lost contact with the stone", steps)
         uncertainty = resolution.edge * (edges[1] - edges[0]) / 2.0
         if max(abs(found[0] - edges[0]), abs(found[1] - edges[1])) <= uncertainty:
             flaw = wall_flaw(d)
@@ -87,7 +93,7 @@ def solve_active_set(
 
 
 def _form(d: Discretisation, start: Start, friction: float) -> Any:
-    """The wall, with contact as an inequality on the whole inner wall."""
+    """Return the form of the wall with contact as an inequality on the whole inner wall."""
     where = ng.ds(INNER, intrules={ng.SEGM: d.rule})
     form, trial = wall_form(d), d.trial
     if start.origin is None:

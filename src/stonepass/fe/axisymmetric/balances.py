@@ -1,4 +1,8 @@
-"""Checks of a solved wall that no equation of the solver states: balances, friction, energy."""
+"""Independent checks of a solution: axial force balances, friction cone, strain energy.
+
+None of these conditions is an equation of the solver, so each of them tests the solution. See "What
+is checked" in docs/theory.md, section "Seated state".
+"""
 
 from __future__ import annotations
 
@@ -12,14 +16,15 @@ from stonepass.fe.axisymmetric.wall import PLACE, SYMBOLS, cauchy_stress, strain
 
 __all__ = ["axial_balance", "cone_excess", "loaded_balance", "stored_energy"]
 
-NUDGE = 1e-12  # of the size of the mesh
+NUDGE = 1e-12  # inward shift of a boundary point, as a fraction of the size of the mesh
 
 
 def axial_balance(solved: EquilibriumState) -> float:
-    """Axial force that remains on what the mesh covers, relative to the normal contact force.
+    """Return the unbalanced axial force on the meshed wall, relative to the normal contact force.
 
-    The stress at both end sections (which stay plane), the contact forces, and a hydrostatic
-    pressure on the outer wall must add up to zero.
+    The mesh covers the half Z ≥ 0 or the whole tube. The resultants of the stress on both end
+    sections, which stay plane, of the contact forces, and of a hydrostatic pressure on the outer
+    wall must add up to zero.
     """
     d, tube = solved.discretisation, solved.discretisation.tube
     wall = inner_wall(d, "closed")
@@ -34,21 +39,26 @@ def axial_balance(solved: EquilibriumState) -> float:
 
 
 def loaded_balance(solved: SolvedWall, pressure: float, force: float) -> float:
-    """Axial force that remains on a loaded tube and its stone, relative to the force at its ends.
+    """Return the unbalanced axial force on loaded tube and stone, relative to the end forces.
 
-    The stress of the wall at both ends, the pressure of the fluid on the upstream section, the
-    force that holds the stone, a hydrostatic pressure on the outer wall and the tether must add up
-    to zero.
+    The resultants of the stress on both end sections, of the fluid pressure on the upstream
+    section, of the force that holds the stone, of a hydrostatic pressure on the outer wall, and of
+    the tether must add up to zero.
 
     Parameters
     ----------
     solved : SolvedWall
-        The whole tube.
+        Solution on a mesh of the whole tube.
     pressure : float
         Pressure of the fluid upstream of the contact, in units of the modulus.
     force : float
-        Axial force on the stone, positive downstream, in units of modulus × inner radius². It is
-        integrated from the contact alone, which makes this balance a check.
+        Axial force on the stone, positive downstream, in units of modulus × inner radius². It was
+        integrated over the contact only, so this balance is an independent check of it.
+
+    Returns
+    -------
+    float
+        Absolute value of the relative imbalance.
     """
     tube, ends = solved.discretisation.tube, solved.layout.axial[[0, -1]]
     (first, outer_first), (last, outer_last) = (_section_force(solved, float(Z)) for Z in ends)
@@ -62,14 +72,17 @@ def loaded_balance(solved: SolvedWall, pressure: float, force: float) -> float:
 
 
 def cone_excess(solved: EquilibriumState) -> float:
-    """Largest |λ_t| − μ λ_n at the nodes, over the largest λ_n; at most 0 in Coulomb's law."""
+    """Return the largest |λ_t| − μ λ_n at the nodes, divided by the largest λ_n.
+
+    Coulomb's law requires a value of at most zero, apart from rounding.
+    """
     wall = inner_wall(solved.discretisation)
     excess = np.abs(wall.tangential) - solved.friction * np.maximum(wall.normal, 0.0)
     return float(excess.max() / wall.normal.max())
 
 
 def _section_force(solved: SolvedWall, Z: float) -> tuple[float, float]:
-    """2π ∫ σ_zz r dr over a plane section, and the outer radius there."""
+    """Return the axial force 2π ∫ σ_zz r dr on the plane section at Z, and its outer radius."""
     d = solved.discretisation
     u, w, p, *_ = d.fields
     stress_zz = cauchy_stress(d.tube.energy, u, w, p)[2].Compile()
@@ -78,7 +91,7 @@ def _section_force(solved: SolvedWall, Z: float) -> tuple[float, float]:
     lines = solved.layout.radial
     run = np.diff(lines)[:, None]
     R = (lines[:-1, None] + run * (points + 1.0) / 2.0).ravel()
-    # Slightly inside the mesh, because a point on its boundary may not be found in it.
+    # The points lie slightly inside the mesh, because NGSolve may not find points on its boundary.
     middle = solved.layout.axial.mean()
     Z += NUDGE * (middle - Z)
     outer = lines[-1] - NUDGE * (lines[-1] - lines[0])
@@ -89,10 +102,11 @@ def _section_force(solved: SolvedWall, Z: float) -> tuple[float, float]:
 
 
 def stored_energy(solved: EquilibriumState) -> float:
-    """Strain energy of what the mesh covers, in units of modulus × inner radius³.
+    """Return the strain energy of the meshed part of the wall, in units of modulus × inner radius³.
 
-    Where no other load acts, its derivative by the radius of a sphere is the contact force, since
-    growing the sphere by dR does the work ∫ σ dA dR.
+    If the contact with a sphere of radius R is the only load, the derivative of this energy with
+    respect to R is the contact force ∫ σ dA, because an increase of R by dR does the work ∫ σ dA
+    dR.
     """
     u, w, *_ = solved.discretisation.fields
     density = ng.CF(solved.discretisation.tube.energy(strain(u, w).C, PLACE, SYMBOLS))

@@ -1,9 +1,11 @@
 """Axisymmetric buckling of the uniform loaded tube, far from the stone.
 
-An outside pressure shortens hoop and axial fibres. Beyond some pressure the uniform tube is still
-an equilibrium, but not a stable one: waves u(R) cos qZ, w(R) sin qZ lower its energy, as in a shell
-under axial thrust, or as microbuckling in a wall without shear stiffness. No real tube stays in
-such a state, and a solver that starts from it finds no solution, or a meaningless one.
+A pressure on the outer wall compresses the tube around its circumference and along its axis. Beyond
+a critical pressure the uniform tube is still in equilibrium, but the equilibrium is unstable:
+displacements u(R) cos qZ, w(R) sin qZ lower its energy. Examples are the wrinkling of a shell under
+axial thrust and the microbuckling of a wall without shear stiffness. No real tube stays in such a
+state, and a solver that starts from it finds no solution or a meaningless one. See "Stability" in
+docs/theory.md.
 """
 
 from __future__ import annotations
@@ -30,29 +32,29 @@ from stonepass.fe.core.systems import FormSystem
 __all__ = ["buckling_half_wave", "unstable_motions"]
 
 ORDER, ROWS = 6, 2
-STEP = 1.3  # between the half-waves tried, from a third of the wall's thickness to L
+STEP = 1.3  # largest ratio of successive trial lengths, from a third of the thickness to L
 TOLERANCE = 1e-12
 
 
 def buckling_half_wave(tube: Tube, lumen: float) -> float | None:
-    """Shortest half-wave length found at which the loaded tube buckles axisymmetrically.
+    """Find the shortest half-wave length at which the loaded tube buckles axisymmetrically.
 
-    One column of elements is half a wave long. The wave lowers the energy where the tangent has
-    more negative eigenvalues than pressure unknowns, each of which constrains the volume once. A
-    law that varies along the tube is taken as it is next to Z = 0.
+    Half a wave is discretised by one column of elements, and `unstable_motions` counts the motions
+    that lower its energy. Half-wave lengths from a third of the wall's thickness to the half-length
+    of the tube are tried. The law is evaluated near Z = 0, even if it varies along the tube.
 
     Parameters
     ----------
     tube : Tube
-        With its axial stretch and outside pressure.
+        Its axial stretch and outside pressure are the loads.
     lumen : float
         Inner radius of the uniform tube in equilibrium, in undeformed inner radii.
 
     Returns
     -------
     float or None
-        Reference length in inner radii, among lengths that grow by the factor `STEP`; None where
-        the tube is stable against all of them.
+        Reference half-wave length in inner radii, from a geometric sequence whose ratio is at most
+        `STEP`; None if the tube is stable for all lengths of the sequence.
     """
     d = discretise(tube, Arc.at(Profile(lumen)), _half_wave(tube, 1.0), ORDER)
     _uniform(d, lumen)
@@ -70,17 +72,23 @@ def buckling_half_wave(tube: Tube, lumen: float) -> float | None:
 
 
 def unstable_motions(d: Discretisation, free: Any) -> int:
-    """Number of independent volume-preserving motions that lower the energy of the current state.
+    """Count independent motions that preserve volume and lower the energy of the current state.
 
-    It is the number of negative eigenvalues of the tangent, less the number of free pressure
-    unknowns, each of which constrains the volume once.
+    In a stable state the tangent of the mixed problem has exactly one negative eigenvalue for each
+    pressure unknown, because each pressure unknown is the multiplier of one volume constraint. The
+    count is the number of negative eigenvalues in excess of that.
 
     Parameters
     ----------
     d : Discretisation
-        Holds an equilibrium.
+        Its current state is an equilibrium.
     free : ngsolve.BitArray
-        Unknowns that may change.
+        Mask of the unknowns that may change.
+
+    Returns
+    -------
+    int
+        Zero if the equilibrium is stable. See "Stability" in docs/theory.md.
     """
     tangent = wall_form(d, condense=False)
     tangent.AssembleLinearization(d.state.vec)

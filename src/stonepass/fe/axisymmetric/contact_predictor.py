@@ -1,4 +1,4 @@
-"""The contact predictor: frictionless contact on a coarse mesh, to find the contact's edges."""
+"""The contact predictor: frictionless contact on a coarse mesh, which locates the contact edges."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from stonepass.strain import CauchyGreen
 
 __all__ = ["PREDICTOR_ORDER", "predict_contact", "wrap_round"]
 
-PREDICTOR_ORDER = 4  # of the displacements
-PREDICTOR_TOLERANCE = 1e-6  # of the contact force
+PREDICTOR_ORDER = 4  # polynomial order of the displacements
+PREDICTOR_TOLERANCE = 1e-6  # tolerance of the residual, relative to the contact force
 
 
 def predict_contact(
@@ -43,18 +43,18 @@ def predict_contact(
     ----------
     tube : Tube
     stone : Profile
-        The rigid body, lengths in inner radii.
+        The stone, lengths in inner radii.
     wrap : Wrap
         First guess of the deformed wall.
     columns : int
-        Equal columns over each half of the guessed contact.
+        Number of equal columns over each half of the guessed contact, at least 1.
     weight : float
-        Factor of the gap in the augmented Lagrangian, in units of the modulus, positive.
+        Factor c of the gap in the augmented Lagrangian, positive (see `contact.unilateral`).
 
     Returns
     -------
     Start or Failure
-        The edges of the contact are known to one nodal spacing.
+        The contact edges of the start are accurate to one nodal spacing.
     """
     layout = equal_layout(tube, wrap.contact, columns, growth=2.0, whole=not stone.symmetric)
     d = discretise(tube, Arc.at(stone), layout, PREDICTOR_ORDER)
@@ -67,7 +67,7 @@ def predict_contact(
         return Failure(report.reason, report.steps)
     edges = contact_edges(d)
     if edges is None:
-        return Failure("the wall left the stone", report.steps)
+        return Failure("the wall lost contact with the stone", report.steps)
     return Start(d, edges, force, report.steps)
 
 
@@ -84,8 +84,16 @@ def _form(d: Discretisation, weight: float) -> Any:
 def wrap_round(d: Discretisation, wrap: Wrap) -> None:
     """Set the state of `d` to a first guess: the wall wrapped round the arc at constant volume.
 
-    Every cross-section is that of a tube whose inner radius and inner pressure are those of `wrap`
-    at its station, in plane strain at the imposed axial stretch; friction is zero.
+    Every cross-section is deformed like that of a long uniform tube. The inner radius and the inner
+    pressure of that tube are the values of `wrap` at the station, and its axial stretch is the
+    imposed one. The tangential contact force is zero. See "First guess" in docs/theory.md.
+
+    Parameters
+    ----------
+    d : Discretisation
+        Its state is overwritten.
+    wrap : Wrap
+        Inner radius and inner pressure along the tube.
     """
     tube = d.tube
     stretch = tube.axial_stretch
@@ -105,7 +113,7 @@ def wrap_round(d: Discretisation, wrap: Wrap) -> None:
     U = ng.CF(tube.energy(CauchyGreen(c_rr, hoop * hoop, axial, zero), PLACE, SYMBOLS))
     pressure = along(wrap.pressure)
     depth = (ng.x - 1.0) / (tube.wall_ratio - 1.0)
-    # Compiled, a law that uses a term many times has it evaluated once.
+    # `Compile` evaluates common terms of the law once instead of at each occurrence.
     wall_pressure = (2.0 * c_rr * U.Diff(c_rr)).Compile()
     p.Set(wall_pressure + pressure * (1.0 - depth) + tube.outside_pressure * depth)
     first, last = wrap.contact

@@ -1,4 +1,4 @@
-"""One discretisation of the tube: mesh, unknown fields, symbols, and the form of the wall."""
+"""A discretisation of the tube: mesh, unknown fields, NGSolve symbols, and the form of the wall."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ __all__ = [
 
 
 class Unknowns(NamedTuple):
-    """The unknown fields of the mixed problem, in the order of the engine's compound space.
+    """The unknown fields of the mixed problem, in the order of NGSolve's compound space.
 
-    Each entry is a grid function, or a trial or test function.
+    Each entry is a grid function, a trial function or a test function.
 
     Attributes
     ----------
@@ -44,8 +44,9 @@ class Unknowns(NamedTuple):
     p
         Pressure that enforces incompressibility, in units of the modulus.
     normal, tangential
-        Contact force per reference area of the inner wall, normal (positive where the stone
-        presses) and tangential (positive downstream), in units of the modulus.
+        Normal and tangential contact force on the inner wall per reference area, in units of the
+        modulus. The normal force is positive in compression, the tangential force is positive
+        downstream.
     """
 
     u: Any
@@ -60,7 +61,7 @@ PRESSURE, NORMAL, TANGENTIAL = (Unknowns._fields.index(n) for n in ("p", "normal
 
 @dataclass(frozen=True)
 class Discretisation:
-    """The engine's objects of one discretisation, of the whole tube or of its half Z ≥ 0.
+    """NGSolve objects of one discretisation, either of the whole tube or of its half Z ≥ 0.
 
     Attributes
     ----------
@@ -69,15 +70,16 @@ class Discretisation:
     state : ngsolve.GridFunction
         Current values of all unknowns.
     arc : Arc
-        The stone as symbols.
+        The meridian of the stone.
     stiffening : ngsolve.Parameter
-        Shear modulus of a matrix added for a homotopy, in units of the modulus; usually 0.
+        Shear modulus of the matrix that the homotopy of `newton_or_homotopy` adds, in units of the
+        modulus; zero otherwise.
     rule : ngsolve.IntegrationRule
         Gauss–Lobatto rule on the edges of the inner wall.
     order : int
         Polynomial order of the displacements.
     whole : bool
-        Whether the mesh covers both halves of the tube.
+        True if the mesh covers the whole tube.
     """
 
     tube: Tube
@@ -91,7 +93,7 @@ class Discretisation:
 
     @property
     def fields(self) -> Unknowns:
-        """The current unknown fields as grid functions."""
+        """The components of the current state, as grid functions."""
         return Unknowns(*self.state.components)
 
     @property
@@ -106,10 +108,10 @@ class Discretisation:
 
     @cached_property
     def nodal(self) -> tuple[Any, Any, Any]:
-        """Space of the inner wall, inverse of its mass matrix, and the measure that both use.
+        """Function space on the inner wall, inverse of its mass matrix, and integration measure.
 
-        With Gauss–Lobatto quadrature the mass matrix is diagonal in the nodal basis, so the
-        projection with it is an interpolation.
+        The measure uses Gauss–Lobatto quadrature. Then the mass matrix is diagonal in the nodal
+        basis, so that an L² projection with it is an interpolation at the nodes.
         """
         inner = self.mesh.Boundaries(INNER)
         space = ng.H1(self.mesh, order=self.order, definedon=inner)
@@ -121,18 +123,22 @@ class Discretisation:
 
 
 def discretise(tube: Tube, arc: Arc, layout: Layout, order: int) -> Discretisation:
-    """Create a mesh and the unknown fields on it, all zero.
+    """Create a mesh and unknown fields on it that are zero.
 
     Parameters
     ----------
     tube : Tube
     arc : Arc
-        The stone.
+        The meridian of the stone.
     layout : Layout
         Grid lines of the mesh, in inner radii.
     order : int
-        Polynomial order of displacements and contact forces, at least 2; the pressure has one
-        order less.
+        Polynomial order of displacements and contact forces, at least 2. The order of the pressure
+        is lower by one. See "Elements" in docs/theory.md, section "Seated state".
+
+    Returns
+    -------
+    Discretisation
     """
     mesh = structured_mesh(layout)
     inner = mesh.Boundaries(INNER)
@@ -152,13 +158,15 @@ def discretise(tube: Tube, arc: Arc, layout: Layout, order: int) -> Discretisati
 
 
 def wall_form(d: Discretisation, *, condense: bool = True) -> Any:
-    """Form of the wall, the pressure on its outer surface and the tether; contact is not included.
+    """Create the form of the wall, the pressure on its outer surface, and the tether.
+
+    Contact is not included. See Π in docs/theory.md, section "Seated state".
 
     Parameters
     ----------
     d : Discretisation
     condense : bool
-        Whether unknowns inside the elements are eliminated before the tangent is factorised.
+        True if unknowns inside the elements are eliminated before the tangent is factorised.
 
     Returns
     -------
@@ -178,17 +186,17 @@ def wall_form(d: Discretisation, *, condense: bool = True) -> Any:
 
 
 def free_unknowns(d: Discretisation, contact: str, *, friction: bool = False) -> Any:
-    """Unknowns to solve for.
+    """Return the mask of the unknowns to solve for.
 
     Parameters
     ----------
     d : Discretisation
     contact : str
-        Boundaries on which contact forces are unknown; none if empty.
+        Names of the boundaries with unknown contact forces, separated by ``|``; empty for none.
     friction : bool
-        Whether the tangential contact force is unknown too. It never is at the first node. On a
-        half that node is at Z = 0, where the force vanishes by symmetry and the displacement is
-        fixed; on the whole tube nothing touches there.
+        True if the tangential contact force is unknown as well. It is excluded at the first node.
+        On a half mesh that node lies at Z = 0, where the force vanishes by symmetry and the axial
+        displacement is fixed. On a mesh of the whole tube the wall is not in contact at that node.
 
     Returns
     -------
@@ -206,18 +214,32 @@ def free_unknowns(d: Discretisation, contact: str, *, friction: bool = False) ->
 
 
 def edge_unknown(d: Discretisation, column: int) -> int:
-    """Index of the unknown normal contact force at the end of the first `column` columns.
+    """Return the index of the unknown normal contact force at vertex `column` of the inner wall.
 
-    The mesh has its vertices row by row, so those of the inner wall come first, in axial order; the
-    unknowns of H1 begin with those of the vertices, in the same order.
+    Vertices are counted from the first one, with index 0, along the axis. The mesh numbers its
+    vertices row by row, so the vertices of the inner wall come first and in axial order. The
+    unknowns of an H1 space begin with the vertex unknowns, in the order of the vertices.
+
+    Parameters
+    ----------
+    d : Discretisation
+    column : int
+        Number of element columns between the first vertex and the wanted one, zero or positive.
     """
     return int(d.state.space.Range(NORMAL).start) + column
 
 
 def contact_force(d: Discretisation, system: FormSystem) -> float:
-    """Norm of the nodal contact forces, in units of modulus × inner radius².
+    """Return the norm of the nodal contact forces, in units of modulus × inner radius².
 
-    It is the scale of every residual. The unknowns are the same before and after the call.
+    It is the scale of the residual of every solve. The state of `d` is restored before the call
+    returns.
+
+    Parameters
+    ----------
+    d : Discretisation
+    system : FormSystem
+        A system whose state is that of `d`.
     """
     full, without, kept = (d.state.vec.CreateVector() for _ in range(3))
     system.evaluate(full)
@@ -232,27 +254,29 @@ def contact_force(d: Discretisation, system: FormSystem) -> float:
 
 
 def smallest_volume_ratio(d: Discretisation) -> float:
-    """Smallest volume ratio J at the integration points; NaN where the state is not finite."""
+    """Return the smallest volume ratio J at the integration points; NaN for a non-finite state."""
     return float(strain(d.fields.u, d.fields.w).J(_integration_points(d)).min())
 
 
 def wall_flaw(d: Discretisation) -> str:
-    """Why the current state is no wall: J ≤ 0 or no energy at some integration point.
+    """Check that J > 0 and that the energy is finite at all integration points.
 
-    A law with a locking stretch has no energy beyond it, but its derivatives may have values there.
+    The energy of a law with a locking stretch is not finite beyond that stretch, but its
+    derivatives may be, so that a solver does not notice.
 
     Returns
     -------
     str
-        Empty where the wall is sound.
+        Reason why the current state is inadmissible, as part of a sentence; empty if it is
+        admissible.
     """
     deformed = strain(d.fields.u, d.fields.w)
     energy = d.tube.energy(deformed.C, PLACE, SYMBOLS)
     volume_ratio, energies = ng.CF((deformed.J, energy))(_integration_points(d)).T
-    if not volume_ratio.min() > 0.0:  # NaN too
-        return "the wall found is turned inside out where its axial fibres buckle"
+    if not volume_ratio.min() > 0.0:  # also true for NaN
+        return "an element of the wall is inverted in the state that was found"
     if not np.all(np.isfinite(energies)):
-        return "the wall found is stretched beyond where its law has an energy"
+        return "the wall is stretched beyond the range in which the energy of its law is finite"
     return ""
 
 

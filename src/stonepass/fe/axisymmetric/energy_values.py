@@ -1,4 +1,4 @@
-"""Values of an energy and of its slopes as the engine computes them, for comparison with NumPy."""
+"""Values of an energy and its derivatives as NGSolve computes them, for comparison with NumPy."""
 
 from __future__ import annotations
 
@@ -15,15 +15,22 @@ __all__ = ["energy_values"]
 
 
 def energy_values(energy: Energy, C: CauchyGreen, R: float) -> Float[np.ndarray, "points 5"]:
-    """Evaluate an energy and its derivatives by C_rr, C_tt, C_zz, C_rz with the engine's symbols.
+    """Evaluate an energy and its derivatives with respect to C_rr, C_tt, C_zz, C_rz in NGSolve.
 
     Parameters
     ----------
     energy : Energy
+        Function ``energy(C, place, xp)``; the result has its unit.
     C : CauchyGreen
-        Arrays (points,); the components rt and tz are ignored, as they vanish in axisymmetry.
+        Components as arrays (points,). The components rt and tz are ignored, because they vanish in
+        axisymmetric deformations without torsion.
     R : float
-        Where in the wall, in inner radii, above 1; Z is 0.
+        Reference radius of the place in the wall, in inner radii, above 1; its Z is 0.
+
+    Returns
+    -------
+    array (points, 5)
+        Energy and derivatives with respect to C_rr, C_tt, C_zz and C_rz.
     """
     mesh = structured_mesh(Layout(np.array([1.0, 2.0 * R]), np.array([-1.0, 1.0]), 0))
     symbols = CauchyGreen(*(ng.Parameter(1.0) for _ in range(4)))

@@ -29,24 +29,26 @@ __all__ = [
     "residual_tolerance",
 ]
 
-TOLERANCE = 1e-9  # of the contact force
-POLISH = 1e-2  # of the tolerance, where that is cheap: forces at single nodes are less accurate
-ROUNDING = 1e-14  # norm of the residual that rounding leaves in any case
-PULLS = 1e-6  # of the largest contact force: largest tension at a node
+TOLERANCE = 1e-9  # tolerance of the residual, relative to the contact force
+# The residual is reduced further, to this fraction of the tolerance, if that needs no new
+# factorisation, because forces at single nodes are less accurate than the norm of the residual.
+POLISH = 1e-2
+ROUNDING = 1e-14  # smallest norm of the residual that can be reached in spite of rounding
+PULLS = 1e-6  # largest tensile contact force at a node, relative to the largest contact force
 
 
 @dataclass(frozen=True)
 class EquilibriumState:
-    """A solved seated state, with the engine's objects from which `postprocessing` reads values.
+    """A solved seated state, with the NGSolve objects that `postprocessing` evaluates.
 
     Attributes
     ----------
     discretisation : Discretisation
-        Holds the solution; nothing changes it after the solve.
+        Its state is the solution and does not change after the solve.
     layout : Layout
         Grid lines of its mesh, in inner radii.
     steps : int
-        Newton steps with a tangent of their own, failed attempts included.
+        Newton steps with a newly factorised tangent, including those of failed attempts.
     dofs : int
         Number of unknowns solved for.
     residual : float
@@ -56,11 +58,11 @@ class EquilibriumState:
     friction : float
         Coulomb coefficient.
     dissipated : float
-        Energy that friction dissipated on the path, for what the mesh covers, in units of modulus
-        × inner radius³.
+        Energy that friction dissipated along the loading path in the meshed part of the tube, in
+        units of modulus × inner radius³.
     edge_uncertainty : float
-        Uncertainty of the stations of the contact's edges, in inner radii, where they could not be
-        made unknowns (`active_set`), else 0.
+        Uncertainty of the stations of the contact edges, in inner radii. It is zero if the stations
+        were unknowns of the solve (`fitted_contact`) and positive otherwise (`active_set`).
     """
 
     discretisation: Discretisation
@@ -75,20 +77,26 @@ class EquilibriumState:
 
 
 def residual_tolerance(system: FormSystem, force: float, fraction: float = TOLERANCE) -> float:
-    """Norm of the residual at which a contact counts as solved.
+    """Return the norm of the residual at which a contact problem counts as solved.
 
-    It is a fraction of the contact force, but not less than what rounding leaves. A wall that is
-    stretched before the stone comes has large internal forces that balance each other, and near
-    the size of the loaded lumen their rounding exceeds that fraction of a tiny contact force.
+    The tolerance is a fraction of the contact force, but not less than the effect of rounding. If
+    the load stretches or compresses the wall without a stone, large internal forces balance each
+    other. If in addition the stone is hardly larger than the loaded lumen, the contact force is so
+    small that the rounding of the internal forces exceeds the given fraction of it.
 
     Parameters
     ----------
     system : FormSystem
-        At the starting point of the solve.
+        Its state is the starting point of the solve.
     force : float
-        Norm of the nodal contact forces that are expected.
+        Expected norm of the nodal contact forces, in units of modulus × inner radius².
     fraction : float
-        Fraction of the contact force that may be left.
+        Tolerance relative to `force`, positive.
+
+    Returns
+    -------
+    float
+        In units of modulus × inner radius².
     """
     return max(fraction * force, ROUNDING, system.rounding())
 
@@ -101,7 +109,23 @@ def equilibrium_state(
     start: Start,
     friction: float,
 ) -> EquilibriumState:
-    """Collect what a converged solve found."""
+    """Collect the results of a converged solve.
+
+    Parameters
+    ----------
+    d : Discretisation
+        Its state is the solution.
+    layout : Layout
+        Grid lines of the mesh of `d`.
+    system : FormSystem
+        The solved system.
+    report : Report
+        Result of its Newton iteration.
+    start : Start
+        Starting point of the solve; it supplies slip origins and the energy dissipated so far.
+    friction : float
+        Coulomb coefficient.
+    """
     force = contact_force(d, system)
     return EquilibriumState(
         discretisation=d,
@@ -118,32 +142,37 @@ def equilibrium_state(
 def contact_flaw(
     d: Discretisation, normal: Float[np.ndarray, "edges points"], allowed: float
 ) -> str:
-    """Why the current state is no admissible contact: no wall, λ_n < 0 or gap < 0 somewhere.
+    """Check the wall (`wall_flaw`), λ_n ≥ 0 in the contact, and gap ≥ 0 outside the contact.
 
     Parameters
     ----------
     d : Discretisation
+        Its state is checked.
     normal : array (edges, points)
-        Total normal contact force on the closed part of the wall.
+        Total normal contact force per reference area at the nodes of the contact, in units of the
+        modulus.
     allowed : float
-        Largest penetration of the open part of the wall into the stone, in radii of the stone.
+        Largest allowed penetration of the open wall into the stone, in radii of the stone.
 
     Returns
     -------
     str
-        Empty where the state is admissible.
+        Reason why the state is inadmissible, as part of a sentence; empty if it is admissible.
     """
     flaw = wall_flaw(d)
     if flaw:
         return flaw
     if normal.min() < -PULLS * normal.max():
-        return "the contact is not one closed band: the wall would lift off inside it"
+        return "the wall would lift off the stone within the assumed contact"
     if penetration(d) > allowed:
-        return "the wall would touch the stone again beyond the contact edge"
+        return "the wall would touch the stone again outside the assumed contact"
     return ""
 
 
 def penetration(d: Discretisation) -> float:
-    """Largest depth of the open part of the wall inside the stone, in radii of the stone."""
+    """Return the largest penetration of the open wall into the stone, in radii of the stone.
+
+    The *open* wall is the part of the inner wall outside the contact.
+    """
     opened, stone = inner_wall(d, "wet|open"), d.arc.place
     return max(0.0, -float(stone.gap(opened.r, opened.z).min()) / stone.radius)

@@ -1,4 +1,4 @@
-"""The fitted solve: the edges of the contact are grid lines, and their stations unknowns."""
+"""The fitted solve: the contact edges are grid lines, and their stations are unknowns."""
 
 from __future__ import annotations
 
@@ -37,32 +37,33 @@ from stonepass.fe.core.systems import BorderedSystem
 
 __all__ = ["solve_fitted_contact"]
 
-PENETRATION = 1e-7  # of the radius, of the open wall into the stone: rounding
+PENETRATION = 1e-7  # penetration attributed to rounding, in radii of the stone
 
 
 def solve_fitted_contact(
     tube: Tube, stone: Profile, start: Start, resolution: Resolution, friction: float
 ) -> EquilibriumState | Failure:
-    """Solve with the contact's edges as grid lines whose stations are unknowns.
+    """Solve with the contact edges as grid lines whose stations are unknowns.
 
-    The condition for each edge is that the normal contact force vanishes there. With friction this
-    repeats the last increment of the loading path on the fitted mesh: slip counts from
-    `start.origin`.
+    The equation for each edge is that the normal contact force vanishes there. With friction the
+    solve repeats the last increment of the loading path on the fitted mesh, so the slip is measured
+    from `start.origin`. See "The contact edge" in docs/theory.md, section "Seated state".
 
     Parameters
     ----------
     tube : Tube
     stone : Profile
-        At its last place.
+        The stone in its final position, lengths in inner radii.
     start : Start
+        First guess of the state and of the contact edges.
     resolution : Resolution
     friction : float
-        Coulomb coefficient, zero or positive; without effect where `start` has no slip origins.
+        Coulomb coefficient, zero or positive. It has no effect if `start` has no slip origins.
 
     Returns
     -------
     EquilibriumState or Failure
-        A failure also where the state found is no admissible contact (`contact_flaw`).
+        A failure is also returned if the solution is not an admissible contact (`contact_flaw`).
     """
 
     whole = start.discretisation.whole
@@ -107,7 +108,7 @@ def solve_fitted_contact(
 
 
 def _form(d: Discretisation, start: Start, friction: float) -> Any:
-    """The wall, held on the arc between the edges of the contact."""
+    """Return the form of the wall, with gap = 0 between the contact edges."""
     where = ng.ds("closed", intrules={ng.SEGM: d.rule})
     form, trial = wall_form(d), d.trial
     if start.origin is None:

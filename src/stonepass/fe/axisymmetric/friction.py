@@ -1,13 +1,16 @@
 """Coulomb friction on the arc, in residual form with a return map.
 
-λ_n and λ_t are normal and tangential contact force per reference area, λ_t positive downstream. In
-one increment a wall point slips by s = radius × (place − origin), where `origin` is the place on
-the arc at which it sticks, or at which it comes into contact. Then
+λ_n and λ_t are the normal and the tangential contact force per reference area; λ_t is positive
+downstream. The position of a wall point on the arc is measured by its arc-length coordinate
+(`Profile.along`). The *slip origin* of a point is its coordinate at the beginning of the increment,
+or at first contact if it comes into contact within the increment. The slip of the increment is
+s = radius × (coordinate − slip origin). Coulomb's law is the equation
 
-    λ_t = λ_t − c s   projected on   |λ_t| ≤ μ λ_n :
+    λ_t = projection of (λ_t − c s) on the interval [−μ λ_n, μ λ_n],    with any constant c > 0.
 
-inside the cone this states s = 0 (stick), on it the traction opposes the slip. See "Friction and
-its path" in docs/theory.md.
+If |λ_t| < μ λ_n, this equation states s = 0 (stick). If |λ_t| = μ λ_n, it states that s and λ_t
+have opposite signs, so that the traction opposes the slip. See "Friction and its path" in
+docs/theory.md.
 """
 
 from __future__ import annotations
@@ -25,19 +28,23 @@ __all__ = ["closed_contact", "open_contact"]
 def open_contact(
     trial: Unknowns, test: Unknowns, arc: Arc, origin: Any, friction: Any, c: Any
 ) -> Any:
-    """Residual of contact as an inequality with friction, per reference length (2π left out).
+    """Return the residual of contact as an inequality, with friction, per reference length.
+
+    The factor 2π is omitted.
 
     Parameters
     ----------
     trial, test : Unknowns
+        Trial and test functions.
     arc : Arc
-        The stone.
+        The meridian of the stone.
     origin : symbol
-        Place on the arc, arc length over the radius, from which each wall point slips.
+        Slip origin of each wall point: arc length divided by the radius of the stone.
     friction : float or symbol
         Coulomb coefficient, zero or positive.
     c : float or symbol
-        Factor of gap and slip in the augmented form, in units of the modulus, positive.
+        Factor of gap and slip in the augmented form, positive, in units of modulus per inner
+        radius.
     """
     normal = trial.normal
     pressed = normal - c * arc.gap(trial.u, trial.w)
@@ -48,9 +55,9 @@ def open_contact(
 def closed_contact(
     trial: Unknowns, test: Unknowns, arc: Arc, origin: Any, friction: Any, c: Any
 ) -> Any:
-    """Residual of a wall held on the arc (gap = 0) with friction, per reference length.
+    """Return the residual of contact as the equation gap = 0, with friction, per reference length.
 
-    The parameters are those of `open_contact`.
+    The factor 2π is omitted. For the parameters see `open_contact`.
     """
     gap = arc.gap(trial.u, trial.w)
     return _residual(trial, test, arc, origin, friction, c, trial.normal, gap)
@@ -77,5 +84,5 @@ def _residual(
 
 
 def _clamp(value: Any, bound: Any) -> Any:
-    """Project `value` on [−bound, bound]."""
+    """Return the projection of `value` on the interval [−bound, bound]."""
     return ng.IfPos(value - bound, bound, ng.IfPos(-1.0 * bound - value, -1.0 * bound, value))

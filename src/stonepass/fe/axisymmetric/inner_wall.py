@@ -1,4 +1,4 @@
-"""The inner wall at the Gauss–Lobatto points of its edges: reading and setting of values."""
+"""Values on the inner wall at the Gauss–Lobatto points of its edges: reading and setting."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stonepass.fe.core.lobatto import lobatto
 
 __all__ = ["InnerWall", "contact_edges", "inner_wall", "piecewise_linear", "set_at_nodes"]
 
-TOUCHES = 1e-6  # of the largest contact force, at a point in contact
+TOUCHES = 1e-6  # smallest contact force of a point in contact, relative to the largest force
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,11 +27,12 @@ class InnerWall:
     station : array (edges, points)
         Reference coordinate Z, in inner radii.
     r, z : arrays (edges, points)
-        Deformed coordinates, in inner radii.
+        Deformed radial and axial coordinate, in inner radii.
     normal, tangential : arrays (edges, points)
-        Contact force per reference area, in units of the modulus.
+        Normal (compression positive) and tangential (downstream positive) contact force per
+        reference area, in units of the modulus.
     weight : array (edges, points)
-        Weights that integrate over Z.
+        Quadrature weights for integration over Z, in inner radii.
     """
 
     station: Float[np.ndarray, "edges points"]
@@ -43,12 +44,20 @@ class InnerWall:
 
 
 def inner_wall(d: Discretisation, part: str = INNER) -> InnerWall:
-    """Read the inner wall, or only the boundaries named in `part`, from the current state."""
+    """Evaluate the current state on the inner wall.
+
+    Parameters
+    ----------
+    d : Discretisation
+    part : str
+        Names of boundaries of the inner wall, separated by ``|`` (`mesh.BOUNDARIES`); by default
+        all of them.
+    """
     at = d.mesh.MapToAllElements({ng.SEGM: d.rule}, d.mesh.Boundaries(part))
     per_edge = (-1, d.order + 1)
     Z = ng.y(at).reshape(per_edge)
     edges = np.argsort(Z.mean(axis=1))
-    along = np.argsort(Z[edges[0]])  # an edge may run against the axis
+    along = np.argsort(Z[edges[0]])  # NGSolve may orient an edge against the axis
 
     def values(function: Any) -> Float[np.ndarray, "edges points"]:
         return function(at).reshape(per_edge)[edges][:, along]
@@ -65,9 +74,10 @@ def inner_wall(d: Discretisation, part: str = INNER) -> InnerWall:
 
 
 def contact_edges(d: Discretisation) -> tuple[float, float] | None:
-    """First and last station of the inner wall with contact force, in inner radii.
+    """Return the first and the last station with contact force, in inner radii.
 
-    On a half the first is the mirror image of the last. None where nothing touches.
+    On a half mesh the first station is the mirror image of the last one. The result is None if no
+    point is in contact.
     """
     wall = inner_wall(d)
     touching = wall.station[wall.normal > TOUCHES * wall.normal.max()]
@@ -78,13 +88,15 @@ def contact_edges(d: Discretisation) -> tuple[float, float] | None:
 
 
 def set_at_nodes(target: Any, function: Any, d: Discretisation) -> None:
-    """Set a function on the inner wall to the values of `function` at all Gauss–Lobatto points.
+    """Interpolate `function` at all Gauss–Lobatto points of the inner wall.
 
     Parameters
     ----------
     target : ngsolve.GridFunction
-        One of the contact forces of `d`, or a function of the space ``d.nodal[0]``.
+        Receives the values: a contact-force field of `d`, or a function of the space
+        ``d.nodal[0]``.
     function : ngsolve.CoefficientFunction
+        The function to interpolate; it has the unit of `target`.
     d : Discretisation
     """
     space, inverse, where = d.nodal
@@ -96,12 +108,15 @@ def set_at_nodes(target: Any, function: Any, d: Discretisation) -> None:
 def piecewise_linear(
     station: Float[np.ndarray, "..."], values: Float[np.ndarray, "..."]
 ) -> ng.CoefficientFunction:
-    """Symbolic function of Z that is linear between the given stations.
+    """Create an NGSolve function of Z that is linear between the given stations.
 
     Parameters
     ----------
-    station, values : arrays of equal shape
-        Where a station is given twice, as at the end of an edge, its first value counts.
+    station : array
+        Stations in inner radii, in any order.
+    values : array
+        Values at the stations, of the same shape. If a station occurs twice, as at the common node
+        of two edges, its first value is used.
     """
     Z, first = np.unique(station, return_index=True)
     v = values.ravel()[first]

@@ -1,4 +1,4 @@
-"""Grid lines for a contact between two stations: equal columns, or columns graded to the edges."""
+"""Grid lines for a contact between two stations: equal columns, or columns graded to its edges."""
 
 from __future__ import annotations
 
@@ -15,19 +15,25 @@ __all__ = ["equal_layout", "graded_layout"]
 def equal_layout(
     tube: Tube, contact: tuple[float, float], columns: int, growth: float, *, whole: bool
 ) -> Layout:
-    """Equal columns over the contact, columns that grow by `growth` beyond.
+    """Return a grid with equal columns in the contact and growing columns outside of it.
 
     Parameters
     ----------
     tube : Tube
     contact : (float, float)
-        First and last station, in inner radii.
+        First and last station of the contact, in inner radii.
     columns : int
-        Number of columns in each half of the contact.
+        Number of equal columns in each half of the contact, at least 1.
     growth : float
-        Largest ratio of neighbouring columns beyond the contact; rows may grow by 1.5 times that.
+        Largest ratio of the lengths of neighbouring columns outside the contact, above 1. For the
+        heights of neighbouring rows the largest ratio is 1.5 × `growth`.
     whole : bool
-        Whether the grid covers the whole tube; else its half Z ≥ 0, with the same equal columns.
+        True for a grid of the whole tube; false for its half Z ≥ 0, with columns of the same length
+        in the contact.
+
+    Returns
+    -------
+    Layout
     """
     first, last = contact
     equal = np.linspace(first, last, 2 * columns + 1)
@@ -52,24 +58,31 @@ def graded_layout(
     offset: float = 0.0,
     seal: float | None = None,
 ) -> Layout:
-    """Columns that shrink towards the edges of the contact from both sides.
+    """Return a grid whose columns shrink towards the edges of the contact from both sides.
 
     Parameters
     ----------
     tube : Tube
     resolution : Resolution
+        Numbers, lengths and growth of the columns.
     contact : (float, float)
-        First and last station, in inner radii.
+        First and last station of the contact, in inner radii.
     reference : (float, float)
-        Contact that determines the number of rows and columns and the rows' places, so that the
-        layouts of all contacts of one solve fit one mesh.
+        A contact, in inner radii, from which the numbers of rows and columns and the heights of the
+        rows are computed. With the same reference, the grids for all contacts that occur during a
+        solve belong to the same mesh and differ only in the positions of its nodes.
     whole : bool
-        Whether the grid covers the whole tube; else its half Z ≥ 0.
+        True for a grid of the whole tube, false for its half Z ≥ 0.
     offset : float
-        How far downstream of mid-length the origin Z = 0 is, in inner radii.
+        Distance in inner radii by which the origin Z = 0 lies downstream of mid-length.
     seal : float, optional
-        Fraction of the contact, from its first edge, at which another grid line lies; the columns
-        before it are the wetted ones. Without it there are no wetted columns.
+        Position of an additional grid line in the contact, as a fraction in (0, 1) of its length
+        from the first edge. The columns of the contact upstream of this line belong to the boundary
+        "wetted". Without `seal` there are no wetted columns.
+
+    Returns
+    -------
+    Layout
     """
     n, growth, fraction = resolution.closed, resolution.growth, resolution.edge / 2.0
     (first, last), half = contact, (reference[1] - reference[0]) / 2.0

@@ -1,4 +1,4 @@
-"""Postprocessing of the sliding contact: deformed wall, far field and checks, as values."""
+"""Postprocessing of the sliding contact: deformed wall, far field and checks, as arrays."""
 
 from __future__ import annotations
 
@@ -17,19 +17,20 @@ from stonepass.fe.axisymmetric.wall_values import Deformation, Field, Volume
 
 __all__ = ["FarField", "LoadedWall", "loaded_wall"]
 
-FAR = (0.5, 0.9)  # of the distance from the stone to an end: where the far field is evaluated
+# Range in which the far field is evaluated, as fractions of the distance from stone to tube end.
+FAR = (0.5, 0.9)
 
 
 @dataclass(frozen=True)
 class FarField:
-    """The tube far from the stone.
+    """Deformation of the tube far from the stone.
 
     Attributes
     ----------
     radius : float
-        Inner radius r_a/R_a upstream.
+        Deformed inner radius r_a/R_a upstream of the stone.
     upstream, downstream : float
-        Axial stretch.
+        Axial stretch on either side of the stone.
     """
 
     radius: float
@@ -44,12 +45,13 @@ class LoadedWall:
     Attributes
     ----------
     field : Field
-        Deformed coordinates and Cauchy stress, in units of the modulus.
+        Deformed coordinates in inner radii, and Cauchy stress in units of the modulus.
     deformation : Deformation
         Deformation gradient at the same points.
     volume : Volume
+        Error of the volume of the wall.
     axial_balance : float
-        See `balances.loaded_balance`.
+        Relative imbalance of the axial forces, see `balances.loaded_balance`.
     far_field : FarField
     """
 
@@ -62,19 +64,19 @@ class LoadedWall:
 
 @dataclass(frozen=True)
 class _Solved:
-    """What the workspace holds at present, for the functions of `postprocessing`."""
+    """The state loaded into a workspace, in the form that `postprocessing` requires."""
 
     discretisation: Discretisation
     layout: Layout
 
 
 def loaded_wall(workspace: Workspace, state: SlidingState) -> LoadedWall:
-    """Evaluate the deformed wall of a state.
+    """Evaluate the deformed wall of a sliding state.
 
     Parameters
     ----------
     workspace : Workspace
-        That of the problem which the state solves; its content before the call has no influence.
+        The workspace of the problem that the state solves. Its content is overwritten.
     state : SlidingState
     """
     configuration = state.configuration
@@ -91,7 +93,7 @@ def loaded_wall(workspace: Workspace, state: SlidingState) -> LoadedWall:
 
 
 def _far_field(workspace: Workspace) -> FarField:
-    """Inner radius and axial stretch in the outer half of each side, without its last tenth."""
+    """Evaluate the tube at 50 to 90 % of the distance from the stone to each end."""
     wall, problem = inner_wall(workspace.discretisation), workspace.problem
     station, r, z = wall.station.ravel(), wall.r.ravel(), wall.z.ravel()
 

@@ -1,9 +1,11 @@
-"""The loading path with friction: the arc moves in increments, wall points stick or slip on it.
+"""The loading path with friction: the arc moves in increments; wall points stick to it or slip.
 
-The contact grows with the square root of the path parameter t, so the increments are equal in √t:
-each adds about as much contact as the others. Every wall point has a slip origin, the place on the
-arc at which it sticks. A point that comes into contact within an increment has the place at which
-it touches as its origin, which is extrapolated from its free motion in the increment before.
+The length of the contact is proportional to the square root of the path parameter t, so the
+increments are equal in √t and each adds about the same length of contact. Every wall point has a
+slip origin, see `friction`. For a point in contact it is the coordinate on the arc at the beginning
+of the increment. For a point that comes into contact within the increment, it is the coordinate at
+first contact, which is extrapolated from the motion of the point in the previous increment. See
+"Friction and its path" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -44,18 +46,22 @@ from stonepass.fe.core.systems import FormSystem
 
 __all__ = ["WrapAt", "follow_loading_path"]
 
-PATH_TOLERANCE = 1e-5  # of the contact force
-MARGIN = 1.15  # the equal columns reach this much beyond the frictionless contact edge
+PATH_TOLERANCE = 1e-5  # tolerance of the residual, relative to the contact force
+MARGIN = 1.15  # length of the part with equal columns, relative to the frictionless contact
 MOST_HALVINGS = 4
-TOUCHES = 1e-6  # of the largest contact force, at a point in contact
+TOUCHES = 1e-6  # smallest contact force of a point in contact, relative to the largest force
 
-# From a place of the arc to a first guess of the wall round it.
+# Returns a first guess of the wall for a given position of the stone.
 WrapAt = Callable[[Profile], Wrap]
 
 
 @dataclass(frozen=True, eq=False)
 class _Moment:
-    """The inner wall at the path parameter t: contact, gap, place on the arc; all unknowns."""
+    """The inner wall at the path parameter t.
+
+    `touching`, `gap` and `along` are contact, gap and arc-length coordinate at the Gauss–Lobatto
+    points. `state` is a copy of all finite-element unknowns, or None for the start of the path.
+    """
 
     t: float
     touching: Bool[np.ndarray, "edges points"]
@@ -67,25 +73,27 @@ class _Moment:
 def follow_loading_path(
     tube: Tube, path: LoadingPath, wrap_at: WrapAt, frictionless: Start, resolution: Resolution
 ) -> Start | Failure:
-    """Follow a loading path from the tube that the arc just touches to the arc's last place.
+    """Follow a loading path from first contact of stone and tube to the final position.
 
-    The mesh has equal columns to beyond the contact edges of the frictionless solution. An
+    The mesh has equal columns over the contact of the frictionless solution and 15 % beyond it. An
     increment that does not converge is halved, down to 1/16 of its size.
 
     Parameters
     ----------
     tube : Tube
     path : LoadingPath
+        Position of the stone as a function of the path parameter, and coefficient of friction.
     wrap_at : callable
-        From a place of the arc to a first guess of the wall round it.
+        ``wrap_at(stone)`` returns a first guess of the wall round a stone in the given position.
     frictionless : Start
-        The predicted contact at the last place, without friction.
+        The predicted contact at the final position without friction.
     resolution : Resolution
+        Number of increments and of columns in contact.
 
     Returns
     -------
     Start or Failure
-        The state at the last place, with the slip origins of the last increment.
+        The state in the final position, with the slip origins of the last increment.
     """
     first, last = frictionless.contact
     layout = equal_layout(
@@ -124,7 +132,7 @@ def follow_loading_path(
         s, step = ahead, usual
     edges = contact_edges(d)
     if edges is None:
-        return Failure("the wall left the stone", steps)
+        return Failure("the wall lost contact with the stone", steps)
     stations, at = np.unique(wall.station, return_index=True)
     return Start(d, edges, frictionless.force, steps, (stations, touch.ravel()[at]), dissipated)
 
@@ -144,7 +152,7 @@ def _moment(t: float, wall: InnerWall, path: LoadingPath, d: Discretisation) -> 
 
 
 def _untouched(d: Discretisation, path: LoadingPath) -> _Moment:
-    """The start of the path: a uniform tube whose lumen the arc just touches."""
+    """Return the start of the path: a uniform tube whose lumen the arc just touches."""
     place = path.place(0.0)
     Z = inner_wall(d).station
     lumen = np.full_like(Z, place.radius + place.offset)
@@ -152,7 +160,10 @@ def _untouched(d: Discretisation, path: LoadingPath) -> _Moment:
 
 
 def _rigid_motion(start: _Moment, d: Discretisation, path: LoadingPath, t: float) -> _Moment:
-    """A fictitious moment before the start: the same wall, the arc moving at its first speed."""
+    """Return a fictitious state before the start, for the extrapolation in the first increment.
+
+    The wall is that of the start, and the arc moves as much as in the first increment.
+    """
     place, ahead = path.place(0.0), path.place(t)
     Z = inner_wall(d).station
     lumen = np.full_like(Z, place.radius + place.offset)
@@ -178,10 +189,11 @@ def _seen(
 
 
 def _touching_place(before: _Moment, now: _Moment, t: float) -> Float[np.ndarray, "edges points"]:
-    """Place on the arc at which each wall point first touches before `t`, by extrapolation.
+    """Return the slip origin of each wall point for the increment that ends at `t`.
 
-    For a point in contact it is the present place. The gap and the place of other points are
-    extrapolated linearly from the last two moments.
+    For a point in contact the origin is its current coordinate on the arc. For other points the gap
+    and the coordinate are extrapolated linearly from the last two states, and the origin is the
+    coordinate at which the gap vanishes, or the coordinate at `t` if the gap stays open.
     """
     ahead = (t - now.t) / (now.t - before.t)
     closing = np.maximum((before.gap - now.gap) * ahead, 1e-15)
@@ -198,7 +210,7 @@ def _guess(
     path: LoadingPath,
     wrap_at: WrapAt,
 ) -> None:
-    """Set the first guess of an increment: the wrapped wall, or an extrapolation of the motion."""
+    """Set the first guess of an increment: the wrapped wall, or an extrapolation in t."""
     if now.state is None:
         wrap_round(d, wrap_at(path.place(t)))
     elif before is None or before.state is None:

@@ -1,4 +1,4 @@
-"""A structured mesh of the tube's meridian whose nodes can be moved without a new set-up."""
+"""A structured mesh of the meridian section of the tube, with nodes that can be moved."""
 
 from __future__ import annotations
 
@@ -18,26 +18,27 @@ __all__ = [
     "structured_mesh",
 ]
 
-# The inner wall is "wet" upstream of the contact (also without a fluid), "wetted" in the contact up
-# to the seal, "closed" in the rest of the contact (without a seal all of it), and "open" beyond.
+# Boundaries of the inner wall, from upstream: "wet" before the contact, "wetted" in the contact up
+# to the seal, "closed" in the rest of the contact, and "open" behind the contact. A mesh without a
+# seal has no "wetted" boundary, and a half mesh has no "wet" one.
 BOUNDARIES = ("wet", "wetted", "closed", "open", "outer", "middle", "end")
 INNER = "wet|wetted|closed|open"
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Grid lines of a structured mesh, and the boundary to which each column of it belongs.
+    """Grid lines of a structured mesh, and the assignment of its columns to boundaries.
 
     Attributes
     ----------
     radial : array (rows + 1,)
-        R in inner radii, from 1 to the outer radius.
+        Reference coordinates R in inner radii, increasing from 1 to the outer radius.
     axial : array (columns + 1,)
-        Z in inner radii, increasing.
+        Reference coordinates Z in inner radii, increasing.
     closed, wet, wetted : int
-        Numbers of columns, see `BOUNDARIES`. Along the axis there are wet, wetted and closed
-        columns, then open ones. Without wet columns Z = 0 is a plane of symmetry, and the grid
-        covers the half Z ≥ 0.
+        Numbers of columns on the boundaries of these names. Along the axis the order is wet,
+        wetted, closed; the remaining columns are open. If `wet` is zero, the grid covers the half
+        Z ≥ 0, and Z = 0 is a plane of symmetry.
     """
 
     radial: Float[np.ndarray, rows + 1]
@@ -58,18 +59,18 @@ class Layout:
 
     @property
     def whole(self) -> bool:
-        """Whether the grid has both halves of the tube."""
+        """True if the grid covers the whole tube."""
         return self.wet > 0
 
     @property
     def contact(self) -> tuple[float, float]:
-        """Stations of the contact's edges; on a half the first is the mirror image of the last."""
+        """Stations of the contact edges; on a half grid the first mirrors the last."""
         last = float(self.axial[self.wet + self.wetted + self.closed])
         return (float(self.axial[self.wet]) if self.whole else -last), last
 
 
 def structured_mesh(layout: Layout) -> ng.Mesh:
-    """Build quadrilaterals on `layout`, with the boundaries named in `BOUNDARIES`."""
+    """Build a mesh of quadrilaterals on the grid lines, with the boundaries in `BOUNDARIES`."""
     mesh = nm.Mesh(dim=2)
     wall = mesh.AddRegion("wall", dim=2)
     side = {name: mesh.AddRegion(name, dim=1) for name in BOUNDARIES}
@@ -95,6 +96,14 @@ def structured_mesh(layout: Layout) -> ng.Mesh:
 
 
 def place(mesh: ng.Mesh, layout: Layout) -> None:
-    """Move the nodes of a mesh to a layout with the same numbers of rows and columns."""
+    """Move the nodes of a mesh to other grid lines.
+
+    Parameters
+    ----------
+    mesh : ngsolve.Mesh
+        A mesh from `structured_mesh`; it is changed in place.
+    layout : Layout
+        Grid lines with the numbers of rows and columns of the mesh.
+    """
     radial, axial = np.meshgrid(layout.radial, layout.axial, indexing="ij")
     mesh.ngmesh.Coordinates()[:] = np.column_stack([radial.ravel(), axial.ravel()])

@@ -29,11 +29,11 @@ SAMPLES_PER_COLUMN = 33
 
 @runtime_checkable
 class SolvedWall(Protocol):
-    """A discretisation that holds a solution, and its grid lines; e.g. an `EquilibriumState`."""
+    """A solution that can be evaluated, for example an `EquilibriumState`."""
 
     @property
     def discretisation(self) -> Discretisation:
-        """Mesh and solution."""
+        """Mesh, and solution as its state."""
 
     @property
     def layout(self) -> Layout:
@@ -41,11 +41,11 @@ class SolvedWall(Protocol):
 
 
 def contact_profile(solved: EquilibriumState) -> ContactProfile:
-    """Evaluate the contact forces per deformed area on a fine grid of the closed columns.
+    """Evaluate the contact forces per deformed area at many points of the contact.
 
-    The polynomials of each edge are reconstructed from their Gauss–Lobatto values. The ratio of
-    deformed to reference area is r ds/dZ / R_a, with s the arc length of the deformed inner wall. A
-    solution on the half Z ≥ 0 is completed by its mirror image.
+    The polynomials on each edge are evaluated from their values at the Gauss–Lobatto points. The
+    ratio of deformed to reference area is (r/R_a) ds/dZ, where s is the arc length of the deformed
+    inner wall. A solution on the half Z ≥ 0 is completed by its mirror image.
     """
     wall = inner_wall(solved.discretisation, "closed")
     values, slopes = resampling(solved.discretisation.order, SAMPLES_PER_COLUMN)
@@ -56,7 +56,10 @@ def contact_profile(solved: EquilibriumState) -> ContactProfile:
     def whole(
         samples: Float[np.ndarray, "edges points"], sign: float = 1.0, middle: float = 0.0
     ) -> Float[np.ndarray, " n"]:
-        """Samples in axial order; on a half, preceded by their mirror image about `middle`."""
+        """Return samples in axial order; on a half mesh, prepend their mirror image.
+
+        The mirror image of a sample x is middle + sign × (x − middle).
+        """
         run = joined(samples)
         if solved.layout.whole:
             return run
@@ -71,10 +74,10 @@ def contact_profile(solved: EquilibriumState) -> ContactProfile:
 
 
 def field(solved: SolvedWall) -> Field:
-    """Evaluate the deformed wall and its Cauchy stress, in units of the modulus."""
+    """Evaluate the deformed wall (inner radii) and its Cauchy stress (units of the modulus)."""
     u, w, p, *_ = solved.discretisation.fields
     (R, Z), at, shape = _field_points(solved)
-    # Compiled together, the components share their common terms, the derivatives of the energy.
+    # `Compile` evaluates the derivatives of the energy, common to all components, only once.
     stress = ng.CF(cauchy_stress(solved.discretisation.tube.energy, u, w, p)).Compile()(at)
     return Field(
         R=R.reshape(shape),
@@ -86,7 +89,11 @@ def field(solved: SolvedWall) -> Field:
 
 
 def _field_points(solved: SolvedWall) -> tuple[Any, Any, tuple[int, int]]:
-    """Coordinates of the Gauss–Lobatto points of every element, and the engine's handle on them."""
+    """Return the Gauss–Lobatto points of every element.
+
+    The results are their reference coordinates (R, Z), the NGSolve object at which functions are
+    evaluated, and the shape (elements, points) of the values.
+    """
     points, _ = lobatto(solved.discretisation.order)
     rule = ng.IntegrationRule(
         points=[(float(a), float(b), 0.0) for a in points for b in points],
@@ -107,7 +114,7 @@ def deformation(solved: SolvedWall) -> Deformation:
 
 
 def volume(solved: SolvedWall) -> Volume:
-    """Integrate the volume ratio J over the reference wall."""
+    """Integrate the volume ratio J and its square over the reference wall."""
     u, w, *_ = solved.discretisation.fields
     J = strain(u, w).J
 

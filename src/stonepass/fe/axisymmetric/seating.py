@@ -1,10 +1,11 @@
-"""The tube on a stone: predict the contact, follow the loading path with friction, fit the edges.
+"""Solution of the seated contact: contact predictor, loading path with friction, fitted solve.
 
-The contact predictor treats contact as an inequality on a coarse mesh. The fitted solve closes the
-columns up to the edge, lets the contact force vanish beyond, and takes the station of the edge as
-an unknown whose condition is that the force vanishes there too. That is a smooth problem: its
-result is a smooth function of the data, and grid lines lie where the pressure has its square-root
-edge.
+The contact predictor treats contact as an inequality on a coarse mesh. The fitted solve prescribes
+gap = 0 between the contact edges and zero contact force outside. The stations of the edges are
+additional unknowns, and the additional equations are that the contact force vanishes at the edges.
+This problem is smooth, so its solution depends smoothly on the data. In addition, a grid line lies
+at the edge, where the contact pressure falls to zero like a square root. See "The contact edge" in
+docs/theory.md, section "Seated state".
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from stonepass.fe.core.threads import one_thread
 
 __all__ = ["seat_on_stone"]
 
-# (columns in contact, weight of the gap) of the contact predictor, tried in this order.
+# Settings of the contact predictor, tried in this order: columns in half of the contact, weight.
 PREDICTORS = ((6, 8.0), (12, 30.0), (24, 3.0))
 
 
@@ -37,28 +38,30 @@ def seat_on_stone(
     resolutions: Sequence[Resolution] = (Resolution(),),
     path: LoadingPath | None = None,
 ) -> list[EquilibriumState | Failure]:
-    """Solve for the tube stretched over a stone at its middle, once for each resolution.
+    """Solve for the tube that is stretched over a stone at mid-length, once for each resolution.
 
-    The resolutions share the contact predictor; without friction each solve starts from the one
-    before. If a solve fails, the next settings of the predictor are tried.
+    All resolutions share the contact predictor. Without friction each solve starts from the
+    solution of the previous resolution. If a solve fails, it is repeated with the next settings of
+    the predictor.
 
     Parameters
     ----------
     tube : Tube
     stone : Profile
-        The rigid body at its last place, lengths in inner radii. Where its halves are mirror images
-        only the half Z ≥ 0 is solved, else the whole tube.
+        The stone in its final position, lengths in inner radii. If its halves are mirror images,
+        only the half Z ≥ 0 of the tube is solved, otherwise the whole tube.
     wrap_at : callable
-        From a place of the stone to a first guess of the wall round it.
+        ``wrap_at(stone)`` returns a first guess of the wall round a stone in the given position.
     resolutions : sequence of Resolution
-        Coarse before fine.
+        Coarse resolutions first.
     path : LoadingPath, optional
-        How the stone comes to its place with friction; without a path there is no friction.
+        Motion of the stone into its final position with friction; without a path there is no
+        friction.
 
     Returns
     -------
     list of EquilibriumState or Failure
-        One for each resolution.
+        One result for each resolution, in the same order.
     """
 
     @cache
@@ -66,7 +69,10 @@ def seat_on_stone(
         return predict_contact(tube, stone, wrap_at(stone), columns, weight)
 
     def starts(resolution: Resolution) -> Iterator[Start | Failure]:
-        """Starting points, best first; the steps of a prediction count at its first use only."""
+        """Yield starting points, the most promising first.
+
+        The Newton steps of a prediction are counted only when it is used for the first time.
+        """
         if found and path is None:
             yield from _after(found[-1])
         for settings in PREDICTORS:
@@ -94,7 +100,7 @@ def _first(
     resolution: Resolution,
     path: LoadingPath | None,
 ) -> EquilibriumState | Failure:
-    """The first valid solution: from each start the fitted solve, then the active-set solve."""
+    """Try the fitted and then the active-set solve from each start; return the first solution."""
     friction, steps, failure = 0.0 if path is None else path.friction, 0, Failure("", 0)
     for start in starts:
         steps += start.steps
@@ -111,18 +117,18 @@ def _first(
 
 
 def _without_self_contact(result: EquilibriumState | Failure) -> EquilibriumState | Failure:
-    """Turn a wall that has folded onto itself into a failure."""
+    """Return a failure if the wall of the solution intersects itself, else the result unchanged."""
     Z = None if isinstance(result, Failure) else self_contact(result)
     if Z is None:
         return result
     reason = (
-        f"the wall found has folded onto itself near Z = {Z:.3g} (inner radii): a wall in contact "
+        f"the wall has folded onto itself near Z = {Z:.3g} (inner radii), and contact of the wall "
         "with itself is not modelled"
     )
     return Failure(reason, result.steps)
 
 
 def _after(solved: EquilibriumState | Failure) -> Iterator[Start]:
-    """A solution as the starting point of a finer one, if its edges are known exactly."""
+    """Yield a solution as a starting point for a finer solve, if its edges were unknowns."""
     if isinstance(solved, EquilibriumState) and solved.edge_uncertainty == 0.0:
         yield Start(solved.discretisation, solved.layout.contact, solved.force, 0)

@@ -1,7 +1,8 @@
-"""Self-intersection: whether a solved wall passes through itself, or through the axis.
+"""Check that the wall of a solution does not pass through itself or through the axis.
 
-The only contact that the finite elements model is that with the stone. A wall that has folded, or a
-lumen that has closed, would touch itself, so such a state is not that of a real tube.
+The finite elements model the contact between wall and stone, but not contact of the wall with
+itself. A solution in which the wall has folded onto itself, or in which the lumen has closed, is
+therefore not a state of a real tube.
 """
 
 from __future__ import annotations
@@ -14,19 +15,19 @@ from stonepass.fe.axisymmetric.inner_wall import inner_wall
 
 __all__ = ["crossing", "self_contact"]
 
-OUTER_POINTS = 6  # per column
-NUDGE = 1e-12
-ROUNDING = 1e-9  # of z at the middle, where symmetry makes it 0
+OUTER_POINTS = 6  # points of the outer wall in each column
+NUDGE = 1e-12  # inward shift of a boundary point
+ROUNDING = 1e-9  # rounding error of z in the plane of symmetry, where z is 0
 
 
 def self_contact(solved: EquilibriumState) -> float | None:
-    """Where the inner or outer wall meets itself, the axis, or the other half of the tube.
+    """Find where the inner or the outer wall intersects itself, the axis, or the other half.
 
     Returns
     -------
     float or None
-        Station Z, in inner radii; None where nothing meets. Where a half is solved, the other half
-        of the tube is its mirror image.
+        Station Z of an intersection, in inner radii; None if there is none. If only the half Z ≥ 0
+        was solved, the wall must not cross the plane of symmetry.
     """
     wall = inner_wall(solved.discretisation)
     Z, first = np.unique(wall.station, return_index=True)
@@ -43,18 +44,20 @@ def self_contact(solved: EquilibriumState) -> float | None:
 
 
 def crossing(r: Float[np.ndarray, " n"], z: Float[np.ndarray, " n"]) -> int | None:
-    """First segment of a polyline that crosses a later segment which is not its neighbour.
+    """Find the first segment of a polyline that crosses another segment.
+
+    Neighbouring segments, which share a vertex, are not compared.
 
     Parameters
     ----------
     r, z : arrays (n,)
-        Coordinates of the vertices.
+        Coordinates of the vertices, in any one unit of length.
 
     Returns
     -------
     int or None
-        ``crossing`` of (0,0), (2,0), (2,2), (1,-1) is 0: the last segment cuts the first. None
-        where nothing crosses.
+        Index of the segment; None if no segments cross. For the vertices (0, 0), (2, 0), (2, 2),
+        (1, −1) the result is 0, because the last segment crosses the first one.
     """
     if np.all(np.diff(z) > 0.0):
         return None
@@ -71,7 +74,7 @@ def _sides(
     p: Float[np.ndarray, "n 2"],
     q: Float[np.ndarray, "n 2"],
 ) -> Bool[np.ndarray, " n"]:
-    """Whether p and q lie on different sides of the line through a and b."""
+    """Return True where p and q lie on different sides of the line through a and b."""
 
     def side(x: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, " n"]:
         along, across = b - a, x - a
@@ -83,12 +86,12 @@ def _sides(
 def _outer(
     solved: EquilibriumState,
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Station, r and z of points of the outer wall."""
+    """Return station, r and z of points of the outer wall."""
     lines = solved.layout.axial
     share = np.arange(OUTER_POINTS) / OUTER_POINTS
     Z = np.append((lines[:-1, None] + np.diff(lines)[:, None] * share).ravel(), lines[-1])
     u, w, *_ = solved.discretisation.fields
     radius = solved.layout.radial[-1]
-    # Slightly inside the mesh, because a point on its boundary may not be found in it.
+    # The points lie slightly inside the mesh, because NGSolve may not find points on its boundary.
     at = solved.discretisation.mesh(np.full_like(Z, radius - NUDGE), Z * (1.0 - NUDGE))
     return Z, radius + u(at).ravel(), Z + w(at).ravel()

@@ -1,20 +1,22 @@
-"""The loaded tube: a fluid pushes from upstream, and the wall slides on the held stone.
+"""The sliding contact: fluid pressure acts upstream of a held stone, and the wall slides on it.
 
-The mesh covers the whole tube, upstream first. Up to the first edge of the contact the inner wall
-carries the fluid's pressure P as a follower load, beyond the last edge nothing; between them the
-wall lies on the arc. There the total contact pressure is
+The mesh covers the whole tube, beginning at the upstream end. Upstream of the first contact edge
+the fluid pressure P acts on the inner wall as a follower load. Between the edges the wall lies on
+the stone. Downstream of the last edge the inner wall is free. The total contact pressure is
 
-    λ = P φ(Z) + λ_n,    φ falling linearly from 1 at the first edge to 0 at the last,
+    λ = P φ(Z) + λ_n,    where φ falls linearly from 1 at the first edge to 0 at the last.
 
-so that the multiplier λ_n vanishes at both edges, λ is continuous there, and λ ≥ P holds where
-fluid stands before the contact. Sliding is imminent everywhere, so the friction is known: a
-traction μ λ on the wall, downstream. Nothing sticks, and the result does not depend on a path. Both
-edges are grid lines whose stations are unknowns. P may be another unknown; its equation is then a
-condition for the axial force on the stone, or for the seal.
+The multiplier λ_n vanishes at both edges. Therefore λ is continuous there, and at the first edge it
+equals the pressure P of the fluid. Friction is fully mobilised everywhere: the traction on the wall
+is μ λ and points downstream. No point sticks, so the result does not depend on a loading path. Both
+edges are grid lines whose stations are unknowns. P may be one more unknown; its equation is then a
+condition on the axial force on the stone or on the largest contact pressure.
 
-The seal is where λ is largest. In a wetted contact the fluid carries its share of the contact up to
-the seal: there the traction is μ (λ − P). That makes a dip in λ where the wetted part ends, so the
-place of the seal is taken from the dry state; the seal is a grid line.
+The *seal* is the station at which λ is largest. In a *dry* contact friction acts on the whole λ. In
+a *wetted* contact the fluid carries the part P of the contact pressure between the first edge and
+the seal, so there the friction traction is μ (λ − P). This traction ends with a step at the seal,
+which causes a local minimum of λ; the position of the seal is therefore taken from the dry state.
+The seal is a grid line too. See "The push-through, solved directly" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -49,32 +51,34 @@ __all__ = ["solve_at_pressure", "solve_at_seal", "solve_critical"]
 
 MOST_STEPS = 16  # Newton steps after which a load step is bisected
 MOST_HALVINGS = 3
-PRESSURE_SCALE = 0.05  # least scale of the pressure as an unknown, in units of the modulus
-NEAREST_SEAL = 0.05  # of the seal to an edge, as a fraction of the contact
-# Largest penetration of the open wall into the stone, in radii of the stone. At the first edge
-# friction begins with a step, μ P, which tilts the wall on both sides: the open wall may pass
-# through the stone a little, and λ fall below P within the first node. Fluid would enter there,
-# without friction, and the step would move with it, so it has no place of its own. The error of the
-# force is of the order of the penetration, which is therefore bounded.
+PRESSURE_SCALE = 0.05  # smallest scale of the unknown pressure, in units of the modulus
+NEAREST_SEAL = 0.05  # smallest distance of the seal from an edge, as a fraction of the contact
+# Largest allowed penetration of the open wall into the stone, in radii of the stone. At the first
+# edge the friction traction begins with a step of size μ P, which tilts the wall on both sides of
+# the edge. The open wall may then penetrate the stone slightly, and λ may fall below P within one
+# nodal spacing. In reality fluid would enter there and remove the friction, so that the step would
+# move downstream; the model has no well-defined position for it. The error of the axial force is of
+# the order of the penetration, which is therefore limited.
 PENETRATION = 1e-3
 
-# A scalar, evaluated from what the workspace holds, that must vanish.
+# Returns a scalar, evaluated from the current state of the workspace, that vanishes at the
+# solution.
 Condition = Callable[[], float]
 
 
 def solve_at_pressure(
     workspace: Workspace, start: Configuration, pressure: float, friction: float
 ) -> SlidingState | Failure:
-    """Solve for the held stone at a given pressure of the fluid.
+    """Solve for the state at a given pressure of the fluid.
 
     Parameters
     ----------
     workspace : Workspace
-        Its content before the call has no influence on the result.
+        Its content is overwritten and has no influence on the result.
     start : Configuration
-        The load is applied in one step from here, or in smaller steps where that fails.
+        Starting point. The load is applied in one step; if that fails, the step is bisected.
     pressure : float
-        P in units of the modulus, zero or positive.
+        P, zero or positive, in units of the modulus.
     friction : float
         Coulomb coefficient, zero or positive.
 
@@ -88,9 +92,18 @@ def solve_at_pressure(
 def solve_critical(
     workspace: Workspace, start: Configuration, guess: float, friction: float
 ) -> SlidingState | Failure:
-    """Solve for the pressure at which no axial force remains on the stone.
+    """Solve for the pressure at which the axial force on the stone is zero.
 
-    The parameters are those of `solve_at_pressure`, with `guess` a first guess of the pressure.
+    Parameters
+    ----------
+    workspace, start, friction
+        See `solve_at_pressure`.
+    guess : float
+        First guess of the pressure, zero or positive, in units of the modulus.
+
+    Returns
+    -------
+    SlidingState or Failure
     """
     return _solve(workspace, start, guess, friction, partial(axial_force, workspace))
 
@@ -98,10 +111,20 @@ def solve_critical(
 def solve_at_seal(
     workspace: Workspace, start: Configuration, excess: float, guess: float, friction: float
 ) -> SlidingState | Failure:
-    """Solve for the pressure at which the largest contact pressure is (1 + excess) P.
+    """Solve for the pressure P at which the largest contact pressure is (1 + excess) P.
 
-    The parameters are those of `solve_at_pressure`, with `guess` a first guess of the pressure and
-    `excess` positive.
+    Parameters
+    ----------
+    workspace, start, friction
+        See `solve_at_pressure`.
+    excess : float
+        Relative excess of the largest contact pressure over P, positive.
+    guess : float
+        First guess of P, zero or positive, in units of the modulus.
+
+    Returns
+    -------
+    SlidingState or Failure
     """
 
     def beyond() -> float:
@@ -117,9 +140,9 @@ def _solve(
     friction: float,
     condition: Condition | None,
 ) -> SlidingState | Failure:
-    """Solve the dry contact, then the wetted one where the problem asks for it.
+    """Solve the dry contact and then, if the problem is wetted, the wetted contact.
 
-    With a `condition` the pressure is an unknown, and `pressure` its first guess.
+    If there is a `condition`, the pressure is an unknown and `pressure` is its first guess.
     """
     found, report = _dry(workspace, start, pressure, friction, condition)
     steps = report.steps
@@ -154,7 +177,7 @@ def _dry(
     friction: float,
     condition: Condition | None,
 ) -> tuple[Configuration, Report]:
-    """Go from the start to a pressure and friction; the condition counts at the end only."""
+    """Apply pressure and friction; the condition is imposed only when both have been reached."""
     begin = np.array([start.pressure, start.friction])
     way = np.array([pressure, friction]) - begin
 
@@ -169,7 +192,7 @@ def _dry(
 def _wetted(
     workspace: Workspace, dry: Configuration, condition: Condition | None
 ) -> tuple[Configuration, Report]:
-    """Let the fluid carry its share of the contact up to the seal of the dry state."""
+    """Apply the wetting between the first edge and the seal of the dry state."""
     load(workspace, dry)
     first, last = dry.edges
     fraction = (seal_pressure(workspace)[0] - first) / (last - first)
@@ -184,9 +207,10 @@ def _wetted(
 def _bisected(
     start: Configuration, attempt: Callable[[Configuration, float], tuple[Configuration, Report]]
 ) -> tuple[Configuration, Report]:
-    """Apply a load in one step; bisect the step where it fails, down to 1/8 of the load.
+    """Apply a load in one step; if a step fails, bisect it, down to 1/8 of the load.
 
-    `attempt` takes the configuration reached and the fraction of the load to go to.
+    ``attempt(reached, fraction)`` solves for a fraction of the load, starting from the
+    configuration that has been reached, which it does not change.
     """
     reached, fraction, step, steps = start, 0.0, 1.0, 0
     while True:
@@ -204,9 +228,11 @@ def _bisected(
 def _newton(
     workspace: Workspace, start: Configuration, pressure: float, condition: Condition | None
 ) -> tuple[Configuration, Report]:
-    """Newton's method at a pressure or, with a condition, for it; edges are unknowns in both.
+    """Run Newton's method, with the contact edges as unknowns.
 
-    Returns what the engine holds at the end; it is a solution where the report says converged.
+    Without a condition the pressure is given. With a condition the pressure is an unknown too. The
+    result is the last configuration of the iteration; it is a solution only if the report has
+    converged.
     """
     load(workspace, start)
     d, problem = workspace.discretisation, workspace.problem

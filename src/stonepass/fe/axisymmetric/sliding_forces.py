@@ -1,7 +1,7 @@
-"""Forces of the sliding contact, evaluated from what a workspace holds at present.
+"""Forces of the sliding contact, evaluated from the current state of a workspace.
 
-The solves call these functions within an iteration. The forces of a solved state are values of
-`SlidingState`.
+The solves call these functions during an iteration. The forces of a converged state are stored in
+`SlidingState`. The notation is that of the module `sliding_contact`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from stonepass.fe.core.lobatto import lobatto_slopes, resampling
 
 __all__ = ["ContactForces", "axial_force", "contact_forces", "friction_work", "seal_pressure"]
 
-SEAL_SAMPLES = 65  # of each column
+SEAL_SAMPLES = 65  # points in each column at which the largest contact pressure is sought
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,11 +29,11 @@ class ContactForces:
     wall : InnerWall
         The part of the inner wall in contact.
     normal : array (edges, points)
-        Total normal contact force per reference area.
+        Total normal contact force per reference area, compression positive.
     tangential : array (edges, points)
-        Friction on the wall per reference area, positive downstream.
+        Friction force on the wall per reference area, positive downstream.
     area : array (edges, points)
-        Deformed area per reference area.
+        Deformed area per reference area, dimensionless.
     """
 
     wall: InnerWall
@@ -43,7 +43,7 @@ class ContactForces:
 
 
 def contact_forces(workspace: Workspace) -> ContactForces:
-    """Evaluate total contact force λ = P φ(Z) + λ_n and friction on the wall."""
+    """Evaluate the total normal contact force and the friction force on the wall."""
     d = workspace.discretisation
     wall = inner_wall(d, CONTACT)
     run = wall.station[:, -1:] - wall.station[:, :1]
@@ -58,10 +58,11 @@ def contact_forces(workspace: Workspace) -> ContactForces:
 
 
 def axial_force(workspace: Workspace) -> float:
-    """Axial force on the stone, positive downstream, in units of modulus × inner radius².
+    """Return the axial force on the stone, positive downstream (modulus × inner radius²).
 
-    It is the pressure of the fluid on the disc that the first edge encloses, less the force of the
-    stone on the wall, in the quadrature of the form.
+    It is the force of the fluid on the disc bounded by the first contact edge, minus the axial
+    force of the stone on the wall. The quadrature is that of the finite-element form. See N(P_u) in
+    docs/theory.md, section "The push-through, solved directly".
     """
     found = contact_forces(workspace)
     wall, pressure = found.wall, workspace.pressure.Get()
@@ -72,10 +73,12 @@ def axial_force(workspace: Workspace) -> float:
 
 
 def friction_work(workspace: Workspace) -> float:
-    """Energy dissipated per length of reference wall by which the stone advances.
+    """Return the frictional dissipation per unit advance of the stone along the reference wall.
 
-    ∫ λ_t λ_s dA, with the traction λ_t and the meridional stretch λ_s of the wall, because so much
-    wall slides over each point of the stone. In units of modulus × inner radius².
+    It is ∫ λ_t λ_s dA with the friction traction λ_t and the meridional stretch λ_s of the wall:
+    when the stone advances by dZ, a deformed length λ_s dZ of wall slides over each of its points.
+    The unit is modulus × inner radius². See "Energy" in docs/theory.md, section "The push-through,
+    solved directly".
     """
     found = contact_forces(workspace)
     stretch = found.area / found.wall.r
@@ -83,7 +86,11 @@ def friction_work(workspace: Workspace) -> float:
 
 
 def seal_pressure(workspace: Workspace) -> tuple[float, float]:
-    """Station (inner radii) and size (units of the modulus) of the largest contact pressure."""
+    """Return the station and the value of the largest contact pressure.
+
+    The station is in inner radii; the pressure, a force per deformed area, is in units of the
+    modulus.
+    """
     found = contact_forces(workspace)
     fine = resampling(workspace.discretisation.order, SEAL_SAMPLES)[0].T
     pressure = (found.normal / found.area) @ fine

@@ -1,4 +1,4 @@
-"""Values of the sliding contact: the problem, a configuration of its unknowns, a solved state."""
+"""Data of the sliding contact: the problem, a configuration of its unknowns, a solved state."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["Configuration", "SlidingProblem", "SlidingState", "sliding_problem"]
 
 @dataclass(frozen=True)
 class SlidingProblem:
-    """A tube on a held stone, to be loaded by a fluid from upstream.
+    """A tube on a held stone that is loaded by a fluid from upstream.
 
     Attributes
     ----------
@@ -27,13 +27,15 @@ class SlidingProblem:
         The held stone, lengths in inner radii.
     resolution : Resolution
     contact : (float, float)
-        Edges of the contact without fluid, in inner radii; they determine the number of columns.
+        Stations of the contact edges without fluid, in inner radii. They determine the numbers of
+        columns and rows.
     force : float
         Norm of the nodal contact forces without fluid, in units of modulus × inner radius².
     wetted : bool
-        Whether the fluid carries its share of the contact up to the seal.
+        True for a wetted contact, false for a dry one (see the module `sliding_contact`).
     offset : float
-        How far downstream of mid-length the stone is held in the reference state, in inner radii.
+        Distance in inner radii by which the stone is held downstream of mid-length, measured in the
+        reference state.
     """
 
     tube: Tube
@@ -55,7 +57,15 @@ class SlidingProblem:
         return self.tube.half_length - self.offset
 
     def layout(self, edges: tuple[float, float], seal: float) -> Layout:
-        """Grid lines for a contact between two stations, with the seal at a fraction of it."""
+        """Return the grid lines for a contact between two stations.
+
+        Parameters
+        ----------
+        edges : (float, float)
+            Stations of the contact edges, in inner radii.
+        seal : float
+            Position of the seal, as a fraction of the contact from its first edge.
+        """
         return graded_layout(
             self.tube,
             self.resolution,
@@ -75,13 +85,14 @@ def sliding_problem(
     wetted: bool = False,
     offset: float = 0.0,
 ) -> SlidingProblem:
-    """Describe the loading of a tube that is seated without friction.
+    """Describe the loading of a tube, starting from its seated state without friction.
 
     Parameters
     ----------
     tube : Tube
-        Like that of the seated state, with a tether where one is wanted.
+        The tube of the seated state; it may have a tether in addition.
     seated : EquilibriumState
+        The seated state; it supplies stone, contact edges and contact force.
     resolution, wetted, offset
         See `SlidingProblem`.
     """
@@ -91,23 +102,23 @@ def sliding_problem(
 
 @dataclass(frozen=True, eq=False)
 class Configuration:
-    """Values of all unknowns and parameters of a sliding problem; each solve starts from one.
+    """Values of all unknowns and parameters of a sliding problem; the starting point of a solve.
 
     Attributes
     ----------
     unknowns : array (unknowns,)
         Coefficients of the finite-element fields.
     edges : (float, float)
-        Stations of the contact's edges, in inner radii.
+        Stations of the contact edges, in inner radii.
     pressure : float
         Pressure P of the fluid, in units of the modulus.
     friction : float
         Coulomb coefficient.
     seal : float
-        Station of the seal's grid line, as a fraction of the contact from its first edge.
+        Position of the grid line of the seal, as a fraction of the contact from its first edge.
     wetting : float
-        Fraction of the fluid's pressure that is taken off the contact pressure in the friction law
-        between the first edge and the seal; 0 for a dry contact, 1 for a wetted one.
+        Factor ω in [0, 1]. Between the first edge and the seal the friction traction is
+        μ (λ − ω P). It is 0 for a dry contact and 1 for a wetted contact.
     """
 
     unknowns: Float[np.ndarray, " unknowns"]
@@ -125,24 +136,24 @@ class SlidingState:
     Attributes
     ----------
     configuration : Configuration
-        Where the next solve may start.
+        All unknowns; another solve may start from it.
     force : float
         Axial force on the stone, positive downstream, in units of modulus × inner radius².
     station, r, z : arrays (edges, points)
-        Reference coordinate Z and deformed coordinates of the contact, from upstream, in inner
-        radii, at the Gauss–Lobatto points of each edge.
+        Reference coordinate Z and deformed coordinates of the wall in contact, in inner radii, at
+        the Gauss–Lobatto points of each element edge, ordered from upstream to downstream.
     contact_pressure : array (edges, points)
         Total contact pressure per deformed area (true stress, compression positive), in units of
         the modulus.
     steps : int
-        Newton steps with a tangent of their own since the configuration from which it started.
+        Number of Newton steps with a newly factorised tangent in this solve.
     residual : float
-        Norm of the residual, relative to twice the contact force.
+        Norm of the residual, relative to twice the contact force without fluid.
     penetration : float
-        How far the open wall passes through the stone, in radii of the stone.
+        Largest penetration of the open wall into the stone, in radii of the stone.
     friction_work : float
-        Energy that friction dissipates per length of reference wall by which the stone advances,
-        in units of modulus × inner radius².
+        Frictional dissipation per unit advance of the stone along the reference wall, in units of
+        modulus × inner radius².
     """
 
     configuration: Configuration

@@ -1,8 +1,8 @@
-"""The engine's objects for one sliding problem: mesh, fields, parameters, form.
+"""NGSolve objects for one sliding problem: mesh, fields, parameters, form.
 
-The objects are reused from solve to solve, because setting them up takes longer than a Newton step.
-Nothing may be concluded from what they hold: each solve and each evaluation loads the configuration
-that it needs first.
+The objects are reused in all solves of the problem, because their set-up takes longer than a Newton
+step. Between calls their content is undefined: each solve and each evaluation first loads the
+configuration that it needs.
 """
 
 from __future__ import annotations
@@ -40,20 +40,22 @@ CONTACT = "wetted|closed"
 
 @dataclass(frozen=True, eq=False)
 class Workspace:
-    """Engine objects of a sliding problem.
+    """NGSolve objects of a sliding problem.
 
     Attributes
     ----------
     problem : SlidingProblem
     discretisation : Discretisation
-        The whole tube.
+        Discretisation of the whole tube.
     first, last, pressure, friction, wetting : ngsolve.Parameter
-        The scalars of a `Configuration`; `first` and `last` are the edges.
+        The scalars of a `Configuration`, with its units; `first` and `last` are the stations of the
+        contact edges.
     form : ngsolve.BilinearForm
+        Residual of the problem; see `sliding_contact`.
     free : ngsolve.BitArray
-        Unknowns that are solved for.
+        Mask of the unknowns that are solved for.
     at_edges : (int, int)
-        Indices of the normal contact force at the edges.
+        Indices of the normal contact force at the first and the last contact edge.
     """
 
     problem: SlidingProblem
@@ -96,14 +98,22 @@ def workspace_for(problem: SlidingProblem) -> Workspace:
 
 
 def seated_configuration(workspace: Workspace, seated: EquilibriumState) -> Configuration:
-    """The seated state as the first configuration: no fluid, no friction."""
+    """Return the seated state as a configuration without fluid and without friction.
+
+    Parameters
+    ----------
+    workspace : Workspace
+        Its content is overwritten.
+    seated : EquilibriumState
+        Seated state without friction, on a mesh of the half or of the whole tube.
+    """
     project_seated(workspace.discretisation, seated)
     unknowns = workspace.discretisation.state.vec.FV().NumPy().copy()
     return Configuration(unknowns, workspace.problem.contact, pressure=0.0, friction=0.0)
 
 
 def load(workspace: Workspace, configuration: Configuration) -> None:
-    """Write a configuration into the engine's objects."""
+    """Set the NGSolve objects of a workspace to a configuration."""
     workspace.discretisation.state.vec.FV().NumPy()[:] = configuration.unknowns
     workspace.friction.Set(configuration.friction)
     workspace.wetting.Set(configuration.wetting)
@@ -114,7 +124,15 @@ def load(workspace: Workspace, configuration: Configuration) -> None:
 
 
 def capture(workspace: Workspace, seal: float) -> Configuration:
-    """Copy what the engine's objects hold into a configuration."""
+    """Copy the content of a workspace into a configuration.
+
+    Parameters
+    ----------
+    workspace : Workspace
+    seal : float
+        Position of the seal for which the mesh was placed, as a fraction of the contact; the
+        workspace does not store it.
+    """
     return Configuration(
         unknowns=workspace.discretisation.state.vec.FV().NumPy().copy(),
         edges=(workspace.first.Get(), workspace.last.Get()),
@@ -128,12 +146,22 @@ def capture(workspace: Workspace, seal: float) -> Configuration:
 def move_contact(
     workspace: Workspace, edges: tuple[float, float], pressure: float, seal: float
 ) -> bool:
-    """Move the contact's edges, and the mesh with them, and set the pressure.
+    """Move the contact edges together with the mesh, and set the pressure.
+
+    Parameters
+    ----------
+    workspace : Workspace
+    edges : (float, float)
+        Stations of the contact edges, in inner radii.
+    pressure : float
+        Pressure of the fluid, in units of the modulus.
+    seal : float
+        Position of the seal, as a fraction of the contact from its first edge.
 
     Returns
     -------
     bool
-        False, and nothing has changed, where the edges are in the wrong order or beyond the ends.
+        False if the edges are in the wrong order or outside the tube; then nothing is changed.
     """
     problem, (first, last) = workspace.problem, edges
     if not -problem.inlet < first < last < problem.outlet:
@@ -148,12 +176,12 @@ def move_contact(
 def _form(
     d: Discretisation, edges: tuple[Any, Any], pressure: Any, friction: Any, wetting: Any
 ) -> Any:
-    """Wall, fluid upstream of the contact, and contact with friction mobilised everywhere."""
+    """Return the residual of wall, fluid pressure, and contact with fully mobilised friction."""
     trial, test = d.trial, d.test
     u, w, (first, last) = trial.u, trial.w, edges
     form = wall_form(d)
     r, r_slope, z_slope = _meridian(u, w)
-    # P n dA for a virtual displacement
+    # Virtual work of the follower load P n dA on the wall.
     fluid = pressure * r * (z_slope * test.u - r_slope * test.w)
     form += (-1.0 * fluid).Compile() * ng.ds("wet", bonus_intorder=4)
     ramp = (last - ng.y) / (last - first)
@@ -170,11 +198,11 @@ def _form(
 
 
 def _meridian(u: Any, w: Any) -> tuple[Any, Any, Any]:
-    """Deformed radius of the inner wall, and the derivatives of r and z by Z."""
+    """Return the deformed radius r of the inner wall, and the derivatives dr/dZ and dz/dZ."""
     return ng.x + u, ng.grad(u).Trace()[1], 1.0 + ng.grad(w).Trace()[1]
 
 
 def _area(u: Any, w: Any) -> Any:
-    """Deformed area of the inner wall per reference area (R_a = 1)."""
+    """Return the deformed area of the inner wall per reference area (R_a = 1)."""
     r, r_slope, z_slope = _meridian(u, w)
     return r * ng.sqrt(r_slope * r_slope + z_slope * z_slope)

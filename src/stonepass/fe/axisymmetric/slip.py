@@ -17,15 +17,25 @@ __all__ = ["dissipation", "last_dissipation", "slip_origin"]
 
 
 def slip_origin(start: Start) -> Any:
-    """Places on the arc from which the last increment slips, as a symbolic function of Z."""
+    """Return the slip origins of the last increment (see `friction`), as a function of Z."""
     spline = _origin_spline(start)
     return ng.BSpline(4, spline.t.tolist(), spline.c.tolist())(ng.y)
 
 
 def last_dissipation(d: Discretisation, start: Start) -> float:
-    """Energy dissipated in the last increment of a path, in units of modulus × inner radius³.
+    """Return the energy dissipated in the last increment of a path.
 
-    Zero without friction.
+    Parameters
+    ----------
+    d : Discretisation
+        Its state is the end of the increment.
+    start : Start
+        Supplies the slip origins; without them there is no friction, and the result is zero.
+
+    Returns
+    -------
+    float
+        Energy in the meshed part of the tube, in units of modulus × inner radius³.
     """
     if start.origin is None:
         return 0.0
@@ -36,33 +46,34 @@ def last_dissipation(d: Discretisation, start: Start) -> float:
 def dissipation(
     wall: InnerWall, place: Profile, origin: Float[np.ndarray, "edges points"]
 ) -> float:
-    """Energy dissipated in one increment on the given wall: −2π ∫ λ_t s R_a dZ.
+    """Return the energy dissipated in one increment: −2π ∫ λ_t s R_a dZ, with the slip s.
 
     Parameters
     ----------
     wall : InnerWall
-        At the end of the increment.
+        The inner wall at the end of the increment.
     place : Profile
         The stone at the end of the increment.
     origin : array (edges, points)
-        Places on the arc, arc length over the radius, from which the wall points slip.
+        Slip origins: arc-length coordinates (`Profile.along`), dimensionless.
 
     Returns
     -------
     float
-        In units of modulus × inner radius³, for what the mesh covers.
+        Energy in the meshed part of the tube, in units of modulus × inner radius³.
     """
     slip = place.radius * (place.along(wall.r, wall.z) - origin)
     return float(-2.0 * np.pi * (wall.weight * wall.tangential * slip).sum())
 
 
 def _origin_spline(start: Start) -> Any:
-    """Cubic spline of the origins over Z; odd in Z where the mesh covers only a half."""
+    """Return a cubic spline of the slip origins over Z; it is odd in Z on a half mesh."""
     assert start.origin is not None
     station, place = start.origin
     if not start.discretisation.whole:
         station = np.concatenate([-station[:0:-1], station])
         place = np.concatenate([-place[:0:-1], place])
-    from scipy.interpolate import make_interp_spline  # most of SciPy, for friction alone
+    # Imported here because it loads most of SciPy, which only friction needs.
+    from scipy.interpolate import make_interp_spline
 
     return make_interp_spline(station, place, k=3)

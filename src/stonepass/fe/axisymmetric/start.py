@@ -19,19 +19,19 @@ class Start:
     Attributes
     ----------
     discretisation : Discretisation
-        Holds the approximate state, which the finer solve interpolates.
+        Its state is the approximate solution, which the finer solve interpolates.
     contact : (float, float)
-        Stations of the contact's edges, in inner radii.
+        Stations of the contact edges, in inner radii.
     force : float
         Norm of the nodal contact forces, in units of modulus × inner radius².
     steps : int
-        Newton steps spent so far.
+        Number of Newton steps with a newly factorised tangent so far.
     origin : (array (n,), array (n,)), optional
-        With friction, stations along the wall and the places on the arc from which these wall
-        points slip in the last increment.
+        Stations along the wall, in inner radii, and the slip origins of these wall points in the
+        last increment (see `friction`). None if there is no friction.
     dissipated : float
-        Energy that friction dissipated in all increments but the last, in units of modulus × inner
-        radius³.
+        Energy that friction dissipated in all increments except the last one, in the meshed part of
+        the tube, in units of modulus × inner radius³.
     """
 
     discretisation: Discretisation

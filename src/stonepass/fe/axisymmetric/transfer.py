@@ -15,15 +15,21 @@ __all__ = ["interpolate_start", "project_seated"]
 
 
 def interpolate_start(d: Discretisation, start: Start) -> None:
-    """Set the state of `d` to that of a start on another mesh of the same part of the tube.
+    """Interpolate the state of a starting point on the mesh of `d`.
 
-    Displacements and pressure are interpolated. Contact forces are set to zero beyond the edges of
-    the start's contact.
+    Contact forces are set to zero outside the contact of the start.
+
+    Parameters
+    ----------
+    d : Discretisation
+        Its state is overwritten.
+    start : Start
+        Its mesh covers the same part of the tube as that of `d`.
     """
     before = start.discretisation.fields
     for field, other in zip(d.fields[:3], before[:3], strict=True):
         field.Set(other)
-    axial = d.fields.w  # interpolation has moved the plane of symmetry a little
+    axial = d.fields.w  # interpolation errors in the plane of symmetry are reset to zero
     for index, on in enumerate(axial.space.GetDofs(d.mesh.Boundaries("middle"))):
         if on:
             axial.vec[index] = 0.0
@@ -35,11 +41,18 @@ def interpolate_start(d: Discretisation, start: Start) -> None:
 
 
 def project_seated(d: Discretisation, seated: EquilibriumState) -> None:
-    """Set the state of `d`, a mesh of the whole tube, to a seated state or to both its halves.
+    """Project a seated state on the mesh of `d`, which covers the whole tube.
 
-    Where the seated state covers a half of the tube, the other half is its mirror image. The
-    engine's own interpolation cannot evaluate a mirrored field, so displacements and pressure are
-    projected from samples at integration points. Contact forces are set at the nodes.
+    If the seated state covers only the half Z ≥ 0, the other half is its mirror image. NGSolve
+    cannot interpolate a mirrored field, so displacements and pressure are projected from samples at
+    integration points. Contact forces are interpolated at the nodes.
+
+    Parameters
+    ----------
+    d : Discretisation
+        Its state is overwritten.
+    seated : EquilibriumState
+        Seated state without friction.
     """
     space = IntegrationRuleSpace(d.mesh, order=2 * d.order)
     rules = space.GetIntegrationRules()
@@ -65,7 +78,7 @@ def project_seated(d: Discretisation, seated: EquilibriumState) -> None:
 
 
 def _hold_ends(d: Discretisation) -> None:
-    """Set the axial displacement of the ends to that of the imposed stretch."""
+    """Set the axial displacement of the ends to the value given by the imposed stretch."""
     w, ends = d.fields.w, d.mesh.Boundaries("end")
     held = ng.GridFunction(w.space)
     held.Set((d.tube.axial_stretch - 1.0) * ng.y, definedon=ends)

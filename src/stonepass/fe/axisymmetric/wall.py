@@ -1,4 +1,9 @@
-"""Energy of an incompressible axisymmetric wall in displacements and pressure."""
+"""Energy and stress of an incompressible axisymmetric wall, from displacements and pressure.
+
+u and w are the radial and the axial displacement in inner radii, p is the pressure that enforces
+incompressibility, in units of the modulus. All are NGSolve coefficient functions or trial functions
+of the mesh coordinates x = R and y = Z.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +18,7 @@ from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["PLACE", "SYMBOLS", "Strain", "cauchy_stress", "outside_work", "strain", "wall_energy"]
 
-# The array namespace of a material law over the engine's symbols.
+# The array namespace `xp` with which a material law is evaluated on NGSolve coefficient functions.
 SYMBOLS = SimpleNamespace(
     exp=ng.exp,
     log=ng.log,
@@ -30,13 +35,17 @@ SYMBOLS = SimpleNamespace(
     abs=lambda a: ng.IfPos(a, a, -1.0 * a),
 )
 
-# Reference coordinates as symbols: those of the mesh are x = R and y = Z.
+# Reference coordinates as NGSolve coefficient functions; the mesh coordinates are x = R and y = Z.
 PLACE = Place(ng.x, ng.y)
 
 
 @dataclass(frozen=True)
 class Strain:
-    """Deformation gradient and right Cauchy–Green components at a point, as symbols."""
+    """Deformation gradient F_iJ as NGSolve coefficient functions, all dimensionless.
+
+    The first index is the deformed direction, the second one the reference direction: r radial, z
+    axial, t circumferential.
+    """
 
     F_rr: Any
     F_rz: Any
@@ -46,7 +55,7 @@ class Strain:
 
     @property
     def C(self) -> CauchyGreen:
-        """Right Cauchy–Green components; those out of the r–z plane are zero."""
+        """Components of the right Cauchy–Green tensor; C_rt and C_tz are zero."""
         return CauchyGreen(
             self.F_rr * self.F_rr + self.F_zr * self.F_zr,
             self.F_tt * self.F_tt,
@@ -56,20 +65,32 @@ class Strain:
 
     @property
     def J(self) -> Any:
-        """Volume ratio."""
+        """Volume ratio, the determinant of F."""
         return (self.F_rr * self.F_zz - self.F_rz * self.F_zr) * self.F_tt
 
 
 def strain(u: Any, w: Any) -> Strain:
-    """Strain of the radial and axial displacements u and w (mesh coordinates x = R, y = Z)."""
+    """Return the strain of the displacements u (radial) and w (axial), in inner radii."""
     du, dw = ng.grad(u), ng.grad(w)
     return Strain(F_rr=1.0 + du[0], F_rz=du[1], F_zr=dw[0], F_zz=1.0 + dw[1], F_tt=1.0 + u / ng.x)
 
 
 def wall_energy(energy: Energy, u: Any, w: Any, p: Any, stiffening: Any = 0.0) -> Any:
-    """Lagrangian per reference area of the meridian (2π left out): (U − p (J − 1)) R.
+    """Return the Lagrangian (U − p (J − 1)) R per reference area of the meridian section.
 
-    `stiffening` is the shear modulus of a matrix added for a homotopy, 0 for the wall itself.
+    The factor 2π is omitted. See Π in docs/theory.md, section "Seated state".
+
+    Parameters
+    ----------
+    energy : Energy
+        Energy density U of the wall law, in units of the modulus.
+    u, w : symbols
+        Displacements in inner radii.
+    p : symbol
+        Pressure in units of the modulus.
+    stiffening : float or symbol
+        Shear modulus of a neo-Hookean matrix that the homotopy adds, in units of the modulus; 0 for
+        the wall itself.
     """
     s = strain(u, w)
     C = s.C
@@ -78,10 +99,20 @@ def wall_energy(energy: Energy, u: Any, w: Any, p: Any, stiffening: Any = 0.0) -
 
 
 def outside_work(u: Any, w: Any, pressure: Any, *, hydrostatic: bool) -> Any:
-    """Potential of a pressure on the outer wall, per reference length (2π left out).
+    """Return the potential of a pressure on the outer wall, per reference length.
 
-    hydrostatic: the pressure times the volume inside the outer wall, ½ r² ∂z/∂Z. Otherwise the
-    radial resultant per reference length is kept (dead load, paper Eq. 10), potential R_b u.
+    The factor 2π is omitted. For a hydrostatic pressure P the potential is P ½ r² ∂z/∂Z, the
+    pressure times the volume inside the outer wall. For a dead load (paper, Eq. 10) it is P R_b u,
+    because the radial resultant per reference length is kept.
+
+    Parameters
+    ----------
+    u, w : symbols
+        Displacements in inner radii.
+    pressure : float or symbol
+        Pressure P on the outer wall, compression positive, in units of the modulus.
+    hydrostatic : bool
+        True for a hydrostatic pressure, false for a dead load.
     """
     if not hydrostatic:
         return pressure * ng.x * u
@@ -90,12 +121,30 @@ def outside_work(u: Any, w: Any, pressure: Any, *, hydrostatic: bool) -> Any:
 
 
 def cauchy_stress(energy: Energy, u: Any, w: Any, p: Any) -> tuple[Any, Any, Any, Any]:
-    """Cauchy stress (σ_rr, σ_tt, σ_zz, σ_rz) as symbols: F S Fᵀ − p with S = 2 ∂U/∂C."""
+    """Return the Cauchy stress (σ_rr, σ_tt, σ_zz, σ_rz) = F S Fᵀ − p 1, with S = 2 ∂U/∂C.
+
+    Tension is positive. F S Fᵀ is not divided by J, because J = 1.
+
+    Parameters
+    ----------
+    energy : Energy
+        Energy density U of the wall law, in units of the modulus.
+    u, w : symbols
+        Displacements in inner radii.
+    p : symbol
+        Pressure in units of the modulus.
+
+    Returns
+    -------
+    tuple of ngsolve.CoefficientFunction
+        In units of the modulus.
+    """
     s = strain(u, w)
     C = CauchyGreen(*(ng.CF(c).MakeVariable() for c in s.C[:4]))
     U = ng.CF(energy(C, PLACE, SYMBOLS))
     S_rr, S_tt, S_zz = 2.0 * U.Diff(C.rr), 2.0 * U.Diff(C.tt), 2.0 * U.Diff(C.zz)
-    S_rz = U.Diff(C.rz)  # C_rz stands for both off-diagonal components
+    # U depends on C_rz and C_zr through one symbol, so its derivative is already twice ∂U/∂C_rz.
+    S_rz = U.Diff(C.rz)
     T_rr = S_rr * s.F_rr + S_rz * s.F_rz
     T_rz = S_rz * s.F_rr + S_zz * s.F_rz
     T_zr = S_rr * s.F_zr + S_rz * s.F_zz

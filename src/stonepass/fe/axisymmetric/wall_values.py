@@ -1,4 +1,4 @@
-"""What is read of a solved wall, as values that know nothing of the engine."""
+"""Results of the finite elements as arrays, without references to NGSolve objects."""
 
 from __future__ import annotations
 
@@ -6,28 +6,28 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.equality import compared_by_value
 
 __all__ = ["STRESSES", "ContactProfile", "Deformation", "Field", "Volume"]
 
 STRESSES = ("stress_rr", "stress_tt", "stress_zz", "stress_rz")
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class ContactProfile:
-    """Contact pressure from the upstream edge of the contact (θ = α₀) to the downstream one.
+    """Contact pressure along the contact, from its upstream edge (θ = α₀) to its downstream edge.
 
     Attributes
     ----------
     theta : array (n,)
-        Angle from the upstream axis in rad, at the centre of a sphere, else parametric
-        (`Profile`); increasing.
+        Angle from the upstream axis in rad, increasing. It is the angle at the centre of a sphere,
+        and the parametric angle τ of `Profile` for other stones.
     pressure : array (n,)
         Normal force per deformed area (true stress, compression positive), in units of the modulus.
     traction : array (n,)
-        Friction on the wall per deformed area, positive downstream, in units of the modulus.
+        Friction force on the wall per deformed area, positive downstream, in units of the modulus.
     station : array (n,)
         Reference coordinate Z, in inner radii.
     """
@@ -38,12 +38,12 @@ class ContactProfile:
     station: Float[np.ndarray, " n"]
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Field:
     """The deformed wall at the Gauss–Lobatto points of every element.
 
-    There are points = (order + 1)² in each element, the radial index first.
+    Each element has (order + 1)² points; the axial index varies fastest.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Field:
     r, z : arrays (elements, points)
         Deformed coordinates, in inner radii.
     stress_rr, stress_tt, stress_zz, stress_rz : arrays (elements, points)
-        Cauchy stress, tension positive, in units of the modulus (of Pa after `in_units`).
+        Cauchy stress, tension positive, in units of the modulus, or in Pa after `in_units`.
     """
 
     R: Float[np.ndarray, "elements points"]
@@ -65,15 +65,19 @@ class Field:
     stress_rz: Float[np.ndarray, "elements points"]
 
     def in_units(self, modulus: float) -> Field:
-        """Return the wall with its stresses multiplied by `modulus`."""
+        """Return the same field with the stresses multiplied by `modulus` (in Pa)."""
         stresses = {name: modulus * getattr(self, name) for name in STRESSES}
         return replace(self, **stresses)
 
 
-@compared_by_value
+@array_dataclass
 @dataclass(frozen=True)
 class Deformation:
-    """Deformation gradient F_iJ at the points of `Field`; i deformed, J reference direction."""
+    """Deformation gradient F_iJ at the points of a `Field`.
+
+    The first index is the deformed direction, the second one the reference direction: r radial, z
+    axial, t circumferential. All components are dimensionless arrays (elements, points).
+    """
 
     F_rr: Float[np.ndarray, "elements points"]
     F_rz: Float[np.ndarray, "elements points"]
@@ -84,14 +88,14 @@ class Deformation:
 
 @dataclass(frozen=True)
 class Volume:
-    """How well volume is preserved.
+    """Error of the volume of a wall, which is exactly preserved in theory.
 
     Attributes
     ----------
     wall : float
-        Relative change of the volume of the wall.
+        Relative change of the total volume of the wall.
     rms : float
-        Root mean square of J − 1 over the reference wall.
+        Root mean square of J − 1 over the reference wall, where J is the volume ratio.
     smallest : float
         Smallest J at the integration points.
     """

@@ -1,4 +1,4 @@
-"""Grid lines whose intervals grow geometrically."""
+"""Grid lines whose intervals form a geometric sequence."""
 
 from __future__ import annotations
 
@@ -11,22 +11,23 @@ __all__ = ["graded", "growing", "intervals"]
 
 
 def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points"]:
-    """Points from 0 to `total` whose intervals grow geometrically.
+    """Return points from 0 to `total` whose intervals form a geometric sequence.
 
     Parameters
     ----------
     count : int
         Number of intervals, at least 2.
     first : float
-        Length of the first interval, positive. Where `count` intervals of this length would not
-        fit into `total`, all intervals are equal instead.
+        Length of the first interval, positive. If `count` intervals of this length do not fit into
+        `total`, all intervals are equal instead.
     total : float
-        Length of all intervals together, positive.
+        Sum of all intervals, positive, in the same unit as `first`.
 
     Returns
     -------
     array (count + 1,)
-        ``graded(2, 1.0, 3.0)`` is 0, 1, 3: the intervals 1 and 2 have the ratio 2.
+        The points, increasing. ``graded(2, 1.0, 3.0)`` returns 0, 1, 3: the ratio of the intervals
+        1 and 2 is 2.
     """
     if first * count >= total:
         return np.linspace(0.0, total, count + 1)
@@ -41,16 +42,21 @@ def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points
 
 
 def intervals(first: float, total: float, growth: float, least: int = 2) -> int:
-    """Smallest number of geometric intervals whose ratio does not exceed `growth`.
+    """Return the smallest number of geometric intervals whose ratio does not exceed `growth`.
 
     Parameters
     ----------
     first, total : float
-        Length of the first interval and of all together, positive.
+        Length of the first interval, and sum of all intervals; both positive, in the same unit.
     growth : float
-        Largest ratio of neighbouring intervals, greater than 1.
+        Largest allowed ratio of an interval to its predecessor, greater than 1.
     least : int
-        The number returned is at least this.
+        Lower bound of the result.
+
+    Returns
+    -------
+    int
+        The number n of intervals for which first (growthⁿ − 1)/(growth − 1) reaches `total`.
     """
     if first >= total:
         return least
@@ -60,5 +66,16 @@ def intervals(first: float, total: float, growth: float, least: int = 2) -> int:
 def growing(
     first: float, total: float, growth: float, least: int = 2
 ) -> Float[np.ndarray, " points"]:
-    """Points of `graded` with the smallest number of intervals that `intervals` allows."""
+    """Return the points of `graded`, with the number of intervals that `intervals` returns.
+
+    Parameters
+    ----------
+    first, total, growth, least
+        See `intervals`.
+
+    Returns
+    -------
+    array (points,)
+        Points from 0 to `total`, increasing.
+    """
     return graded(intervals(first, total, growth, least), first, total)

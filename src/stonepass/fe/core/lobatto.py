@@ -1,4 +1,4 @@
-"""Gauss–Lobatto quadrature on one edge, and polynomials given by their values at its points."""
+"""Gauss–Lobatto quadrature on one edge, and polynomials interpolated at the quadrature points."""
 
 from __future__ import annotations
 
@@ -14,17 +14,19 @@ __all__ = ["joined", "lobatto", "lobatto_rule", "lobatto_slopes", "resampling"]
 
 @lru_cache(maxsize=8)
 def lobatto(order: int) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Gauss–Lobatto points and weights on [0, 1]; exact for polynomials of degree 2 × order − 1.
+    """Return Gauss–Lobatto points and weights on [0, 1].
+
+    The rule is exact for polynomials of degree 2 × order − 1.
 
     Parameters
     ----------
     order : int
-        Degree of the polynomial through the points, at least 1.
+        Degree of the polynomial that interpolates the points, at least 1.
 
     Returns
     -------
     points, weights : arrays (order + 1,)
-        ``lobatto(2)`` is Simpson's rule: points 0, ½, 1 and weights 1/6, 4/6, 1/6.
+        ``lobatto(2)`` returns Simpson's rule: points 0, ½, 1 and weights 1/6, 4/6, 1/6.
     """
     legendre = np.polynomial.legendre.Legendre.basis(order)
     x = np.concatenate([[-1.0], np.sort(legendre.deriv().roots().real), [1.0]])
@@ -33,7 +35,7 @@ def lobatto(order: int) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"
 
 
 def lobatto_rule(order: int) -> ng.IntegrationRule:
-    """The rule of `lobatto` as an integration rule of the engine, for edges."""
+    """Return the rule of `lobatto` as an NGSolve integration rule for edges."""
     points, weights = lobatto(order)
     return ng.IntegrationRule(
         points=[(float(p), 0.0, 0.0) for p in points], weights=[float(w) for w in weights]
@@ -44,7 +46,7 @@ def lobatto_rule(order: int) -> ng.IntegrationRule:
 def resampling(
     order: int, count: int
 ) -> tuple[Float[np.ndarray, "count n"], Float[np.ndarray, "count n"]]:
-    """Matrices from the values of a polynomial at the Gauss–Lobatto points to equidistant points.
+    """Return matrices that map values at the Gauss–Lobatto points to equidistant points.
 
     Parameters
     ----------
@@ -56,25 +58,26 @@ def resampling(
     Returns
     -------
     values, slopes : arrays (count, order + 1)
-        Matrices that give the values and the derivatives. ``resampling(1, 3)`` is
-        [[1, 0], [0.5, 0.5], [0, 1]] and three rows of [-1, 1].
+        Matrices that return the values and the first derivatives of the interpolating polynomial.
+        ``resampling(1, 3)`` returns [[1, 0], [0.5, 0.5], [0, 1]] and three rows of [-1, 1].
     """
     return _basis_change(order, np.linspace(0.0, 1.0, count))
 
 
 @lru_cache(maxsize=8)
 def lobatto_slopes(order: int) -> Float[np.ndarray, "n n"]:
-    """Matrix from the values at the Gauss–Lobatto points to the derivatives at the same points.
+    """Return the differentiation matrix of the Gauss–Lobatto points on [0, 1].
 
-    ``lobatto_slopes(1)`` is [[-1, 1], [-1, 1]].
+    It maps the values of a polynomial of degree `order` at the points to its derivatives at the
+    same points. ``lobatto_slopes(1)`` returns [[-1, 1], [-1, 1]].
     """
     return _basis_change(order, lobatto(order)[0])[1]
 
 
 def joined(samples: Float[np.ndarray, "edges count"]) -> Float[np.ndarray, " n"]:
-    """Samples of successive edges in one array; the value that two edges share appears once.
+    """Concatenate samples of successive edges; a value that two edges share is kept once.
 
-    ``joined`` of [[1, 2], [2, 3]] is [1, 2, 3].
+    ``joined`` of [[1, 2], [2, 3]] returns [1, 2, 3].
     """
     return np.concatenate([samples[0, :1], samples[:, 1:].ravel()])
 
@@ -82,7 +85,7 @@ def joined(samples: Float[np.ndarray, "edges count"]) -> Float[np.ndarray, " n"]
 def _basis_change(
     order: int, points: Float[np.ndarray, " m"]
 ) -> tuple[Float[np.ndarray, "m n"], Float[np.ndarray, "m n"]]:
-    """Matrices from values at the Gauss–Lobatto points to values and derivatives at `points`."""
+    """Return matrices from values at the Gauss–Lobatto points to values and slopes at `points`."""
     basis = [np.polynomial.legendre.Legendre.basis(k, domain=[0.0, 1.0]) for k in range(order + 1)]
     inverse = np.linalg.inv(np.column_stack([b(lobatto(order)[0]) for b in basis]))
     values = np.column_stack([b(points) for b in basis])

@@ -19,23 +19,23 @@ __all__ = [
 SMALLEST_STEP = 0.02
 SUFFICIENT_DECREASE = 0.05
 LADDER = (0.05, 0.02, 0.01, 0.005, 0.0)
-# After a step that cuts the norm to FAST of what it was, its factorisation serves again, as long
-# as each further step cuts it to STEADY.
+# A factorisation is reused after a step that reduces the norm by the factor FAST, for as long as
+# each further step reduces the norm by the factor STEADY.
 FAST, STEADY = 0.1, 0.3
 
 
 @dataclass(frozen=True)
 class Report:
-    """How a Newton iteration ended.
+    """Result of a Newton iteration.
 
     Attributes
     ----------
     steps : int
-        Newton steps for which a new tangent was factorised.
+        Number of Newton steps for which a new tangent was factorised.
     residual : float
-        Last norm of the residual.
+        Norm of the residual at the last state, in the units of the system.
     reason : str
-        Why the iteration did not converge; empty where it did.
+        Reason why the iteration did not converge; empty if it converged.
     """
 
     steps: int
@@ -44,25 +44,25 @@ class Report:
 
     @property
     def converged(self) -> bool:
-        """Whether the tolerance was met."""
+        """True if the tolerance was met."""
         return not self.reason
 
 
 class SingularTangent(Exception):
-    """The tangent could not be factorised, or does not determine the scalar unknowns."""
+    """The tangent matrix could not be factorised, or the scalar unknowns are not determined."""
 
 
 @runtime_checkable
 class System(Protocol):
-    """A nonlinear system whose current state can be moved along a direction."""
+    """A nonlinear system whose current state can be moved along a Newton direction."""
 
     def residual(self) -> float:
-        """Norm of the residual at the current state."""
+        """Return the norm of the residual at the current state."""
 
     def direction(self, *, again: bool = False) -> None:
-        """Compute the Newton direction and keep the current state as its origin.
+        """Compute the Newton direction and store the current state as its origin.
 
-        With `again` the last factorisation is used instead of a new one.
+        If `again` is true, the last factorisation is reused instead of a new one.
         """
 
     def move(self, step: float) -> None:
@@ -83,29 +83,30 @@ class RestartableSystem(System, Protocol):
 def newton(system: System, tolerance: float, most: int = 40, polish: float = 1.0) -> Report:
     """Iterate until the norm of the residual is at most `tolerance`.
 
-    The step is halved until the norm falls by `SUFFICIENT_DECREASE` × step. The smallest step,
-    `SMALLEST_STEP`, is taken in any case, because with contact the norm may have to rise first.
-    After a step that reduces the norm to `FAST` of its value, the same factorisation is used for
-    further steps as long as each of them reduces the norm to `STEADY` of its value. These steps
-    are not counted, since each costs about a tenth of a step with a new factorisation.
+    The step is halved until the norm has decreased by the fraction `SUFFICIENT_DECREASE` × step.
+    The smallest step, `SMALLEST_STEP`, is accepted in any case, because in contact problems the
+    norm may have to increase first. After a step that reduces the norm by the factor `FAST`, the
+    same factorisation is reused as long as each further step reduces the norm by the factor
+    `STEADY`. These further steps are not counted: each costs about a tenth of a step with a new
+    factorisation.
 
     Parameters
     ----------
     system : System
-        Its state is the starting point; afterwards it holds the last state.
+        Its state is the starting point. After the call it holds the last state.
     tolerance : float
-        Largest norm of the residual that counts as converged, in the units of the system.
+        Largest norm of the residual that counts as converged, positive, in the units of the system.
     most : int
         Largest number of steps with a new tangent.
     polish : float
-        After convergence the last factorisation is used to reduce the norm further, to
-        `polish` × `tolerance`, as long as that succeeds; in (0, 1].
+        Factor in (0, 1]. After convergence the last factorisation is used to reduce the norm
+        further, to `polish` × `tolerance`, as long as the norm keeps falling fast enough.
 
     Returns
     -------
     Report
-        Not converged if the tangent is singular, if the state is not finite even after the
-        smallest step, or after `most` steps.
+        The iteration has not converged if the tangent is singular, if the residual is not finite
+        even after the smallest step, or if `most` steps were not enough.
     """
     norm = system.residual()
     for count in range(most):
@@ -119,7 +120,7 @@ def newton(system: System, tolerance: float, most: int = 40, polish: float = 1.0
             return Report(count, norm, "the tangent matrix is singular")
         norm, last = _line_search(system, norm), norm
         if not math.isfinite(norm):
-            return Report(count + 1, last, "the wall turned inside out during the iteration")
+            return Report(count + 1, last, "an iterate had no finite residual")
         if norm <= FAST * last:
             norm = _same_tangent(system, norm, tolerance)
     if norm <= tolerance:
@@ -134,21 +135,26 @@ def newton_or_homotopy(
     most: int = 30,
     polish: float = 1.0,
 ) -> Report:
-    """Iterate directly; if that fails, restart and follow a sequence of stiffer problems.
+    """Iterate directly; if that fails, restart and solve a sequence of stiffened walls.
+
+    The sequence (homotopy) adds a neo-Hookean matrix to the wall, whose shear modulus is lowered
+    step by step to zero. Each solution is the starting point of the next one. See "Friction and its
+    path" in docs/theory.md.
 
     Parameters
     ----------
     system : RestartableSystem
+        Its state is the starting point. After the call it holds the last state.
     stiffen : callable
-        Sets the shear modulus of a matrix that is added to the wall, in units of the modulus of
-        the problem. It is called with the values of `LADDER`, of which the last is zero.
+        ``stiffen(s)`` sets the shear modulus s of the added matrix, in units of the modulus. It is
+        called with the values of `LADDER`, the last of which is zero.
     tolerance, most, polish
         See `newton`.
 
     Returns
     -------
     Report
-        `steps` counts the steps of all attempts.
+        Result of the last iteration; `steps` counts the steps of all attempts.
     """
     start = system.remember()
     report = newton(system, tolerance, most, polish)
@@ -167,12 +173,12 @@ def newton_or_homotopy(
 
 
 def _line_search(system: System, start: float) -> float:
-    """Halve the step until the norm falls sufficiently from `start`; return the new norm."""
+    """Halve the step until the norm is sufficiently below `start`; return the new norm."""
     step = 1.0
     while True:
         system.move(step)
         norm = system.residual()
-        if norm <= start * (1.0 - SUFFICIENT_DECREASE * step):  # False for NaN
+        if norm <= start * (1.0 - SUFFICIENT_DECREASE * step):  # false if the norm is NaN
             return norm
         if step <= SMALLEST_STEP:
             return norm
@@ -180,7 +186,7 @@ def _line_search(system: System, start: float) -> float:
 
 
 def _same_tangent(system: System, norm: float, tolerance: float) -> float:
-    """Iterate with the last factorisation while the norm falls fast; undo a step that does not."""
+    """Reuse the last factorisation while the norm falls by `STEADY`; undo the first slower step."""
     while norm > tolerance:
         try:
             system.direction(again=True)
@@ -188,7 +194,7 @@ def _same_tangent(system: System, norm: float, tolerance: float) -> float:
             return norm
         system.move(1.0)
         found = system.residual()
-        if not found <= STEADY * norm:  # NaN too
+        if not found <= STEADY * norm:  # also true if the norm is NaN
             system.move(0.0)
             return norm
         norm = found

@@ -1,7 +1,7 @@
-"""A root between two numbers by Brent's method.
+"""Brent's method for a root in an interval.
 
-It is written out here because `scipy.optimize`, which has the same, takes as long to import as a
-frictionless case takes to solve.
+The method is implemented here because the import of `scipy.optimize`, which contains it as
+`brentq`, takes as long as the solution of a frictionless case.
 """
 
 from __future__ import annotations
@@ -14,33 +14,40 @@ import numpy as np
 
 __all__ = ["bracketed_root"]
 
-RELATIVE = 4.0 * float(np.finfo(float).eps)  # of the root: no method comes nearer
+RELATIVE = 4.0 * float(np.finfo(float).eps)  # smallest relative tolerance: four rounding errors
 MOST_STEPS = 100
 
 
 def bracketed_root(
     function: Callable[[float], Any], first: float, last: float, xtol: float = 2e-12
 ) -> float:
-    """Root between two numbers at which the function has opposite signs.
+    """Find a root between two points at which the function has opposite signs.
 
-    Brent's method (Algorithms for Minimization without Derivatives, 1973, chapter 4), step by step
-    as `scipy.optimize.brentq` takes it, so that both return the same number.
+    The function implements Brent's method (Algorithms for Minimization without Derivatives, 1973,
+    chapter 4) with the same sequence of steps as `scipy.optimize.brentq`, so that both return the
+    same number.
 
     Parameters
     ----------
     function : callable
-        Continuous function of one number.
+        Continuous real function of one real number.
     first, last : float
         Ends of the interval, in either order.
     xtol : float
-        The root is known to within `xtol` plus four rounding errors of itself.
+        Absolute tolerance of the root, positive. A relative tolerance of four rounding errors is
+        added to it.
+
+    Returns
+    -------
+    float
+        The root. If the function is zero at an end of the interval, that end is returned.
 
     Raises
     ------
     ValueError
-        Where the function has one sign at both ends.
+        The function has the same sign at both ends.
     FloatingPointError
-        Where the function is not a number, or no root is found in 100 steps.
+        A value of the function is NaN, or no root is found in 100 steps.
     """
     before, here = float(first), float(last)
     f_before, f_here = float(function(before)), float(function(here))
@@ -53,7 +60,7 @@ def bracketed_root(
         raise ValueError("the function must have opposite signs at the ends of the interval")
     other = f_other = step = earlier = 0.0
     for _ in range(MOST_STEPS):
-        # `other` lies on the other side of the root, and `here` is the better of the two.
+        # `here` and `other` enclose the root, and the function is smaller at `here`.
         if f_before != 0.0 and f_here != 0.0 and (f_before < 0.0) != (f_here < 0.0):
             other, f_other = before, f_before
             step = earlier = here - before
@@ -85,7 +92,7 @@ def bracketed_root(
 def _interpolated(
     before: float, here: float, other: float, f_before: float, f_here: float, f_other: float
 ) -> float:
-    """The step to the root of a line through two points or of an inverse parabola through three."""
+    """Return the step to the root of a line (two points) or of an inverse parabola (three)."""
     if before == other:
         return -f_here * (here - before) / (f_here - f_before)
     near = (f_before - f_here) / (before - here)

@@ -1,4 +1,4 @@
-"""Systems of equations for Newton's method: a form, and a form bordered by scalar unknowns."""
+"""Nonlinear systems for Newton's method: a form, and a form bordered by scalar unknowns."""
 
 from __future__ import annotations
 
@@ -14,25 +14,24 @@ from stonepass.fe.core.newton import SingularTangent
 
 __all__ = ["BorderedSystem", "FormSystem"]
 
-MOST = 0.3  # largest change of a scalar unknown in one step, in units of its scale
-DIFFERENCE = 1e-6  # of the scale, for difference quotients
-ROUNDED = 2.0**-30  # relative change of the unknowns from which the effect of rounding is scaled
+MOST = 0.3  # largest change of a scalar unknown in one step, as a fraction of its scale
+DIFFERENCE = 1e-6  # increment of a difference quotient, as a fraction of the unknown's scale
+ROUNDED = 2.0**-30  # relative change of the unknowns by which the effect of rounding is measured
 
 
 class FormSystem:
-    """A finite-element form whose residual in the free unknowns is to vanish.
+    """The nonlinear system "residual of a finite-element form = 0" in the free unknowns.
 
-    The object is a workspace of the engine: it reads and moves `state`, a grid function, and keeps
-    the factorisation of the condensed tangent.
+    The object changes `state` in place and keeps the factorisation of the condensed tangent.
 
     Parameters
     ----------
     form : ngsolve.BilinearForm
-        The nonlinear form, with static condensation.
+        The nonlinear form, created with static condensation.
     state : ngsolve.GridFunction
         The current state.
     free : ngsolve.BitArray
-        Which unknowns are solved for.
+        Mask of the unknowns that are solved for; the others keep their values.
     """
 
     def __init__(self, form: Any, state: Any, free: Any) -> None:
@@ -41,7 +40,7 @@ class FormSystem:
         self._inverse: Any = None
         self._coupling = free & state.space.FreeDofs(True)
         self._force, self._change, self._origin = (state.vec.CreateVector() for _ in range(3))
-        self._known = False  # whether `_force` is the residual at the current state
+        self._known = False  # true if `_force` is the residual at the current state
 
     def evaluate(self, into: Any) -> None:
         """Write the residual vector at the current state into `into`."""
@@ -49,16 +48,17 @@ class FormSystem:
         self._keep.Project(into)
 
     def residual(self) -> float:
-        """Norm of the residual at the current state."""
+        """Return the norm of the residual at the current state."""
         self.evaluate(self._force)
         self._known = True
         return float(ng.Norm(self._force))
 
     def rounding(self) -> float:
-        """Estimate the norm of the residual that rounding of the unknowns leaves near this state.
+        """Estimate the norm of the residual that is due to rounding of the unknowns.
 
-        Every unknown is changed by a small fraction of itself, with random signs, and the change
-        of the residual is scaled down to the relative precision of a floating-point number.
+        Every unknown is changed by the small fraction `ROUNDED` of itself, with random signs. The
+        resulting change of the residual is scaled down to the relative precision of a
+        floating-point number.
         """
         self.evaluate(self._force)
         kept = self.remember()
@@ -71,7 +71,7 @@ class FormSystem:
         return float(ng.Norm(self._change)) * np.finfo(float).eps / ROUNDED
 
     def direction(self, *, again: bool = False) -> None:
-        """Linearise and factorise, unless `again`, and solve."""
+        """Compute the Newton direction; with `again`, reuse the last factorisation."""
         self._origin.data = self.state.vec
         if not self._known:
             self.evaluate(self._force)
@@ -81,10 +81,10 @@ class FormSystem:
         self._known = False
 
     def move(self, step: float) -> None:
-        """Go to origin − step × change."""
+        """Set the state to origin − `step` × change, where change = tangent⁻¹ × residual."""
         self._known = False
         self.state.vec.data = self._origin
-        if step != 0.0:  # 0 × NaN is NaN, and this is the way back
+        if step != 0.0:  # step 0 restores the origin even where the change is NaN
             self.state.vec.data -= step * self._change
 
     def remember(self) -> Any:
@@ -101,7 +101,12 @@ class FormSystem:
     def factorise(self) -> None:
         """Assemble the tangent at the current state and factorise its condensed part.
 
-        The sparsity pattern does not change, so it is analysed only once.
+        The sparsity pattern never changes, so it is analysed only once.
+
+        Raises
+        ------
+        SingularTangent
+            The factorisation failed.
         """
         try:
             self.form.AssembleLinearization(self.state.vec)
@@ -109,11 +114,11 @@ class FormSystem:
                 self._inverse = self.form.mat.Inverse(self._coupling, inverse="umfpack")
             else:
                 self._inverse.Update()
-        except Exception as problem:  # the engine's own kinds have no public name
+        except Exception as problem:  # NGSolve's exception types have no public names
             raise SingularTangent from problem
 
     def solve(self, rhs: Any, into: Any) -> None:
-        """Solve tangent × into = rhs, element interiors included; overwrites `rhs`."""
+        """Solve tangent × `into` = `rhs`, including the condensed unknowns; overwrite `rhs`."""
         form = self.form
         rhs.data += form.harmonic_extension_trans * rhs
         into.data = self._inverse * rhs
@@ -122,11 +127,11 @@ class FormSystem:
 
 
 class BorderedSystem(FormSystem):
-    """A form with additional scalar unknowns and as many conditions that must vanish.
+    """A form with additional scalar unknowns and the same number of additional scalar equations.
 
-    The contributions of the scalars to the tangent are difference quotients, so each Newton step
-    costs one factorisation, and one solve more for each scalar. A step changes no scalar by more
-    than the fraction `MOST` of its scale.
+    The derivatives with respect to the scalars are difference quotients, so a Newton step costs one
+    factorisation and, for each scalar, one additional solve. No step changes a scalar by more than
+    the fraction `MOST` of its scale.
 
     Parameters
     ----------
@@ -135,12 +140,13 @@ class BorderedSystem(FormSystem):
     values : array (scalars,)
         First guess of the scalar unknowns.
     scale : array (scalars,)
-        Their typical size, positive.
+        Typical magnitudes of the scalar unknowns, positive, in their units.
     apply : callable
-        ``apply(values)`` makes the form depend on the scalars, e.g. by moving mesh nodes, and
-        returns whether these values are possible.
+        ``apply(values)`` makes the form depend on the scalars, e.g. by moving mesh nodes. It
+        returns False if the values are not admissible.
     conditions : callable
-        ``conditions()`` returns, for the current state, the scalars that must vanish.
+        ``conditions()`` returns the left-hand sides of the scalar equations at the current state,
+        as an array (scalars,); they vanish at the solution.
     """
 
     def __init__(
@@ -161,25 +167,25 @@ class BorderedSystem(FormSystem):
         self._possible = apply(values)
 
     def remember(self) -> Any:
-        """Return copies of the current state and of the scalars."""
+        """Return copies of the current state and of the scalar unknowns."""
         return super().remember(), self.values
 
     def recall(self, kept: Any) -> None:
-        """Set state and scalars to copies that `remember` returned."""
+        """Set the state and the scalar unknowns to copies that `remember` returned."""
         state, self.values = kept
         super().recall(state)
         self._possible = self._apply(self.values)
 
     def residual(self) -> float:
-        """Norm of the residual and the conditions together; infinite for impossible scalars."""
+        """Return the norm of residual and conditions; infinity if the scalars are inadmissible."""
         if not self._possible:
             return math.inf
         self._missed = self._conditions()
-        # `math.hypot` does not overflow, so a step to huge numbers is refused like any other.
+        # `math.hypot` does not overflow, so the line search also rejects a step to huge numbers.
         return math.hypot(super().residual(), *self._missed.tolist())
 
     def direction(self, *, again: bool = False) -> None:
-        """Solve the bordered system by block elimination."""
+        """Compute the Newton direction of the bordered system by block elimination."""
         self._origin_values = self.values
         if not again:
             if not self._known:
@@ -201,7 +207,7 @@ class BorderedSystem(FormSystem):
             raise SingularTangent
 
     def move(self, step: float) -> None:
-        """Go to origin + step × direction."""
+        """Set the state and the scalars to origin + `step` × direction, with a limited step."""
         farthest = np.abs(step * self._rates / self._scale).max() / MOST
         if farthest > 1.0:
             step /= farthest
@@ -214,7 +220,11 @@ class BorderedSystem(FormSystem):
             self.state.vec.data -= step * rate * column
 
     def _by_values(self) -> Float[np.ndarray, "scalars scalars"]:
-        """Derivatives by the scalars: the residual's into the columns, the conditions' returned."""
+        """Differentiate with respect to the scalars.
+
+        The derivatives of the residual are written into `_columns`; those of the conditions are
+        returned.
+        """
         slopes = []
         for k, column in enumerate(self._columns):
             increment = DIFFERENCE * self._scale[k]
@@ -228,7 +238,7 @@ class BorderedSystem(FormSystem):
         return np.column_stack(slopes)
 
     def _along(self, way: Any) -> Float[np.ndarray, " scalars"]:
-        """Derivative of the conditions along a change of the state."""
+        """Return the derivative of the conditions along the change `way` of the state."""
         length = float(ng.Norm(way))
         if length == 0.0:
             return np.zeros_like(self._missed)

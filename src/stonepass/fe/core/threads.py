@@ -1,4 +1,4 @@
-"""One BLAS thread: the matrices are small, so one thread is faster and needs half the CPU time."""
+"""Limit of BLAS to one thread: for small matrices that is faster and halves the CPU time."""
 
 from __future__ import annotations
 
@@ -12,12 +12,7 @@ __all__ = ["one_thread"]
 
 
 def one_thread() -> AbstractContextManager[Any]:
-    """Limit BLAS to one thread within a ``with`` block; the old limit returns at its end.
-
-    Returns
-    -------
-    context manager
-    """
+    """Return a context manager that limits BLAS to one thread and restores the old limit."""
     limit: AbstractContextManager[Any] = _blas().limit(limits=1, user_api="blas")
     return limit
 

@@ -9,7 +9,7 @@ import pytest
 from options import asking
 
 import stonepass as sp
-from stonepass.equality import compared_by_value, equal
+from stonepass.array_dataclass import array_dataclass, equal
 
 pytestmark = pytest.mark.usefixtures("shared_solutions")
 FAST = asking(accuracy="fast", seating="frictionless")
@@ -34,7 +34,7 @@ def test_every_value_with_arrays_says_how_it_is_compared():
     wrong = [
         kind.__name__
         for kind in kinds
-        if kind.__eq__ is not object.__eq__ and "compared_by_value" not in kind.__eq__.__qualname__
+        if kind.__eq__ is not object.__eq__ and "array_dataclass" not in kind.__eq__.__qualname__
     ]
     assert wrong == []
 
@@ -56,7 +56,7 @@ def test_answers_are_equal_where_their_numbers_are():
         hash(one)
 
 
-@compared_by_value
+@array_dataclass
 @dataclasses.dataclass(frozen=True)
 class Sample:
     values: np.ndarray

@@ -1,0 +1,89 @@
+"""Pages that follow from the code: the Python interface and the command line."""
+
+from pathlib import Path
+
+from typer.cli import get_docs_for_click
+from typer.main import get_command
+
+import stonepass
+from stonepass.cli.app import app as command_line
+
+# Groups of the Python interface: title, and the packages whose public names it has.
+GROUPS = {
+    "Questions, cases and answers": ("model",),
+    "Wall laws and materials": ("materials",),
+    "Reading and writing files": ("inputs",),
+    "Studies of many cases": ("studies",),
+    "Laboratory": ("bench",),
+    "Friction from a surface": ("surface",),
+    "Patients": ("clinic",),
+    "Errors, outcomes and warnings": ("errors", "caution"),
+    "Records": ("records",),
+}
+INTRODUCTION = """# Python interface
+
+This page lists every public name of the package, which is `import stonepass as sp` in the
+examples. Quantities are accepted as text with a unit (`"4.2 mm"`) or as SI numbers; results are in
+SI units. The [glossary](../glossary.md) explains the words and the symbols.
+"""
+RECORDS = """
+Records are the results as they are printed by `--json`: typed, versioned and with units in
+their keys. The [keys of records](../reference.md) have a page of their own.
+"""
+
+
+def homes():
+    """Return the package in which each public name lives."""
+    return {name: stonepass._HOME[name].split(".")[0] for name in stonepass.__all__}
+
+
+def python_interface():
+    """Return the page of the Python interface: every name of `stonepass.__all__`, in groups."""
+    lines, left = [INTRODUCTION], homes()
+    for title, packages in GROUPS.items():
+        names = [name for name, home in left.items() if home in packages]
+        left = {name: home for name, home in left.items() if name not in names}
+        lines += [f"## {title}", RECORDS if title == "Records" else "", "```{eval-rst}"]
+        lines += [_directive(name) for name in sorted(names, key=_functions_first)]
+        lines += ["```", ""]
+    if left:
+        raise ValueError(f"no group of the page of the Python interface has {sorted(left)}")
+    return "\n".join(lines)
+
+
+def _functions_first(name):
+    return isinstance(getattr(stonepass, name), type), name
+
+
+def _directive(name):
+    thing = getattr(stonepass, name)
+    if not isinstance(thing, type):
+        return f".. autofunction:: stonepass.{name}\n"
+    if name.endswith("Record"):
+        return f".. autoclass:: stonepass.{name}()\n"
+    return f".. autoclass:: stonepass.{name}\n   :members:\n"
+
+
+def command_line_page():
+    """Return the page of the command line, written by Typer from the application itself."""
+    command = get_command(command_line)
+    with command.make_context("stonepass", ["--help"], resilient_parsing=True) as context:
+        context.resilient_parsing = False
+        text = get_docs_for_click(obj=command, ctx=context, name="stonepass", title="Command line")
+    return text.replace("* `", "- `")
+
+
+def write(app):
+    """Write both pages where the build reads them; they are not under version control."""
+    folder = Path(app.srcdir) / "generated"
+    folder.mkdir(exist_ok=True)
+    for name, text in (("api.md", python_interface()), ("command_line.md", command_line_page())):
+        path = folder / name
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def setup(app):
+    """Write the pages before anything is read."""
+    app.connect("builder-inited", write)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,183 @@
+"""The main graph of each result, drawn on axes that the caller chooses."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from stonepass.bench.invitro import InVitro
+from stonepass.bench.law_fit import FittedLaw
+from stonepass.clinic.assessment import Assessment
+from stonepass.errors import BadInput
+from stonepass.model.answer import Answer
+from stonepass.model.size import SizeAnswer
+from stonepass.report.curve_figure import draw_curve, frame_curve
+from stonepass.report.style import COLOURS, angle_label, tidy
+from stonepass.report.table import case_title
+from stonepass.studies.closures import CLOSURES, ClosureComparison
+from stonepass.studies.curve import CriticalCurve
+from stonepass.studies.rising import Rising
+from stonepass.surface.friction import SurfaceFriction
+
+__all__ = [
+    "plot_answer",
+    "plot_assessment",
+    "plot_closures",
+    "plot_curve",
+    "plot_fit",
+    "plot_friction",
+    "plot_rising",
+    "plot_series",
+    "plot_size",
+]
+
+POINTS = 400  # of a drawn line
+MICRO = 1e6
+SHADES = ("blue", "orange", "green", "pink", "grey")
+MARKS = ("o", "s", "^", "D", "v")
+LINES = ("-", "--", "-.", ":")
+
+
+def plot_answer(answer: Answer, axes: Axes) -> None:
+    """Draw the contact pressure over the angle on the stone, and how far the wall opens."""
+    contact = answer.contact
+    if contact is None:
+        raise BadInput("plot", answer.outcome.name, "asked for where there is a contact to draw")
+    theta = np.linspace(contact.contact_angle, contact.downstream_angle, POINTS)
+    pressure = contact.pressure_at(theta) / 1e3
+    axes.fill_between(np.degrees(theta), pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
+    axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"], label="contact pressure σ")
+    if answer.critical_angle is not None:
+        axes.axvline(
+            np.degrees(answer.critical_angle),
+            color=COLOURS["orange"],
+            linestyle="--",
+            label=f"the wall opens to {np.degrees(answer.critical_angle):.1f}°",
+        )
+    axes.set(
+        xlabel=angle_label(sphere=answer.case.stone.shape.spherical),
+        ylabel="contact pressure (kPa)",
+        ylim=(0.0, None),
+    )
+    axes.set_title(case_title(answer.case), loc="left", fontsize="medium")
+    axes.legend()
+    tidy(axes)
+
+
+def plot_size(answer: SizeAnswer, axes: Axes) -> None:
+    """Draw the contact pressure on a stone of the critical size."""
+    if answer.at_size is None or answer.size_ratio is None:
+        raise BadInput("plot", answer.outcome.name, "asked for where a critical size was found")
+    plot_answer(answer.at_size, axes)
+
+
+def plot_curve(curve: CriticalCurve, axes: Axes) -> None:
+    """Draw the critical pressure over the size ratio; unanswered sizes are crosses at zero."""
+    draw_curve(axes, curve, 0, f"model {curve[0].model.NAME}")
+    frame_curve(axes)
+    axes.set_title(case_title(curve[0].case, with_stone=False), loc="left", fontsize="medium")
+    axes.legend()
+
+
+def plot_closures(found: ClosureComparison, axes: Axes) -> None:
+    """Draw the critical pressure by each closure, with the direct model as a line."""
+    names = [name for name in CLOSURES if found.pressures[name] is not None]
+    if not names:
+        raise BadInput("plot", found.outcome.name, "asked for where a closure has a pressure")
+    pressures = [(found.pressures[name] or 0.0) / 1e3 for name in names]
+    axes.barh(names, pressures, color=COLOURS["blue"], height=0.6)
+    direct = found.pressures["direct"]
+    if direct is not None:
+        axes.axvline(direct / 1e3, color=COLOURS["orange"], linestyle="--", label="direct model")
+        axes.legend()
+    axes.invert_yaxis()
+    axes.set(xlabel="critical pressure (kPa)", ylabel="closure")
+    axes.set_title(case_title(found.case), loc="left", fontsize="medium")
+    tidy(axes)
+
+
+def plot_rising(rising: Rising, axes: Axes) -> None:
+    """Draw the axial force on the held stone over the urine pressure."""
+    if not rising.states:
+        raise BadInput("plot", rising.critical.outcome.name, "asked for where a state was found")
+    axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.8)
+    axes.plot(
+        [state.urine_pressure / 1e3 for state in rising.states],
+        [state.net_force / 1e3 for state in rising.states],
+        marker="o",
+        markersize=3,
+        color=COLOURS["blue"],
+        label="net force over the cross-section of the stone",
+    )
+    if rising.critical.pressure:
+        axes.axvline(rising.critical.pressure / 1e3, color=COLOURS["orange"], linestyle="--",
+                     label="critical pressure")  # fmt: skip
+    axes.set(xlabel="urine pressure (kPa)", ylabel="net force / area (kPa)")
+    axes.set_title(case_title(rising.critical.case), loc="left", fontsize="medium")
+    axes.legend()
+    tidy(axes)
+
+
+def plot_fit(found: FittedLaw, axes: Axes) -> None:
+    """Draw the measured points and the fitted law, a colour and a mark for each curve."""
+    data, groups = found.data, np.array(found.data.groups)
+    for k, group in enumerate(dict.fromkeys(found.data.groups)):
+        chosen = np.flatnonzero(groups == group)
+        order = chosen[np.argsort(data.abscissa[chosen])]
+        colour = COLOURS[SHADES[k % len(SHADES)]]
+        x = data.abscissa[order]
+        axes.plot(x, data.observed[order] / 1e3, MARKS[k % len(MARKS)], markersize=4, color=colour)
+        axes.plot(x, found.predicted[order] / 1e3, LINES[k % len(LINES)], color=colour, label=group)
+    stretch = data.measured == "nominal stress"
+    label = "stretch (–)" if stretch else "inner radius over that at rest (–)"
+    axes.set(xlabel=label, ylabel=f"{data.measured} (kPa)")
+    axes.set_title(found.summary().partition(";")[0], loc="left", fontsize="medium")
+    axes.legend(title="lines: law, marks: data")
+    tidy(axes)
+
+
+def plot_series(found: InVitro, axes: Axes) -> None:
+    """Draw the model's critical pressure over the measured one, with the line of equality."""
+    shown = found.comparison
+    measured, predicted = shown.measured / 1e3, shown.predicted / 1e3
+    if not shown.compared:
+        raise BadInput("plot", "a series without answers", "asked for where a point has an answer")
+    top = 1.05 * float(max(measured.max(), predicted.max()))
+    axes.plot([0.0, top], [0.0, top], color=COLOURS["grey"], linewidth=0.8, label="equality")
+    axes.plot(measured, predicted, "o", color=COLOURS["blue"],
+              label=f"model at friction {shown.friction:.3g}")  # fmt: skip
+    axes.set(xlabel="measured critical pressure (kPa)", ylabel="critical pressure, model (kPa)")
+    axes.set_title(found.summary().partition(",")[0], loc="left", fontsize="medium")
+    axes.legend()
+    tidy(axes)
+
+
+def plot_friction(found: SurfaceFriction, axes: Axes) -> None:
+    """Draw the mean profile of the surface with its baseline."""
+    x = found.distance * MICRO
+    axes.plot(x, found.mean * MICRO, color=COLOURS["ink"], linewidth=0.8, label="mean profile")
+    axes.plot(x, found.baseline.at(found.distance) * MICRO, color=COLOURS["orange"],
+              linestyle="--", label=f"baseline, order {found.baseline.order}")  # fmt: skip
+    axes.set(xlabel="distance along the path (µm)", ylabel="height (µm)")
+    axes.set_title(found.summary().partition(",")[0], loc="left", fontsize="medium")
+    axes.legend()
+    tidy(axes)
+
+
+def plot_assessment(found: Assessment, axes: Axes) -> None:
+    """Draw the fraction of samples whose critical pressure is below a pressure."""
+    samples, limit = found.samples, float(found.patient.limit)
+    if samples is None:
+        raise BadInput("plot", found.outcome.name, "asked for where there are samples to draw")
+    grid = np.linspace(0.0, 2.0 * limit, POINTS)[1:]
+    fractions = [samples.below(float(pressure)) for pressure in grid]
+    low = np.array([each.low for each in fractions])
+    high = np.array([each.high for each in fractions])
+    axes.fill_between(grid / 1e3, 100 * low, 100 * high, color=COLOURS["blue"], alpha=0.2,
+                      linewidth=0)  # fmt: skip
+    axes.plot(grid / 1e3, 100 * low, color=COLOURS["blue"], label="critical pressure is below")
+    axes.axvline(limit / 1e3, color=COLOURS["orange"], linestyle="--", label="pressure limit")
+    axes.set(xlabel="pressure (kPa)", ylabel="fraction of samples (%)", ylim=(0.0, 100.0))
+    axes.set_title(found.summary(), loc="left", fontsize="medium")
+    axes.legend()
+    tidy(axes)

@@ -20,6 +20,7 @@ extensions = [
     "sphinx.ext.doctest",
     "sphinx_copybutton",
     "mathml",  # docs/_ext: equations as MathML, without a script
+    "dark_figures",  # docs/_ext: figures in the colours of the dark theme
     "generated_pages",  # docs/_ext: pages of the Python interface and of the command line
 ]
 exclude_patterns = ["_build", "_ext"]

@@ -221,7 +221,7 @@ def test_figure_shows_every_point_and_curve():
     series_axes, region = invitro_figure(found, curves).axes[:2]
     marks = sum(len(c.lines[0].get_xdata()) for c in series_axes.containers)
     assert marks == len(points)
-    assert region.get_xlabel() == "friction"
+    assert region.get_xlabel() == "friction μ"
 
 
 def with_sd(points, share):

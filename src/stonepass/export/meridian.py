@@ -41,28 +41,6 @@ class Meridian:
     stress: dict[str, Float[np.ndarray, " points"]]
     quads: Int[np.ndarray, "quads 4"]
 
-    def edges(
-        self, quads: Int[np.ndarray, "quads 4"], along: Float[np.ndarray, " points"], at: float
-    ) -> Int[np.ndarray, "edges 2"]:
-        """Return the edges of quadrilaterals that lie on a line of constant coordinate.
-
-        Parameters
-        ----------
-        quads : array (quads, 4)
-            Indices of the corners of some quadrilaterals.
-        along : array (points)
-            The coordinate of all points, e.g. `R`, in inner radii.
-        at : float
-            Value of the coordinate on the line, in inner radii.
-
-        Returns
-        -------
-        array (edges, 2)
-            Indices of the end points of each edge.
-        """
-        edges = np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)])
-        return edges[np.all(np.abs(along[edges] - at) < 1e-9, axis=1)]
-
 
 def meridian(wall: Field, *, mirrored: bool) -> Meridian:
     """Return the meridian of a solved wall.

@@ -14,17 +14,28 @@ from stonepass.inputs.measured_pressures import Point
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.load import Load
-from stonepass.paper.inputs import LATEX_WALLS, WATER, latex_case
+from stonepass.paper.inputs import LATEX_FRICTION, LATEX_WALLS, WATER, latex_case
 from stonepass.paper.section import Asked, Claim, Illustration, Section, answers_table
-from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
+from stonepass.report.style import (
+    COLOURS,
+    SERIES,
+    add_heading,
+    add_mmhg_axis,
+    in_style,
+    mark_unanswered,
+    new_figure,
+    tidy,
+)
 from stonepass.studies.jobs import Job, PressureJob, Results
 
 __all__ = ["Fig6"]
 
 SIZES = tuple(float(x) for x in np.round(np.linspace(1.0, 1.5, 11), 10))
 LOADS = (Load(), Load(WATER, "hydrostatic"), Load(WATER, "dead"))
-SHADES = dict(zip(LATEX_WALLS, ("blue", "orange", "green"), strict=True))
+SHADES = {eta: SERIES[k][0] for k, eta in enumerate(LATEX_WALLS)}
+MARKS = {eta: SERIES[k][2] for k, eta in enumerate(LATEX_WALLS)}
 LINES = ("-", "-", "--")
+NO_ANSWER = "no answer: drive stays below resistance"
 
 
 class Fig6:
@@ -43,7 +54,8 @@ class Fig6:
     @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw both panels, write the curves, compare with points."""
-        figure = new_figure(9.2, 4.0)
+        figure = new_figure(9.2, 4.6)
+        add_heading(figure, f"Steel spheres in latex tubes · μ = {LATEX_FRICTION:g} · model: paper")
         air, water = (figure.add_subplot(1, 2, k) for k in (1, 2))
         answers = []
         for load, line in zip(LOADS, LINES, strict=True):
@@ -51,13 +63,14 @@ class Fig6:
             for eta in LATEX_WALLS:
                 curve = [found.answer(latex_case(eta, xi, load)) for xi in SIZES]
                 label = f"η = {eta:g}" if line == "-" else None
-                _draw(axes, curve, COLOURS[SHADES[eta]], line, label)
+                _draw(axes, curve, eta, line, label)
                 answers += curve
         if asked.points:
             _draw_points(air, water, asked.points)
         water.plot([], [], color=COLOURS["ink"], linestyle="--", label="dead load (Eq. 10)")
-        for axes, title in ((air, "In air"), (water, f"Under {WATER / 1e3:g} kPa of water")):
-            axes.set(xlabel="size ratio ξ", ylabel="critical pressure (kPa)", ylim=(0, None))
+        highest = max(air.get_ylim()[1], water.get_ylim()[1])
+        for axes, title in ((air, "a  In air"), (water, f"b  Under {WATER / 1e3:g} kPa of water")):
+            axes.set(xlabel="size ratio ξ", ylabel="critical pressure (kPa)", ylim=(0, highest))
             axes.set_title(title)
             axes.legend(loc="upper left", fontsize=8)
             tidy(axes)
@@ -65,8 +78,8 @@ class Fig6:
         caption = (
             "Critical pressure of steel spheres in latex tubes, friction 0.475. Under water the "
             "pressure on the outer wall is hydrostatic (solid); Eq. 10 keeps its resultant instead "
-            "(dashed). Crosses: drive and resistance do not balance before the closure ends "
-            "(BEYOND_CLOSURE)."
+            "(dashed). Crosses at the top: no critical pressure, since drive and resistance do not "
+            "balance before the closure ends (BEYOND_CLOSURE)."
         )
         header = ("wall_ratio", "confining_kPa", "confinement", "size_ratio", "outcome",
                   "critical_pressure_kPa", "critical_pressure_error_kPa")  # fmt: skip
@@ -85,17 +98,19 @@ def _case(point: Point) -> Case:
     return latex_case(point.wall_ratio, point.size_ratio, load)
 
 
-def _draw(axes: Axes, curve: Sequence[Answer], colour: str, line: str, label: str | None) -> None:
+def _draw(axes: Axes, curve: Sequence[Answer], eta: float, line: str, label: str | None) -> None:
     axes.plot(
         [answer.case.size_ratio for answer in curve],
         [np.nan if answer.pressure is None else answer.pressure / 1e3 for answer in curve],
-        color=colour,
+        color=COLOURS[SHADES[eta]],
         linestyle=line,
+        marker=MARKS[eta],
+        markersize=3,
         label=label,
     )
     lost = [answer.case.size_ratio for answer in curve if answer.pressure is None]
-    if lost:
-        axes.plot(lost, np.zeros(len(lost)), "x", color=colour, markersize=5, clip_on=False)
+    told = NO_ANSWER in axes.get_legend_handles_labels()[1]
+    mark_unanswered(axes, lost, "_" if told else NO_ANSWER, COLOURS[SHADES[eta]])
 
 
 def _draw_points(air: Axes, water: Axes, points: Sequence[Point]) -> None:
@@ -108,8 +123,9 @@ def _draw_points(air: Axes, water: Axes, points: Sequence[Point]) -> None:
                     [point.size_ratio for point in some],
                     [point.pressure / 1e3 for point in some],
                     yerr=[0.0 if point.sd is None else point.sd / 1e3 for point in some],
-                    fmt="o",
-                    markersize=4,
+                    fmt=MARKS.get(eta, "o"),
+                    markersize=6,
+                    markerfacecolor="white",
                     capsize=2,
                     color=COLOURS[SHADES.get(eta, "grey")],
                     label=f"measured, η = {eta:g}",

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from scipy.interpolate import PchipInterpolator
 
@@ -15,9 +14,19 @@ from stonepass.errors import Outcome
 from stonepass.model.contact_state import SolvedState
 from stonepass.model.load import Load
 from stonepass.model.size import SizeAnswer
-from stonepass.paper.inputs import CONFINING, LIMIT, PASSING, PUBLISHED, ureter_case
+from stonepass.paper.inputs import CONFINING, FRICTION, LIMIT, PASSING, PUBLISHED, ureter_case
+from stonepass.paper.published import PUBLISHED_MARK, draw_critical_size
 from stonepass.paper.section import Asked, Claim, Illustration, Section, Table, answers_table
-from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
+from stonepass.report.style import (
+    COLOURS,
+    add_heading,
+    add_mmhg_axis,
+    in_style,
+    new_figure,
+    ordered_colours,
+    signed,
+    tidy,
+)
 from stonepass.studies.jobs import Job, PressureJob, Results, SizeJob
 from stonepass.units import Pressure
 
@@ -27,6 +36,8 @@ SIZES = tuple(float(x) for x in np.round(np.linspace(1.0, 1.3, 13), 10))
 WALLS = tuple(float(x) for x in np.round(np.geomspace(1.3, 3.4, 13), 4))
 LOADS = tuple(Load(Pressure(1e3 * p)) for p in (0.0, 2.0, 4.0, 6.0, 8.0))  # dead, Eqs 10 and 12
 SHADES = {1.30: "blue", 3.40: "orange"}
+MARKS = {1.30: "o", 3.40: "s"}
+HIGHEST = 2.1  # size ratio that the line's figure shows
 LUMEN, LUMEN_SD = 3.40, 0.61  # mm, unaffected ureter on CT (Song 2010)
 # Width in mm and share passed within 20 weeks (Jendeberg 2017, as quoted by secondary sources).
 PASSED = ((4.0, 0.81), (5.0, 0.65), (6.0, 0.33))
@@ -34,6 +45,7 @@ SOURCES = (
     "Sizes that passed: Jendeberg et al. 2017, doi 10.1007/s00330-017-4852-6 (by secondary "
     "sources); lumen 3.40 ± 0.61 mm: Song et al. 2010, Korean J. Urol. 51(3)."
 )
+HEADING = f"Human ureter · μ = {FRICTION:g} · model: paper"
 Line = dict[float, tuple[Outcome, float | None]]  # η: ξ_cr at the limit
 
 
@@ -56,7 +68,8 @@ class Fig8:
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the panels, write their data, judge the claims."""
         line = {eta: _size_of(found, eta, asked.limit) for eta in WALLS}
-        figure = new_figure(9.6, 8.0)
+        figure = new_figure(9.6, 8.4)
+        add_heading(figure, HEADING)
         _curves(figure.add_subplot(2, 2, 1), found, asked)
         _surface(
             figure.add_subplot(2, 2, 2, projection="3d", computed_zorder=False),
@@ -66,7 +79,8 @@ class Fig8:
         )
         _confined(figure.add_subplot(2, 2, 3), found)
         fits = _sizes_under_load(figure.add_subplot(2, 2, 4), found, asked.limit)
-        lines = new_figure(6.4, 4.4)
+        lines = new_figure(6.8, 5.0)
+        add_heading(lines, HEADING)
         _line(lines.add_subplot(), line, asked.limit, found)
         return Section.written(
             "Fig. 8: the human ureter",
@@ -139,27 +153,26 @@ def _size_of(found: Results, eta: float, limit: Pressure) -> tuple[Outcome, floa
 
 
 def _curves(axes: Axes, found: Results, asked: Asked) -> None:
-    for eta, colour in SHADES.items():
+    for eta in SHADES:
         pressures = [found.answer(ureter_case(eta, x)).pressure for x in SIZES]
-        _draw(axes, pressures, colour, "-", f"η = {eta:.2f}")
+        _draw(axes, pressures, eta, "-", f"η = {eta:.2f}")
         size = found.size(ureter_case(eta, 1.1, LOADS[0]), asked.limit).size_ratio
-        if size is not None:
-            axes.plot(size, asked.limit / 1e3, "o", color=COLOURS[colour])
-            axes.annotate(f"{size:.3f}", (size, asked.limit / 1e3), xytext=(5, -11),
-                          textcoords="offset points", color=COLOURS[colour])  # fmt: skip
-        label = "published" if eta > 2.0 else None
-        axes.plot(PUBLISHED[eta], LIMIT / 1e3, "*", markersize=10, color="white",
-                  markeredgecolor=COLOURS["ink"], label=label)  # fmt: skip
+        colour = COLOURS[SHADES[eta]]
+        draw_critical_size(axes, size, PUBLISHED[eta], asked.limit / 1e3, colour)
+    axes.plot([], [], **PUBLISHED_MARK, label=r"published $\xi_{cr}$")
     axes.axhline(asked.limit / 1e3, color=COLOURS["grey"], linestyle="--", linewidth=0.9)
-    _frame(axes, "a")
-    axes.legend(fontsize=8, loc="upper left")
+    axes.annotate(f"limit {asked.limit / 1e3:g} kPa", (1.0, asked.limit / 1e3), xytext=(2, 4),
+                  textcoords="offset points", color=COLOURS["grey"], fontsize=8)  # fmt: skip
+    _frame(axes, "a  Critical pressure of both walls")
+    axes.legend(loc="upper left")
 
 
 def _draw(
-    axes: Axes, pressures: Sequence[float | None], colour: str, line: str, label: str | None
+    axes: Axes, pressures: Sequence[float | None], eta: float, line: str, label: str | None
 ) -> None:
     values = [np.nan if pressure is None else pressure / 1e3 for pressure in pressures]
-    axes.plot(SIZES, values, color=COLOURS[colour], linestyle=line, label=label)
+    axes.plot(SIZES, values, color=COLOURS[SHADES[eta]], linestyle=line, marker=MARKS[eta],
+              markersize=3, label=label)  # fmt: skip
 
 
 def _frame(axes: Axes, name: str) -> None:
@@ -183,18 +196,20 @@ def _surface(axes: Axes, found: Results, line: Line, limit: Pressure) -> None:
     walls, sizes = _known(line)
     for height in (0.0, limit / 1e3):
         space.plot(sizes, walls, height, color=COLOURS["ink"])
-    space.set(xlabel="ξ", ylabel="η", zlabel="$P_{ucr}$ (kPa)")
-    space.set_title("b")
+    space.set(xlabel="size ratio ξ", ylabel="wall ratio η", zlabel="critical pressure (kPa)")
+    space.set(xticks=[1.0, 1.1, 1.2, 1.3], yticks=[1.5, 2.0, 2.5, 3.0])
+    space.set_title(f"b  Critical pressure; line: limit {limit / 1e3:g} kPa")
     space.view_init(elev=22, azim=-128)
+    space.set_box_aspect(None, zoom=0.92)
 
 
 def _confined(axes: Axes, found: Results) -> None:
-    for eta, colour in SHADES.items():
+    for eta in SHADES:
         for pressure, line in zip((Pressure(0.0), *CONFINING), ("-", "--", ":"), strict=True):
             row = [found.answer(ureter_case(eta, x, Load(pressure))).pressure for x in SIZES]
             label = f"η = {eta:.2f}, $P_{{out}}$ = {pressure / 1e3:g} kPa"
-            _draw(axes, row, colour, line, label)
-    _frame(axes, "c")
+            _draw(axes, row, eta, line, label)
+    _frame(axes, "c  Critical pressure under confining pressure")
     axes.legend(fontsize=7, loc="upper left")
 
 
@@ -219,26 +234,27 @@ def _sizes_under_load(
 ) -> dict[float, tuple[float, float] | None]:
     """Draw ξ_cr(P_out) with its straight line; slope per kPa and R² of each wall."""
     fits: dict[float, tuple[float, float] | None] = {}
-    for eta, colour in SHADES.items():
+    for eta in SHADES:
         known = [
             (size.case.load.confining_pressure / 1e3, size.size_ratio)
             for size in _sizes_under(found, limit)
             if size.case.wall_ratio == eta and size.size_ratio is not None
         ]
         loads, sizes = np.array(known).reshape(-1, 2).T
-        axes.plot(loads, sizes, "o", color=COLOURS[colour])
+        colour = COLOURS[SHADES[eta]]
+        axes.plot(loads, sizes, MARKS[eta], color=colour)
         if len(known) < 3:
             fits[eta] = None
             continue
         slope, intercept = np.polyfit(loads, sizes, 1)
         share = float(np.corrcoef(loads, sizes)[0, 1] ** 2)
         fits[eta] = float(slope), share
-        label = f"η = {eta:.2f}: {slope:+.4f} per kPa, $R^2$ = {share:.4f}"
+        label = f"η = {eta:.2f}: {signed(float(slope), 4)} per kPa, $R^2$ = {share:.4f}"
         fitted = intercept + slope * loads
-        axes.plot(loads, fitted, color=COLOURS[colour], linewidth=1.0, label=label)
+        axes.plot(loads, fitted, color=colour, linewidth=1.0, label=label)
     axes.set(xlabel="confining pressure (kPa)", ylabel=r"critical size ratio $\xi_{cr}$")
-    axes.set_title(f"d  (limit {limit / 1e3:g} kPa)")
-    axes.legend(fontsize=8)
+    axes.set_title(f"d  Critical size at {limit / 1e3:g} kPa")
+    axes.legend()
     tidy(axes)
     return fits
 
@@ -252,19 +268,19 @@ def _line(axes: Axes, line: Line, limit: Pressure, found: Results) -> None:
     if len(known) == len(walls):
         axes.plot(walls, known, "--", color=COLOURS["grey"],
                   label="linear between the two walls, as in the paper")  # fmt: skip
-    shades = colormaps["viridis"](np.linspace(0.15, 0.8, len(PASSED)))
-    for (width, share), shade in zip(PASSED, shades, strict=True):
+    for (width, share), shade in zip(PASSED, ordered_colours(len(PASSED)), strict=True):
         ratio = width / LUMEN
         low, high = width / (LUMEN + LUMEN_SD), width / (LUMEN - LUMEN_SD)
-        axes.axhspan(low, high, color=shade, alpha=0.08, linewidth=0)
-        axes.axhline(ratio, color=shade, linewidth=1.0)
+        axes.axhspan(low, min(high, HIGHEST), color=shade, alpha=0.08, linewidth=0)
+        axes.axhline(ratio, color=shade, linewidth=1.2)
         axes.annotate(f"{width:g} mm in a lumen of {LUMEN:g} mm: {share:.0%} passed", (3.38, ratio),
-                      ha="right", va="bottom", fontsize=8, color=shade)  # fmt: skip
-    axes.set(xlabel="wall ratio η", ylabel="size ratio ξ", ylim=(1.0, 2.0))
-    axes.set_title("Critical size, and stones that passed")
-    axes.annotate(SOURCES.replace("; ", "\n"), (0.0, -0.2), xycoords="axes fraction", fontsize=6,
+                      xytext=(0, 2), textcoords="offset points", ha="right", va="bottom",
+                      fontsize=8)  # fmt: skip
+    axes.set(xlabel="wall ratio η", ylabel="size ratio ξ", ylim=(1.0, HIGHEST))
+    axes.set_title(f"Critical size at {limit / 1e3:g} kPa, and stones that passed")
+    axes.annotate(SOURCES.replace("; ", "\n"), (0.0, -0.14), xycoords="axes fraction", fontsize=6,
                   va="top", color=COLOURS["grey"])  # fmt: skip
-    axes.legend(fontsize=8, loc="upper right")
+    axes.legend(loc="upper right")
     tidy(axes)
 
 

@@ -18,7 +18,15 @@ from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.model.stone import Stone
 from stonepass.paper.inputs import BEAM, BEAM_SIZE, FRICTION, LIMIT, ureter_case
 from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
-from stonepass.report.style import COLOURS, add_mmhg_axis, in_style, new_figure, tidy
+from stonepass.report.style import (
+    COLOURS,
+    add_heading,
+    add_mmhg_axis,
+    in_style,
+    new_figure,
+    series,
+    tidy,
+)
 from stonepass.studies.jobs import Job, PressureJob, Results
 from stonepass.units import Pressure
 
@@ -50,28 +58,37 @@ class Fig9:
         by_stiffness = [_size(asked.limit, _scaled(factor), FRICTION) for factor in FACTORS]
         by_friction = [_size(asked.limit, BEAM, friction) for friction in FRICTIONS]
         stiffness, friction = _ratios(by_stiffness), _ratios(by_friction)
-        figure = new_figure(9.2, 4.0)
+        figure = new_figure(9.2, 4.4)
+        add_heading(figure, f"Human ureter, η = {WALL:.2f} · μ = {FRICTION:g} unless it is varied")
         left, right = (figure.add_subplot(1, 2, k) for k in (1, 2))
-        for values, colour, line, label in (
-            (elements, "blue", "-", "finite elements"),
-            (published, "orange", "-", "beam, published moduli"),
-            (secants, "orange", "--", f"beam, secants at {SECANT:g} (our reading)"),
+        for k, (values, label) in enumerate(
+            (
+                (elements, "finite elements"),
+                (published, "beam, published moduli"),
+                (secants, f"beam, secants at stretch {SECANT:g} (our reading)"),
+            )
         ):
-            left.plot(SIZES, values, color=COLOURS[colour], linestyle=line, label=label)
+            left.plot(SIZES, values, **series(k), markersize=3, label=label)
         left.axhline(asked.limit / 1e3, color=COLOURS["grey"], linestyle="--", linewidth=0.9)
+        left.annotate(f"limit {asked.limit / 1e3:g} kPa", (SIZES[0], asked.limit / 1e3),
+                      xytext=(2, 4), textcoords="offset points", color=COLOURS["grey"],
+                      fontsize=8)  # fmt: skip
         left.set(xlabel="size ratio ξ", ylabel="critical pressure (kPa)", ylim=(0, None))
-        left.set_title(f"c  (η = {WALL:.2f})")
-        left.legend(fontsize=8)
+        left.set_title("Fig. 9c  Critical pressure")
+        left.legend()
         tidy(left)
         add_mmhg_axis(left)
-        right.plot(FACTORS, stiffness, color=COLOURS["blue"], label="stiffness E over published")
-        right.plot(np.array(FRICTIONS) / FRICTION, friction, color=COLOURS["orange"],
-                   label=f"friction over {FRICTION:g}")  # fmt: skip
-        right.set(xlabel="factor", ylabel=r"critical size ratio $\xi_{cr}$", xlim=(0.0, None))
-        right.set_title(f"d  (beam, limit {asked.limit / 1e3:g} kPa)")
-        right.legend(fontsize=8)
+        right.plot(FACTORS, stiffness, **series(0), markersize=3,
+                   label="stiffness, over the published moduli")  # fmt: skip
+        right.plot(np.array(FRICTIONS) / FRICTION, friction, **series(1), markersize=3,
+                   label=f"friction, over {FRICTION:g}")  # fmt: skip
+        right.set(xlabel="factor on stiffness or friction", xlim=(0.0, None),
+                  ylabel=r"critical size ratio $\xi_{cr}$")  # fmt: skip
+        right.set_title(f"Fig. 9d  Critical size by the beam at {asked.limit / 1e3:g} kPa")
+        right.legend()
         tidy(right)
         caption = (
+            "Panels a and b of the paper's figure are sketches and are not drawn here. "
             "(c) Critical pressure of the thin wall by finite elements and as a beam on an elastic "
             "foundation. (d) Critical size by the beam, over stiffness (E₁ and E₂ together) and "
             "over friction."

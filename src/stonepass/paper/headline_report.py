@@ -10,8 +10,9 @@ from rich.table import Table
 
 from stonepass.paper.headline import Wall
 from stonepass.paper.inputs import FRICTION, LIMIT
+from stonepass.paper.published import PUBLISHED_MARK, draw_critical_size
 from stonepass.report.curve_figure import draw_curve, frame_curve
-from stonepass.report.style import COLOURS, in_style, new_figure
+from stonepass.report.style import COLOURS, add_heading, in_style, new_figure, series
 
 __all__ = ["confining_table", "headline_figure", "headline_table"]
 
@@ -62,32 +63,16 @@ def confining_table(walls: Sequence[Wall]) -> Table:
 @in_style
 def headline_figure(walls: Sequence[Wall]) -> Figure:
     """Draw P_ucr(ξ) of both walls, the 12 kPa limit and the published critical sizes."""
-    figure = new_figure(6.4, 4.4)
+    figure = new_figure(6.8, 4.8)
+    first = walls[0].curve[0]
+    material = first.case.ureter.material.name
+    add_heading(figure, f"{material} · μ = {FRICTION:g} · model: {first.model.NAME}")
     axes = figure.add_subplot()
     limit = LIMIT / 1e3
-    names = ("thin wall", "thick wall")
-    for wall, name, colour in zip(walls, names, ("blue", "orange"), strict=True):
-        draw_curve(axes, wall.curve, COLOURS[colour], f"{name}, η = {wall.wall_ratio:.1f}")
-        if wall.size.size_ratio is not None:
-            axes.plot(wall.size.size_ratio, limit, "o", color=COLOURS[colour], markersize=7)
-            axes.annotate(
-                f"{wall.size.size_ratio:.3f}",
-                (wall.size.size_ratio, limit),
-                xytext=(6, -12),
-                textcoords="offset points",
-                color=COLOURS[colour],
-                fontweight="bold",
-            )
-        axes.plot(
-            wall.published,
-            limit,
-            "*",
-            color="white",
-            markeredgecolor=COLOURS["ink"],
-            markersize=11,
-            zorder=5,
-            label=r"published $\xi_{cr}$ (Liu et al. 2022)" if wall is walls[-1] else None,
-        )
+    for k, (each, name) in enumerate(zip(walls, ("thin wall", "thick wall"), strict=True)):
+        draw_curve(axes, each.curve, k, f"{name}, η = {each.wall_ratio:.1f}")
+        draw_critical_size(axes, each.size.size_ratio, each.published, limit, series(k)["color"])
+    axes.plot([], [], **PUBLISHED_MARK, label=r"published $\xi_{cr}$ (Liu et al. 2022)")
     axes.axhline(limit, color=COLOURS["grey"], linewidth=0.9, linestyle="--")
     axes.annotate(
         f"pressure limit {limit:g} kPa", (1.0, limit), xytext=(2, 4), textcoords="offset points",

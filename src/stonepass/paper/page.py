@@ -21,15 +21,19 @@ figure { margin: 1rem 0; } img { max-width: 100%; height: auto; }
 _MARKS = {True: ("yes", "reproduced"), False: ("no", "differs"), None: ("open", "not judged")}
 
 
-def write_page(sections: Sequence[Section], asked: Asked, path: Path) -> None:
-    """Write one HTML page beside the files it shows."""
+def write_page(
+    sections: Sequence[Section], asked: Asked, path: Path, missing: Sequence[str] = ()
+) -> None:
+    """Write one HTML page beside the files it shows; `missing` names parts that it leaves out."""
     claims = [claim for section in sections for claim in section.claims]
     body = [
         "<h1>Critical size of a kidney stone: the paper, reproduced</h1>",
-        "<p>Every computed result of Liu et al. 2022, <cite>Critical size of kidney stone through "
-        f'ureter: A mechanical analysis</cite> (<a href="https://doi.org/{DOI}">doi {DOI}</a>)'
-        f", with its errata corrected; pressure limit {asked.limit / 1e3:g} kPa.</p>",
+        f"<p>{_extent(sections, missing)} of Liu et al. 2022, <cite>Critical size of kidney stone "
+        f'through ureter: A mechanical analysis</cite> (<a href="https://doi.org/{DOI}">doi {DOI}'
+        f"</a>), with its errata corrected; pressure limit {asked.limit / 1e3:g} kPa.</p>",
     ]
+    if missing:
+        body.append(f"<p>Not on this page: {escape(', '.join(missing))}.</p>")
     if claims:
         body += ["<h2>Published claims beside ours</h2>", _table(claims)]
     for section in sections:
@@ -37,6 +41,13 @@ def write_page(sections: Sequence[Section], asked: Asked, path: Path) -> None:
             body += _section(section)
     body.append(f"<footer><p>stonepass {VERSION}. {DISCLAIMER}</p></footer>")
     write_html(path, "The paper, reproduced", _STYLE, "\n".join(body))
+
+
+def _extent(sections: Sequence[Section], missing: Sequence[str]) -> str:
+    if not missing:
+        return "Every computed result"
+    count = len(sections)
+    return f"A part of the computed results ({count} of {count + len(missing)} sections)"
 
 
 def _table(claims: Sequence[Claim]) -> str:

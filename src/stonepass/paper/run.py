@@ -113,7 +113,8 @@ def reproduce(
     require_writable(folder, "output folder")
     studies = [PartStudy(PARTS[name], asked, folder) for name in wanted]
     sections = run_studies(studies, executor, cache_folder, progress)
-    write_page(sections, asked, folder / "index.html")
+    missing = [name for name in PARTS if name not in wanted]
+    write_page(sections, asked, folder / "index.html", missing)
     return sections
 
 

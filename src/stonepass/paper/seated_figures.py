@@ -8,18 +8,28 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Arc as Curve
 
 from stonepass.export.vtu import write_vtu
 from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.case import Case
 from stonepass.model.states.seated_state import SeatedState
-from stonepass.paper.inputs import LATEX_WALLS, PUBLISHED, latex_case, ureter_case
+from stonepass.paper.inputs import FRICTION, LATEX_WALLS, PUBLISHED, latex_case, ureter_case
 from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
 from stonepass.report.revolve import revolved_figure
-from stonepass.report.section import draw_section, element_rim
-from stonepass.report.stone import draw_radii
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.section import add_colour_bar, draw_section, element_rim, section_height
+from stonepass.report.stone import draw_radii, frame_section, mark_angle
+from stonepass.report.style import (
+    COLOURS,
+    SERIES,
+    add_heading,
+    angle_label,
+    in_style,
+    new_figure,
+    ordered_colours,
+    tidy,
+)
 from stonepass.studies.jobs import Job, PressureJob, Results
 
 __all__ = ["Fig4", "Fig5", "Fig7"]
@@ -29,7 +39,8 @@ SIZES = (1.1, 1.15, 1.2, 1.25, 1.3)  # of the profiles beside Fig. 7
 STEP = 0.25  # degrees, of the profiles' data
 ASIDE = 0.05  # of half the contact, of the highest pressure from the equator
 RIPPLE = 0.02  # of the peak, of the increments of the pressing
-SHADES = ("blue", "orange", "green", "pink", "grey")
+EXTENT = 3.6  # inner radii shown of the meshes, to each side
+SECTION_WIDTH = 4.4  # inches of the sections of Figs 4 and 7
 
 
 class Fig4:
@@ -63,12 +74,15 @@ class Fig5:
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the meshes."""
         states = [_state(found, case) for case in _ureters()]
-        figure = new_figure(8.4, 6.4)
+        figure = new_figure(8.4, 9.0)
+        add_heading(figure, f"Human ureter · μ = {FRICTION:g} · model: paper")
+        grid = figure.add_gridspec(2, 1, height_ratios=_heights(states))
         for k, state in enumerate(states):
-            _meshes(figure.add_subplot(2, 1, k + 1), state)
+            _meshes(figure.add_subplot(grid[k]), state, "ab"[k])
         caption = (
-            "The finite elements before (grey, with the arc that touches the lumen) and after the "
-            "stone is pressed in (blue), at the published critical sizes. Elements are of order "
+            "The finite elements after the stone is pressed in (blue, above the axis) and before "
+            "(grey, below it, with the outline of the stone where it first touches the lumen), at "
+            "the published critical sizes. Elements are of order "
             "4, graded towards the edge of the contact, which is a grid line."
         )
         rows = [
@@ -118,21 +132,7 @@ class Fig7:
             eta: [_state(found, ureter_case(eta, xi), wall=False) for xi in SIZES]
             for eta in PUBLISHED
         }
-        figure = new_figure(8.4, 3.4)
-        for k, (eta, row) in enumerate(others.items()):
-            axes = figure.add_subplot(1, 2, k + 1)
-            for state, colour in zip(row, SHADES, strict=True):
-                axes.plot(
-                    np.degrees(state.theta),
-                    state.contact_pressure / 1e3,
-                    color=COLOURS[colour],
-                    label=f"ξ = {state.case.size_ratio:g}",
-                )
-            axes.set(xlabel="θ from the upstream axis (°)", ylabel="contact pressure (kPa)",
-                     ylim=(0, None))  # fmt: skip
-            axes.set_title(f"η = {eta:.2f}")
-            axes.legend(fontsize=8, loc="upper right")
-            tidy(axes)
+        figure = _by_size(others)
         extra = Section.written(
             "",
             "",
@@ -147,6 +147,29 @@ class Fig7:
             section.files + extra.files,
             (_single_peak([*states, *(state for row in others.values() for state in row)]),),
         )
+
+
+@in_style
+def _by_size(rows: dict[float, list[SeatedState]]) -> Figure:
+    """Contact pressure of stones of several sizes, a panel for each wall."""
+    figure = new_figure(8.4, 4.2)
+    add_heading(figure, f"Human ureter · μ = {FRICTION:g} · model: paper")
+    panels = figure.subplots(1, len(rows), sharey=True)
+    for k, (axes, (eta, row)) in enumerate(zip(panels, rows.items(), strict=True)):
+        for n, (state, colour) in enumerate(zip(row, ordered_colours(len(row)), strict=True)):
+            axes.plot(
+                np.degrees(state.theta),
+                state.contact_pressure / 1e3,
+                color=colour,
+                linestyle=SERIES[n % len(SERIES)][1],
+                label=f"ξ = {state.case.size_ratio:g}",
+            )
+        axes.set(xlabel=angle_label(sphere=True))
+        axes.set_title(f"{'ab'[k]}  η = {eta:.2f}")
+        tidy(axes)
+    panels[0].set(ylabel="contact pressure (kPa)", ylim=(0, None))
+    panels[0].legend(loc="upper center")  # the thin wall presses less, so that there is room
+    return figure
 
 
 def _latex() -> list[Case]:
@@ -188,15 +211,31 @@ def _single_peak(states: Sequence[SeatedState]) -> Claim:
 def _sections(
     title: str, name: str, states: Sequence[SeatedState], caption: str, folder: Path
 ) -> Section:
-    figure = new_figure(9.6, 2.7 * len(states))
-    grid = figure.add_gridspec(len(states), 2, width_ratios=(2.0, 1.0))
-    for k, state in enumerate(states):
+    heights = _heights(states)
+    figure = new_figure(9.2, SECTION_WIDTH * sum(heights) + 0.75 * len(states))
+    first = states[0].case
+    add_heading(
+        figure, f"{first.ureter.material.name} · μ = {first.stone.friction:g} · model: paper"
+    )
+    grid = figure.add_gridspec(len(states), 2, width_ratios=(1.7, 1.0), height_ratios=heights)
+    sections = [figure.add_subplot(grid[k, 0]) for k in range(len(states))]
+    top = max(state.peak_contact_pressure for state in states)
+    extent = min(_extent(state) for state in states)
+    profiles: list[Axes] = []
+    for k, (axes, state) in enumerate(zip(sections, states, strict=True)):
         assert state.wall is not None
-        axes = figure.add_subplot(grid[k, 0])
-        draw_section(axes, state.wall, state.case, state.peak_contact_pressure, (-1.0, 1.0))
+        image = draw_section(axes, state.wall, state.case, top, (-1.0, 1.0))
+        axes.set_xlim(-extent, extent)
         draw_radii(axes, state.case, (state.contact_angle, state.downstream_angle))
-        axes.set_title(f"η = {state.case.wall_ratio:g}, ξ = {state.case.size_ratio:g}")
-        _profile(figure.add_subplot(grid[k, 1]), state)
+        mark_angle(axes, state.case, state.contact_angle, r"$\alpha_0$")
+        axes.set_title(
+            f"{'abcdef'[k]}  η = {state.case.wall_ratio:g}, ξ = {state.case.size_ratio:g}"
+        )
+        shared = profiles[0] if profiles else None
+        profiles.append(figure.add_subplot(grid[k, 1], sharex=shared, sharey=shared))
+        _profile(profiles[-1], state)
+    profiles[0].set_ylim(0.0, 1.05 * top / 1e3)
+    add_colour_bar(sections, image, shrink=0.5)
     middle = states[len(states) // 2]
     assert middle.wall is not None
     solid = revolved_figure(middle.wall, middle.case, middle.peak_contact_pressure)
@@ -219,10 +258,19 @@ def _profile(axes: Axes, state: SeatedState) -> None:
     degrees, pressure = np.degrees(state.theta), state.contact_pressure / 1e3
     axes.fill_between(degrees, pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
     axes.plot(degrees, pressure, color=COLOURS["blue"])
-    alpha = np.degrees(state.contact_angle)
-    axes.annotate(rf"$\alpha_0$ = {alpha:.1f}°", (90.0, 0.15 * pressure.max()), ha="center")
-    axes.set(xlabel="θ (°)", ylabel="σ (kPa)", ylim=(0, None))
+    axes.set(xlabel=angle_label(sphere=True), ylabel="contact pressure (kPa)")
     tidy(axes)
+
+
+def _extent(state: SeatedState) -> float:
+    """Half the length that `draw_section` shows."""
+    return 2.2 * state.case.size_ratio * state.case.stone.shape.reach + 0.6
+
+
+def _heights(states: Sequence[SeatedState]) -> list[float]:
+    """Heights of panels over their common width, so that all have one scale."""
+    half = min(_extent(state) for state in states)
+    return [section_height([state.wall]) / half for state in states if state.wall is not None]
 
 
 def _profiles(name: str, states: Sequence[SeatedState]) -> Table:
@@ -235,8 +283,8 @@ def _profiles(name: str, states: Sequence[SeatedState]) -> Table:
     return Table(name, header, np.column_stack(columns).tolist())
 
 
-def _meshes(axes: Axes, state: SeatedState) -> None:
-    """Reference mesh above and below in grey, deformed mesh above it in blue."""
+def _meshes(axes: Axes, state: SeatedState, panel: str) -> None:
+    """Deformed mesh above the axis in blue, reference mesh below it in grey."""
     wall, xi = state.wall, state.case.size_ratio
     assert wall is not None
     for half in (1.0, -1.0):
@@ -254,10 +302,13 @@ def _meshes(axes: Axes, state: SeatedState) -> None:
     axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.7, linestyle="-.")
     eta = state.case.wall_ratio
     top = 1.08 * max(eta, float(wall.r.max()))
-    axes.set(xlim=(-3.6, 3.6), ylim=(-top, top), aspect="equal")
-    axes.set(xlabel="z / inner radius", ylabel="r / inner radius")
-    axes.set_title(f"η = {eta:.2f}, ξ = {xi:.2f}: in its place above, before below")
-    axes.spines[["top", "right"]].set_visible(False)
+    frame_section(axes, state.case, EXTENT, top)
+    for height, text, colour in (
+        (0.5, "stone pressed in", COLOURS["blue"]),
+        (-0.5, "before", COLOURS["grey"]),
+    ):
+        axes.annotate(text, (-0.97 * EXTENT, height), va="center", color=colour)
+    axes.set_title(f"{panel}  η = {eta:.2f}, ξ = {xi:.2f}")
 
 
 def _lines(

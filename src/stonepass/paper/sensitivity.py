@@ -20,8 +20,9 @@ from stonepass.model.numerics import Numerics
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.paper.inputs import FRICTION, PUBLISHED
+from stonepass.paper.published import PUBLISHED_MARK
 from stonepass.paper.section import Asked, Illustration, Section, Table
-from stonepass.report.style import COLOURS, in_style, new_figure, tidy
+from stonepass.report.style import COLOURS, add_heading, in_style, new_figure, tidy
 from stonepass.studies.jobs import Job, Results, SizeJob
 from stonepass.units import Pressure
 
@@ -31,6 +32,7 @@ OUTSIDE = Pressure(4e3)
 GROUND = (5e3, 8e3, 14e3)  # Pa, beside the default of 12 kPa
 LENGTHS = (8.0, 20.0)
 SHADES = {1.30: "blue", 3.40: "orange"}
+MARKS = {1.30: "o", 3.40: "s"}
 
 
 @dataclass(frozen=True)
@@ -67,12 +69,13 @@ class Sensitivity:
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw and tell."""
         names, rows = [], []
-        figure = new_figure(8.0, 6.6)
+        figure = new_figure(8.0, 6.8)
+        add_heading(figure, f"Human ureter · μ = {FRICTION:g} · dotted lines: the defaults")
         axes = figure.add_subplot()
         listed = list(choices())
         first: dict[float, float | None] = {}
         for k, choice in enumerate(listed):
-            names.append(f"{choice.about}: {choice.what}")
+            names.append(f"{choice.about}: {choice.what}".replace("P_out", "$P_{out}$"))
             for eta, colour in SHADES.items():
                 refused = _refusal(choice.material)
                 if refused is not None:
@@ -86,7 +89,7 @@ class Sensitivity:
                     axes.annotate(size.outcome.name, (base, k), ha="center", va="center",
                                   color=COLOURS[colour], fontsize=7)  # fmt: skip
                 if size.size_ratio is not None:
-                    axes.plot(size.size_ratio, k, "o", color=COLOURS[colour], markersize=5)
+                    axes.plot(size.size_ratio, k, MARKS[eta], color=COLOURS[colour], markersize=5)
                     if base is not None:
                         change = size.size_ratio - base
                         axes.plot([base, size.size_ratio], [k, k], color=COLOURS[colour], lw=1.2)
@@ -101,13 +104,13 @@ class Sensitivity:
             base = first[eta]
             if base is not None:
                 axes.axvline(base, color=COLOURS[colour], linewidth=0.8, linestyle=":")
-            axes.plot([], [], "o", color=COLOURS[colour], label=f"η = {eta:.2f}")
-            axes.plot(PUBLISHED[eta], -0.75, "*", color="white", markeredgecolor=COLOURS["ink"],
-                      markersize=10, label="published" if eta > 2.0 else None)  # fmt: skip
+            axes.plot([], [], MARKS[eta], color=COLOURS[colour], label=f"η = {eta:.2f}")
+            axes.plot(PUBLISHED[eta], -0.75, **PUBLISHED_MARK,
+                      label=None if eta < 2.0 else "published")  # fmt: skip
         axes.set_yticks(range(len(names)), names)
         axes.set(ylim=(len(names) - 0.4, -1.2), xlabel=r"critical size ratio $\xi_{cr}$")
-        axes.set_title(f"Critical size at {asked.limit / 1e3:g} kPa under every choice")
-        axes.legend(fontsize=8, loc="lower right")
+        axes.set_title(f"Critical size at {asked.limit / 1e3:g} kPa, one choice changed at a time")
+        figure.legend(loc="outside lower center", ncols=3)
         tidy(axes)
         caption = (
             "What each choice changes from our defaults (dotted), one at a time, where the paper "

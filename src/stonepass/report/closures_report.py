@@ -86,8 +86,8 @@ def map_figure(found: Sequence[ClosureComparison]) -> Figure:
     walls = sorted({each.case.wall_ratio for each in found})
     names = [name for name in CLOSURES if name != "direct"]
     figure = new_figure(3.1 * len(walls) + 0.6, 2.2 * len(names) + 1.2)
-    rows = figure.subfigures(len(names), 1)
-    for name, row in zip(names, np.atleast_1d(rows), strict=True):
+    rows = figure.subfigures(len(names), 1, squeeze=False)[:, 0]
+    for name, row in zip(names, rows, strict=True):
         row.suptitle(CLOSURES[name], x=0.01, ha="left", fontweight="bold")
         panels = row.subplots(1, len(walls), sharey=True, squeeze=False)[0]
         for axes, eta in zip(panels, walls, strict=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,7 +11,7 @@ from matplotlib.figure import Figure
 
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
-from stonepass.report.case_line import case_line, length_unit
+from stonepass.report.case_line import case_line
 from stonepass.report.style import (
     COLOURS,
     SERIES,
@@ -37,24 +38,21 @@ def curve_figure(answers: Sequence[Answer]) -> Figure:
     frame_curve(axes)
     inner = first.case.ureter.inner_diameter
     if inner is not None:
-        across = 1e3 * inner
-        top = axes.secondary_xaxis("top", functions=(lambda x: x * across, lambda d: d / across))
-        top.set_xlabel(f"stone diameter ({length_unit(first.case)[1]})")
+        _add_diameter_axis(axes, 1e3 * inner)
     axes.legend(loc="upper left")
     return figure
 
 
 def draw_curve(axes: Axes, answers: Sequence[Answer], k: int, label: str) -> None:
     """Add curve number `k`: answers with bars of their error, crosses where there is none."""
-    answered = [answer for answer in answers if answer.pressure is not None]
     sizes = [answer.case.size_ratio for answer in answers]
     pressures = [np.nan if a.pressure is None else a.pressure / 1e3 for a in answers]
     axes.plot(sizes, pressures, **series(k), markersize=3, label=label)
-    errors = [0.0 if a.error is None else a.error.critical_pressure / 1e3 for a in answered]
+    errors = [(a.error.critical_pressure or 0.0) / 1e3 if a.error else 0.0 for a in answers]
     if any(errors):
         axes.errorbar(
-            [answer.case.size_ratio for answer in answered],
-            [answer.pressure / 1e3 for answer in answered if answer.pressure is not None],
+            sizes,
+            pressures,
             yerr=errors,
             fmt="none",
             ecolor=COLOURS["grey"],
@@ -65,6 +63,19 @@ def draw_curve(axes: Axes, answers: Sequence[Answer], k: int, label: str) -> Non
     for outcome in (Outcome.BEYOND_CLOSURE, Outcome.NO_SOLUTION):
         lost = [a.case.size_ratio for a in answers if a.outcome is outcome]
         mark_unanswered(axes, lost, f"no answer: {outcome.name}", COLOURS[SERIES[k][0]])
+
+
+def _add_diameter_axis(axes: Axes, inner: float) -> None:
+    """Put a scale of the stone's diameter above the size ratio; `inner` is in mm."""
+
+    def to_diameter(ratio: Any) -> Any:
+        return ratio * inner
+
+    def to_ratio(diameter: Any) -> Any:
+        return diameter / inner
+
+    top = axes.secondary_xaxis("top", functions=(to_diameter, to_ratio))
+    top.set_xlabel("stone diameter (mm)")
 
 
 def frame_curve(axes: Axes) -> None:

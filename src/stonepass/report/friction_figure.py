@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -61,7 +63,7 @@ def friction_figure(found: SurfaceFriction) -> Figure:
     return figure
 
 
-def _picture(axes: Axes, found: SurfaceFriction, shades: np.ndarray) -> None:
+def _picture(axes: Axes, found: SurfaceFriction, shades: Sequence[Any]) -> None:
     picture = found.picture
     assert picture.pixel is not None
     across, down = (each * MICRO for each in picture.pixel)

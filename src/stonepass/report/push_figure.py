@@ -147,7 +147,7 @@ def draw_pressure(
     axes.plot(seal, peak, marker="o", color=COLOURS["orange"])
     axes.annotate(f"seal, {seal:.0f}°, {peak:.3g} kPa", (seal, peak), xytext=(0, 7),
                   textcoords="offset points", color=COLOURS["orange"], ha="center")  # fmt: skip
-    axes.annotate("contact with the wall", (seal, 0.0), xytext=(0, 6), textcoords="offset points",
+    axes.annotate("contact", (seal, 0.0), xytext=(0, 6), textcoords="offset points",
                   color=COLOURS["blue"], ha="center", fontsize=8)  # fmt: skip
     if leak_pressure is not None:
         leak = leak_pressure / 1e3

@@ -3,75 +3,132 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib import colormaps
-from matplotlib.colors import Normalize
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize, to_rgba
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from stonepass.array_types import Float
-from stonepass.export.meridian import SEGMENTS, meridian
+from stonepass.export.meridian import SEGMENTS
 from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.problem import Problem
-from stonepass.report.style import COLOURS, in_style, new_figure
+from stonepass.report.case_line import case_line
+from stonepass.report.section import COLOUR_MAP, add_colour_bar
+from stonepass.report.style import COLOURS, add_heading, in_style, new_figure
 
 __all__ = ["revolved_figure"]
 
 CUT = 0.75  # of a turn that the picture shows
 LIGHT = np.array([-0.45, 0.9, 0.25])
 STONE_RINGS = 40
+ENDS = (np.pi, np.pi + 2.0 * np.pi * CUT)  # the gap is towards the eye, above
+FINER, SMOOTH = 4, 0.01  # divisions of an element's grid where the colour varies by more than that
+
+Faces = Float[np.ndarray, "faces 4 3"]
+Shades = Float[np.ndarray, "faces 4"]
 
 
 @in_style
 def revolved_figure(wall: Field, case: Problem, top: float, extent: float = 3.0) -> Figure:
     """Draw wall and stone in space, coloured by radial compression in Pa from 0 to `top`."""
+    figure = new_figure(6.8, 4.8)
+    add_heading(figure, case_line(case))
     mirrored = case.stone.shape.symmetric
-    half = meridian(wall, mirrored=mirrored)
-    r, z = half.r, half.z
-    quads = half.quads[np.abs(z[half.quads]).max(axis=1) <= extent]
-    compression = -half.stress["stress_rr"]
-    colours = colormaps["magma_r"](Normalize(0.0, top)(compression[quads].mean(axis=1)))
-    ends = (np.pi, np.pi + 2.0 * np.pi * CUT)  # the gap is towards the eye, above
-    angles = np.linspace(*ends, round(SEGMENTS * CUT) * 2 + 1)
-    faces: list[Float[np.ndarray, "faces 4 3"]] = []
-    shades: list[Float[np.ndarray, "faces 4"]] = []
-    for cut in ends:
-        faces.append(_in_space(r[quads], z[quads], np.full(4, cut)))
-        shades.append(colours)
-    sides = [
-        (half.R, float(half.R.min())),
-        (half.R, float(half.R.max())),
-        (half.Z, float(half.Z[quads].min())),
-        (half.Z, float(half.Z[quads].max())),
+    scale = ScalarMappable(Normalize(0.0, top / 1e3), COLOUR_MAP)
+    reach = float(np.abs(wall.Z[np.abs(wall.z) <= extent]).max())
+    parts = [
+        *_cuts(wall, scale, reach, mirrored=mirrored),
+        *_surfaces(wall, scale, reach, mirrored=mirrored),
+        _stone(case),
     ]
-    for along_which, at in sides:
-        edge = half.edges(quads, along_which, at)
-        face, shade = _revolved(r[edge], z[edge], angles)
-        values = np.repeat(compression[edge].mean(axis=1), len(angles) - 1)
-        colour = colormaps["magma_r"](Normalize(0.0, top)(values))
-        colour[:, :3] *= shade[:, None]
-        faces.append(face)
-        shades.append(colour)
-    rho, along = case.stone.shape.meridian(np.linspace(0.0, np.pi, STONE_RINGS))
-    line = np.c_[rho[:-1], rho[1:]], np.c_[along[:-1], along[1:]]
-    round_it = np.linspace(0.0, 2.0 * np.pi, SEGMENTS + 1)
-    face, shade = _revolved(case.size_ratio * line[0], case.size_ratio * line[1], round_it)
-    stone = np.tile(_rgba(COLOURS["stone"]), (len(face), 1))
-    stone[:, :3] *= shade[:, None]
-    faces.append(face)
-    shades.append(stone)
-    figure = new_figure(6.4, 4.2)
     axes = figure.add_subplot(projection="3d", computed_zorder=False)
-    everything = np.concatenate(faces)[:, :, [2, 0, 1]]  # the tube lies along x
+    everything = np.concatenate([faces for faces, _ in parts])[:, :, [2, 0, 1]]  # the tube along x
     axes.add_collection3d(
-        Poly3DCollection(everything, facecolors=np.concatenate(shades), edgecolors="none",
-                         linewidths=0.0, antialiaseds=False, rasterized=True)
+        Poly3DCollection(everything, facecolors=np.concatenate([shades for _, shades in parts]),
+                         edgecolors="none", linewidths=0.0, antialiaseds=False, rasterized=True)
     )  # fmt: skip
-    size = 1.05 * float(r.max())
+    size = 1.05 * float(wall.r.max())
     axes.set(xlim=(-extent, extent), ylim=(-size, size), zlim=(-size, size))
     axes.set_box_aspect((extent / size, 1.0, 1.0), zoom=1.3)
     axes.view_init(elev=24.0, azim=-62.0)
     axes.set_axis_off()
+    add_colour_bar(axes, scale, shrink=0.7)
     return figure
+
+
+def _cuts(
+    wall: Field, scale: ScalarMappable, reach: float, *, mirrored: bool
+) -> list[tuple[Faces, Shades]]:
+    """The two faces of the cut, finer where the compression varies."""
+    sides = (1.0, -1.0) if mirrored else (1.0,)
+    values = np.stack([wall.r, wall.z, wall.Z, -wall.stress_rr / 1e3])
+    count = round(np.sqrt(values.shape[2]))
+    grids = values.reshape(4, -1, count, count)
+    varies = np.ptp(values[3], axis=1) > SMOOTH * np.ptp(scale.get_clim())
+    found = []
+    for chosen, times in ((varies, FINER), (~varies, 1)):
+        r, z, Z, compression = (_quads(_refined(each[chosen], times)) for each in grids)
+        inside = np.abs(Z).max(axis=1) <= reach + 1e-9
+        shades = scale.to_rgba(compression[inside].mean(axis=1))
+        for side in sides:
+            for cut in ENDS:
+                found.append((_in_space(r[inside], side * z[inside], np.full(4, cut)), shades))
+    return found
+
+
+def _refined(grid: Float[np.ndarray, "elements n n"], times: int) -> Float[np.ndarray, "e m m"]:
+    """Values between those of each element's grid, by linear interpolation."""
+    count = grid.shape[1]
+    at = np.linspace(0.0, count - 1.0, (count - 1) * times + 1)
+    low = np.minimum(at.astype(int), count - 2)
+    part = at - low
+    rows = grid[:, low] * (1.0 - part)[:, None] + grid[:, low + 1] * part[:, None]
+    return np.asarray(rows[:, :, low] * (1.0 - part) + rows[:, :, low + 1] * part)
+
+
+def _quads(grid: Float[np.ndarray, "elements m m"]) -> Float[np.ndarray, "quads 4"]:
+    """Values at the corners of the quadrilaterals of each element's grid."""
+    corners = (grid[:, :-1, :-1], grid[:, 1:, :-1], grid[:, 1:, 1:], grid[:, :-1, 1:])
+    return np.stack([each.ravel() for each in corners], axis=1)
+
+
+def _surfaces(
+    wall: Field, scale: ScalarMappable, reach: float, *, mirrored: bool
+) -> list[tuple[Faces, Shades]]:
+    """Inner and outer surface and both ends of the tube, a quarter left out."""
+    angles = np.linspace(*ENDS, round(SEGMENTS * CUT) * 2 + 1)
+    within = np.abs(wall.Z) <= reach + 1e-9
+    ends = (reach,) if mirrored else (float(wall.Z[within].min()), float(wall.Z[within].max()))
+    lines = [
+        *((np.isclose(wall.R, at), wall.Z) for at in (wall.R.min(), wall.R.max())),
+        *((np.isclose(wall.Z, at), wall.R) for at in ends),
+    ]
+    found = []
+    for on_line, along in lines:
+        chosen = on_line & within
+        _, order = np.unique(along[chosen], return_index=True)
+        r, z, values = (each[chosen][order] for each in (wall.r, wall.z, -wall.stress_rr / 1e3))
+        for side in (1.0, -1.0) if mirrored else (1.0,):
+            faces, light = _revolved(_edges(r), _edges(side * z), angles)
+            between = (values[:-1] + values[1:]) / 2.0
+            shades = scale.to_rgba(np.repeat(between, len(angles) - 1))
+            shades[:, :3] *= light[:, None]
+            found.append((faces, shades))
+    return found
+
+
+def _edges(line: Float[np.ndarray, " n"]) -> Float[np.ndarray, "edges 2"]:
+    """Neighbouring values of a line of points."""
+    return np.stack([line[:-1], line[1:]], axis=1)
+
+
+def _stone(case: Problem) -> tuple[Faces, Shades]:
+    rho, along = case.stone.shape.meridian(np.linspace(0.0, np.pi, STONE_RINGS))
+    r, z = (_edges(case.size_ratio * each) for each in (rho, along))
+    faces, light = _revolved(r, z, np.linspace(0.0, 2.0 * np.pi, SEGMENTS + 1))
+    shades = np.tile(to_rgba(COLOURS["stone"]), (len(faces), 1))
+    shades[:, :3] *= light[:, None]
+    return faces, shades
 
 
 def _in_space(
@@ -97,7 +154,3 @@ def _revolved(
     size = np.linalg.norm(normal, axis=1)
     lit = np.abs(normal @ (LIGHT / np.linalg.norm(LIGHT))) / np.where(size > 0.0, size, 1.0)
     return faces, 0.7 + 0.3 * lit
-
-
-def _rgba(colour: str) -> Float[np.ndarray, " 4"]:
-    return np.array([*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)), 1.0])

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -20,7 +21,7 @@ from stonepass.io.text_file import write_file
 from stonepass.model.energy_balance import advance_force
 from stonepass.report.case_line import case_line
 from stonepass.report.push_figure import draw_pressure, draw_wall
-from stonepass.report.section import add_colour_bar, section_height
+from stonepass.report.section import COLOUR_MAP, add_colour_bar, section_height
 from stonepass.report.style import (
     COLOURS,
     add_heading,
@@ -40,7 +41,8 @@ NO_FORCE = 1e-2  # Pa; less than the solver tells from none
 CURVES = 5  # contact pressures drawn
 FRAME, LAST_FRAME = 500, 2500  # milliseconds
 RESOLUTION = 90  # dots per inch
-SHADES = 256  # of the animation
+SHADES, OF_COMPRESSION = 256, 96  # in the palette of the animation
+NEARLY_WHITE = 248  # of 255; the ground of the figure stays white
 
 
 def rising_table(rising: Rising) -> Table:
@@ -131,13 +133,18 @@ def animation_frames(rising: Rising) -> list[Image.Image]:
 
 
 def _palette(frames: list[Image.Image]) -> Image.Image:
-    """The shades of the first, the middle and the last frame together."""
+    """White, the colours of the compression, and the shades of three frames together."""
     chosen = [frames[0], frames[len(frames) // 2], frames[-1]]
     width, height = frames[0].size
     together = Image.new("RGB", (width, len(chosen) * height))
     for k, frame in enumerate(chosen):
         together.paste(frame, (0, k * height))
-    return together.quantize(SHADES, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    found = together.quantize(SHADES - OF_COMPRESSION, method=Image.Quantize.MEDIANCUT)
+    shades = np.array(found.getpalette()).reshape(-1, 3)[: SHADES - OF_COMPRESSION]
+    shades[shades.min(axis=1) > NEARLY_WHITE] = 255
+    scale = colormaps[COLOUR_MAP](np.linspace(0.0, 1.0, OF_COMPRESSION), bytes=True)[:, :3]
+    found.putpalette(np.concatenate([shades, scale]).ravel().tolist())
+    return found
 
 
 def _force(axes: Axes, rising: Rising, pressures: np.ndarray) -> None:

@@ -18,8 +18,16 @@ from stonepass.report.case_line import length_unit
 from stonepass.report.stone import draw_stone, frame_section
 from stonepass.report.style import COLOURS
 
-__all__ = ["add_colour_bar", "draw_section", "element_rim", "section_height", "wall_surface"]
+__all__ = [
+    "COLOUR_MAP",
+    "add_colour_bar",
+    "draw_section",
+    "element_rim",
+    "section_height",
+    "wall_surface",
+]
 
+COLOUR_MAP = "magma_r"  # of the compression: monotonic in lightness
 MARGIN = 1.06  # height of the axes over that of the wall
 
 
@@ -66,7 +74,7 @@ def draw_section(
         Triangulation(x.ravel(), y.ravel(), corners),
         np.tile(compression, (len(images), 1)).ravel(),
         shading="gouraud",
-        cmap="magma_r",
+        cmap=COLOUR_MAP,
         vmin=0.0,
         vmax=top / 1e3,
         rasterized=True,

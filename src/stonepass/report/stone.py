@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -58,7 +59,7 @@ def mark_angle(axes: Axes, case: Problem, theta: float, name: str) -> None:
     pole = -float(shape.meridian(np.array(0.0))[1])
     size = ARC * radius * min(1.0, pole)
     drawn = np.degrees(polar_angle(case, theta))
-    look = {"color": COLOURS["ink"], "linewidth": 0.8}
+    look: dict[str, Any] = {"color": COLOURS["ink"], "linewidth": 0.8}
     axes.plot([-pole * radius, 0.0], [0.0, 0.0], linestyle="-.", **look)
     axes.add_patch(Arc((0.0, 0.0), 2 * size, 2 * size, theta1=180.0 - drawn, theta2=180.0,
                        zorder=2.0, **look))  # fmt: skip

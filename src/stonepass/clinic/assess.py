@@ -61,7 +61,7 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
 
     References
     ----------
-    docs/assess.md, "What is done".
+    Liu et al. 2022, section 4; docs/assess.md, "What is done".
     """
     solver = solver or JobSolver(progress=True)
     check(patient.material)

@@ -1,4 +1,4 @@
-"""The assessment of one patient as a record."""
+"""The record of the assessment of one patient."""
 
 from __future__ import annotations
 
@@ -28,116 +28,142 @@ __all__ = [
 ]
 
 CAUTION = (
-    "The fractions speak of the inputs' uncertainty in a model of a passive tube. They are no "
-    "chance of passing: peristalsis, muscle tone, time and swelling are not in it."
+    "The fractions describe the uncertainty of the inputs in a model of a passive tube. They are "
+    "not probabilities of passage, because the model does not include peristalsis, muscle tone, "
+    "time or swelling."
 )
-LEVEL = 0.90  # of the intervals
+LEVEL = 0.90  # probability level of the intervals
 LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
 
 
 class PressureRangeRecord(PartRecord):
     """Median and 90 % interval of a pressure in kPa."""
 
-    low: float | None = Field(description="lower end; null where the model cannot tell it")
-    median: float | None = Field(description="median; null where the model cannot tell it")
-    high: float | None = Field(description="upper end; null where the model cannot tell it")
+    low: float | None = Field(
+        description="5th percentile; null if samples with only a lower bound leave it unknown"
+    )
+    median: float | None = Field(
+        description="median; null if samples with only a lower bound leave it unknown"
+    )
+    high: float | None = Field(
+        description="95th percentile; null if samples with only a lower bound leave it unknown"
+    )
     at_least: float | None = Field(
-        description="what the first number that is null exceeds; null where all are known"
+        description=(
+            "lower bound of the first of `low`, `median` and `high` that is null; null if all of "
+            "them are known"
+        )
     )
 
 
 class FractionRecord(PartRecord):
-    """A fraction of the samples; its ends differ where some samples are not decided."""
+    """A fraction of the samples, 0 to 1; its ends differ if it is not known exactly."""
 
-    low: float = Field(description="at least this fraction")
-    high: float = Field(description="at most this fraction")
+    low: float = Field(description="smallest possible value of the fraction")
+    high: float = Field(description="largest possible value of the fraction")
 
 
 class SizeFractionRecord(FractionRecord):
-    """The fraction of samples below the pressure limit if the stone had another size."""
+    """The fraction of samples below the pressure limit if the stone had another diameter."""
 
-    diameter_mm: float = Field(description="that stone diameter")
+    diameter_mm: float = Field(description="this diameter of the stone")
 
 
 class CohortRecord(PartRecord):
-    """One number of a published cohort, beside the model."""
+    """A passage rate of a published cohort, compared with the model."""
 
     cohort: str = Field(description="name of the cohort")
-    source: str = Field(description="where it was published")
-    read: str = Field(description="`itself` where the source was read, `quoted` by another source")
-    about: str = Field(description="whom the cohort watched, and for how long")
-    group: str = Field(description="size class or place, as printed")
-    passed: float | None = Field(description="fraction of these stones that passed")
-    days: float | None = Field(description="mean time to pass in days")
-    model: FractionRecord | None = Field(
-        description="fraction of samples below the pressure limit, for such stones"
+    source: str = Field(description="publication")
+    read: str = Field(
+        description=(
+            "`itself` if the number was read in this publication, `quoted` if it was read in "
+            "another one that quotes it"
+        )
     )
-    comparison: str = Field(description="how far both fractions are apart, in words")
+    about: str = Field(description="imaging method, patients and follow-up of the cohort")
+    group: str = Field(description="size class or place in the ureter, as printed")
+    passed: float | None = Field(description="fraction of these stones that passed")
+    days: float | None = Field(description="mean time to passage in days")
+    model: FractionRecord | None = Field(
+        description="fraction of samples with such a stone that are below the pressure limit"
+    )
+    comparison: str = Field(description="comparison of both fractions in words")
 
 
 class MeasuredRecord(PartRecord):
-    """A measured number with its uncertainty."""
+    """A measured quantity with its uncertainty."""
 
-    value: float = Field(description="what was measured, in its unit")
-    sd: float | None = Field(description="standard deviation; null where a range was given")
-    low: float | None = Field(description="lower end of the range; null with `sd`")
-    high: float | None = Field(description="upper end of the range; null with `sd`")
-    unit: str = Field(description="`m`, or empty for a plain number")
+    value: float = Field(description="measured value in `unit`; the middle of a range")
+    sd: float | None = Field(description="standard deviation in `unit`; null for a range")
+    low: float | None = Field(description="lower end of a range; null with a standard deviation")
+    high: float | None = Field(description="upper end of a range; null with a standard deviation")
+    unit: str = Field(description="`m`, or empty for a dimensionless number")
 
 
 class AssessInputsRecord(PartRecord):
     """The inputs of the assessment, as the patient file gave them."""
 
-    file: str = Field(description="name of the patient's file")
+    file: str = Field(description="name of the patient file")
     measured: dict[str, MeasuredRecord] = Field(
-        description="measured numbers, by their names in the file"
+        description="measured quantities by their names in the file"
     )
     material: str = Field(description="name of the material of the wall")
-    place: str | None = Field(description="where in the ureter the stone is, where known")
+    place: str | None = Field(description="place of the stone in the ureter; null if unknown")
     limit_kPa: float = Field(description="pressure limit")
-    limit_source: str = Field(description="what the limit stands for, and who says so")
+    limit_source: str = Field(description="meaning and source of the pressure limit")
     samples: int = Field(description="number of Monte Carlo samples")
     seed: int = Field(description="seed of the samples")
 
 
 class SurfaceAccuracyRecord(PartRecord):
-    """How well the samples are known."""
+    """The accuracy of the samples and of the response surface."""
 
-    possible: float = Field(description="fraction of the draws that describe a possible wall")
-    solves: int = Field(description="number of solved cases behind the response surface")
+    possible: float = Field(
+        description="fraction of the drawn samples that describe a possible wall"
+    )
+    solves: int = Field(description="number of solved cases")
     surface_error: float = Field(
-        description="95th percentile of the response surface's relative error"
+        description="95th percentile of the relative cross-validation error of the response surface"
     )
     median_noise_kPa: float | None = Field(
         description=(
-            "standard error of the median of P_ucr by the number of samples, as if they were "
-            "independent; null where it is not known"
+            "standard error of the median of P_ucr for this number of independent samples; null "
+            "if it is unknown"
         )
     )
     fraction_noise: float = Field(
-        description="standard error of the fraction below the limit by the number of samples"
+        description=(
+            "standard error of `critical_below_limit` for this number of independent samples"
+        )
     )
 
 
 class AssessRecord(Record):
-    """The assessment of one patient: pressures as intervals, beside what cohorts saw."""
+    """The assessment of one patient: intervals of pressures, and published cohorts."""
 
     outcome: str = Field(
-        description="`MOVES`, or `NO_SOLUTION` where the model answers too few possible cases"
+        description=(
+            "`MOVES`, or `NO_SOLUTION` if the model has an answer for too few of the possible cases"
+        )
     )
     message: str = Field(description="the outcome as a sentence")
-    critical_pressure_kPa: PressureRangeRecord | None = Field(description="P_ucr of the samples")
+    critical_pressure_kPa: PressureRangeRecord | None = Field(
+        description="median and 90 % interval of P_ucr"
+    )
     critical_pressure_at_values_kPa: float | None = Field(
-        description="P_ucr at the measured values themselves"
+        description="P_ucr at the measured values"
     )
     at_values: AnswerRecord = Field(
         description=(
-            "whole answer at the measured values, for the material's own stiffness under P_out "
-            "over the stiffness that was given"
+            "answer at the measured values, for the stiffness of the material and the confining "
+            "pressure divided by the measured relative stiffness"
         )
     )
     present_pressure_kPa: PressureRangeRecord | None = Field(
-        description="present urine pressure P_u; null where no dilated segment was measured"
+        description=(
+            "median and 90 % interval of the present urine pressure P_u; null if no dilated "
+            "segment was measured"
+        )
     )
     critical_below_limit: FractionRecord | None = Field(
         description="fraction of samples whose P_ucr is below the pressure limit"
@@ -145,31 +171,39 @@ class AssessRecord(Record):
     critical_below_limit_where_held: FractionRecord | None = Field(
         description=(
             "this fraction among the samples in which the stone is larger than the lumen; null "
-            "where these are too few"
+            "if there are too few of them"
         )
     )
     critical_below_present: FractionRecord | None = Field(
         description="fraction of samples whose P_ucr is below the present pressure"
     )
     no_larger_than_lumen: float = Field(
-        description="fraction of samples in which the stone is not held; P_ucr is 0 in them"
+        description=(
+            "fraction of samples in which the stone is no larger than the lumen, so that P_ucr is 0"
+        )
     )
     sensitivity: dict[str, float] = Field(
-        description="Sobol's total index of each input, for the rank of P_ucr; the largest first"
+        description="Sobol's total index of each input for the rank of P_ucr, in descending order"
     )
     by_size: list[SizeFractionRecord] = Field(
-        description="fraction below the limit if the stone had another size"
+        description="fraction of samples below the limit if the stone had another diameter"
     )
-    cohorts: list[CohortRecord] = Field(description="what published cohorts say of such stones")
-    inputs: AssessInputsRecord = Field(description="what was said of the patient")
-    accuracy: SurfaceAccuracyRecord = Field(description="how well the samples are known")
-    level: float = Field(description="level of the intervals")
-    warnings: list[CautionRecord] = Field(description="what was assumed, extrapolated or left open")
-    caution: str = Field(description="what the fractions are not")
+    cohorts: list[CohortRecord] = Field(
+        description="published passage rates of stones of this size and place"
+    )
+    inputs: AssessInputsRecord = Field(description="the inputs of the assessment")
+    accuracy: SurfaceAccuracyRecord = Field(
+        description="accuracy of the samples and of the response surface"
+    )
+    level: float = Field(description="probability level of the intervals")
+    warnings: list[CautionRecord] = Field(
+        description="warnings about assumptions, extrapolation and contradictions"
+    )
+    caution: str = Field(description="what the fractions do not mean")
 
 
 def assess_record(found: Assessment, file: str) -> AssessRecord:
-    """Make the record of an assessment; `file` is the name of the patient's file."""
+    """Make the record of an assessment; `file` is the name of the patient file."""
     return AssessRecord(
         outcome=found.outcome.name,
         message=found.message,

@@ -179,7 +179,7 @@ def test_a_row_that_is_there_twice(tmp_path, kind, ends):
     row, same = len(lines) + 2, len(lines) - 1
     has(
         sentence,
-        f"in {KINDS[kind].file}, row {row} is the same as row {same}",
+        f"in {KINDS[kind].file}, row {row} is equal to row {same}",
         "leave one of them out",
     )
 

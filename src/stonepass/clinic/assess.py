@@ -33,6 +33,7 @@ __all__ = ["assess"]
 # Opening r_a/R_a up to which the present pressure is computed; beyond it is a lower bound.
 WIDEST = 1.0 + OVERSIZE[1]
 SIZES = np.arange(1.0, 10.01, 0.5)  # stone diameters in mm at which the fraction is computed
+SAMPLES = "the simulated input combinations"  # name of the samples in sentences
 # Inputs without influence on the critical pressure.
 NOT_OF_RESISTANCE = ("dilated_inner_diameter", "dilated_outer_diameter")
 MOST_LOST = 0.5  # largest fraction of samples whose nearest case has no answer
@@ -105,15 +106,15 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
 def _headline(found: Assessment, below: Fraction) -> str:
     """Return the outcome as a sentence: the fraction below the limit where the stone is held."""
     pressure = f"{found.patient.limit / 1e3:.4g} kPa"
-    limit = f"the critical pressure is below the pressure limit, {pressure}"
+    limit = f"the critical pressure is below the limit of {pressure}"
     if found.loose == 0.0:
-        return f"In {below.describe()} of the Monte Carlo samples {limit}."
+        return f"In {below.describe()} of {SAMPLES} {limit}."
     apart, held = Fraction(found.loose, found.loose).describe(), found.below_limit_held
     if held is None:
-        return f"In {apart} of the Monte Carlo samples the stone is no larger than the lumen."
+        return f"In {apart} of {SAMPLES} the stone is no larger than the lumen."
     return (
-        f"In {held.describe()} of the Monte Carlo samples in which the stone is held {limit}; in "
-        f"{apart} of all samples it is no larger than the lumen, and therefore not held."
+        f"In {held.describe()} of {SAMPLES} in which the stone is held, {limit}; in {apart} of all "
+        "combinations the stone is no larger than the lumen and is not held."
     )
 
 

@@ -56,7 +56,7 @@ class Assessment(Result):
     loose : float
         Fraction of samples in which the stone is not larger than the lumen, so that P_ucr = 0.
     sensitivity : tuple of SensitivityIndex
-        Sobol's total indices for the rank of P_ucr, in descending order.
+        Sobol' total indices for the rank of P_ucr, in descending order.
     by_size : tuple of (float, Fraction)
         Stone diameters in mm, and the fraction below the limit if the stone had this diameter.
     median_noise : float or None

@@ -24,8 +24,8 @@ __all__ = [
 INTERVAL = (0.05, 0.5, 0.95)  # quantiles of the interval and the median
 # Largest relative change of a quantile that is stated if censored values are raised to infinity.
 AGREE = 0.02
-MORE, FEWER, NEAR = "more than the model expects", "fewer than the model expects", "near the model"
-UNDECIDED = "the model does not decide"
+MORE, FEWER, NEAR = "more than in the model", "fewer than in the model", "near the model"
+UNDECIDED = "undecided by the model"
 FAR_APART = 0.2  # difference of two fractions above which they contradict one another
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import Field, create_model
 
 from stonepass.caution import Caution, caution
-from stonepass.clinic.cohorts import PLACES
+from stonepass.clinic.cohorts import PLACES, place_meant
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.inputs.build import build_load, build_method, in_words
 from stonepass.inputs.catalogue import all_inputs
@@ -36,6 +36,7 @@ STIFFNESS = (0.05, 20.0)  # smallest and largest factor on the stiffness of the 
 LIMIT = (100.0, 1e5)  # smallest and largest pressure limit in Pa
 SAMPLES = (256, 65_536)  # smallest and largest number of samples
 LARGEST_SEED = 2**32  # seeds are smaller than this
+LONGEST_TITLE = 120  # largest number of characters of a title
 # Values that are assumed if the file does not give friction and stiffness, which are not measured
 # in patients.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
@@ -89,6 +90,8 @@ class Patient:
         Seed of the samples, 0 to 2³² − 1.
     assumed : tuple of Caution
         Warnings about quantities that the file does not give.
+    title : str
+        Name of the case, at most 120 characters; may be empty.
 
     References
     ----------
@@ -106,6 +109,7 @@ class Patient:
     samples: int = 4096
     seed: int = 1
     assumed: tuple[Caution, ...] = ()
+    title: str = ""
 
     @property
     def dilated(self) -> bool:
@@ -155,6 +159,7 @@ class _Dilated(FileSection):
 
 class _Assessment(FileSection):
     limit: str
+    title: str = ""
     samples: int = 4096
     seed: int = 1
 
@@ -224,8 +229,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
     measured["friction"] = measured_number(stone.friction, "friction", FRICTION)
     measured["stiffness"] = measured_number(ureter.stiffness, "stiffness", STIFFNESS, factor=True)
     _check(measured)
-    if stone.place is not None and stone.place not in PLACES:
-        refuse_unknown("place", stone.place, list(PLACES))
+    _check_place(stone.place)
     low, high = SAMPLES
     count = parsed.assessment.samples
     require(low <= count <= high, "samples", count, f"a whole number from {low} to {high}")
@@ -253,9 +257,25 @@ def _patient(parsed: Any, folder: Path) -> Patient:
         samples=count,
         seed=seed,
         assumed=tuple(assumed),
+        title=_title(parsed.assessment.title),
     )
     patient.case()  # checks the measured values
     return patient
+
+
+def _check_place(place: str | None) -> None:
+    """Refuse an unknown place, with the place that was probably meant."""
+    if place is None or place in PLACES:
+        return
+    meant = place_meant(place)
+    if not meant:
+        refuse_unknown("place", place, list(PLACES))
+    raise BadInput("place", place, "one of " + ", ".join(PLACES), f"did you mean '{meant}'")
+
+
+def _title(text: str) -> str:
+    require(len(text) <= LONGEST_TITLE, "title", text, f"at most {LONGEST_TITLE} characters long")
+    return " ".join(text.split())
 
 
 def _limit(value: str | Pressure) -> Pressure:

@@ -1,4 +1,4 @@
-"""The record of the assessment of one patient."""
+"""The assessment of one patient as a record."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from pydantic import Field
 
 from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import Row
+from stonepass.clinic.decisions import decisions
 from stonepass.clinic.fractions import Fraction, Range, contradiction
 from stonepass.clinic.patient import INPUTS
 from stonepass.clinic.pressure_limits import describe_limit
@@ -28,26 +29,20 @@ __all__ = [
 ]
 
 CAUTION = (
-    "The fractions describe the uncertainty of the inputs in a model of a passive tube. They are "
-    "not probabilities of passage, because the model does not include peristalsis, muscle tone, "
-    "time or swelling."
+    "The fractions express the uncertainty of the inputs in a model of a passive tube. They are "
+    "not probabilities of passage: peristalsis, muscle tone, time and swelling are not in the "
+    "model."
 )
-LEVEL = 0.90  # probability level of the intervals
+LEVEL = 0.90  # of the intervals
 LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
 
 
 class PressureRangeRecord(PartRecord):
     """Median and 90 % interval of a pressure in kPa."""
 
-    low: float | None = Field(
-        description="5th percentile; null if samples with only a lower bound leave it unknown"
-    )
-    median: float | None = Field(
-        description="median; null if samples with only a lower bound leave it unknown"
-    )
-    high: float | None = Field(
-        description="95th percentile; null if samples with only a lower bound leave it unknown"
-    )
+    low: float | None = Field(description="5th percentile; null if the model cannot determine it")
+    median: float | None = Field(description="median; null if the model cannot determine it")
+    high: float | None = Field(description="95th percentile; null if the model cannot determine it")
     at_least: float | None = Field(
         description=(
             "lower bound of the first of `low`, `median` and `high` that is null; null if all of "
@@ -57,37 +52,41 @@ class PressureRangeRecord(PartRecord):
 
 
 class FractionRecord(PartRecord):
-    """A fraction of the samples, 0 to 1; its ends differ if it is not known exactly."""
+    """A fraction of the samples; its ends differ if some samples are undecided."""
 
     low: float = Field(description="smallest possible value of the fraction")
     high: float = Field(description="largest possible value of the fraction")
 
 
 class SizeFractionRecord(FractionRecord):
-    """The fraction of samples below the pressure limit if the stone had another diameter."""
+    """The fraction of samples below the pressure limit if the stone had another size."""
 
     diameter_mm: float = Field(description="this diameter of the stone")
 
 
 class CohortRecord(PartRecord):
-    """A passage rate of a published cohort, compared with the model."""
+    """One rate of a published cohort, beside the model."""
 
     cohort: str = Field(description="name of the cohort")
-    source: str = Field(description="publication")
+    source: str = Field(description="citation as far as it is known")
     read: str = Field(
-        description=(
-            "`itself` if the number was read in this publication, `quoted` if it was read in "
-            "another one that quotes it"
-        )
+        description="`itself` if the source was read, `quoted` if its numbers were read elsewhere"
     )
-    about: str = Field(description="imaging method, patients and follow-up of the cohort")
-    group: str = Field(description="size class or place in the ureter, as printed")
+    about: str = Field(description="which stones were observed, how and for how long")
+    group: str = Field(description="size class or place, as printed")
     passed: float | None = Field(description="fraction of these stones that passed")
-    days: float | None = Field(description="mean time to passage in days")
-    model: FractionRecord | None = Field(
-        description="fraction of samples with such a stone that are below the pressure limit"
+    count: int | None = Field(description="number of stones in the class; null if not known")
+    passed_low: float | None = Field(
+        description="lower end of the 95 % interval of `passed`; null if `count` is not known"
     )
-    comparison: str = Field(description="comparison of both fractions in words")
+    passed_high: float | None = Field(
+        description="upper end of the 95 % interval of `passed`; null if `count` is not known"
+    )
+    days: float | None = Field(description="mean time to pass in days")
+    model: FractionRecord | None = Field(
+        description="fraction of samples below the pressure limit, for such stones"
+    )
+    comparison: str = Field(description="difference of the two fractions in words")
 
 
 class MeasuredRecord(PartRecord):
@@ -103,48 +102,43 @@ class MeasuredRecord(PartRecord):
 class AssessInputsRecord(PartRecord):
     """The inputs of the assessment, as the patient file gave them."""
 
-    file: str = Field(description="name of the patient file")
+    title: str = Field(description="name of the case; may be empty")
+    file: str = Field(description="name of the patient's file")
     measured: dict[str, MeasuredRecord] = Field(
-        description="measured quantities by their names in the file"
+        description="measured numbers, by their names in the file"
     )
     material: str = Field(description="name of the material of the wall")
-    place: str | None = Field(description="place of the stone in the ureter; null if unknown")
+    place: str | None = Field(description="place of the stone in the ureter, if known")
     limit_kPa: float = Field(description="pressure limit")
-    limit_source: str = Field(description="meaning and source of the pressure limit")
+    limit_source: str = Field(description="meaning and source of the limit")
     samples: int = Field(description="number of Monte Carlo samples")
     seed: int = Field(description="seed of the samples")
 
 
 class SurfaceAccuracyRecord(PartRecord):
-    """The accuracy of the samples and of the response surface."""
+    """Accuracy of the samples."""
 
-    possible: float = Field(
-        description="fraction of the drawn samples that describe a possible wall"
-    )
-    solves: int = Field(description="number of solved cases")
+    possible: float = Field(description="fraction of the draws that describe a possible wall")
+    solves: int = Field(description="number of solved cases behind the response surface")
     surface_error: float = Field(
-        description="95th percentile of the relative cross-validation error of the response surface"
+        description="95th percentile of the response surface's relative error"
     )
     median_noise_kPa: float | None = Field(
         description=(
-            "standard error of the median of P_ucr for this number of independent samples; null "
-            "if it is unknown"
+            "standard error of the median of P_ucr due to the number of samples, as if they were "
+            "independent; null if it is not known"
         )
     )
     fraction_noise: float = Field(
-        description=(
-            "standard error of `critical_below_limit` for this number of independent samples"
-        )
+        description="standard error of the fraction below the limit due to the number of samples"
     )
 
 
 class AssessRecord(Record):
-    """The assessment of one patient: intervals of pressures, and published cohorts."""
+    """The assessment of one patient: intervals of pressures, beside published cohorts."""
 
     outcome: str = Field(
-        description=(
-            "`MOVES`, or `NO_SOLUTION` if the model has an answer for too few of the possible cases"
-        )
+        description="`MOVES`, or `NO_SOLUTION` if the model answers too few possible cases"
     )
     message: str = Field(description="the outcome as a sentence")
     critical_pressure_kPa: PressureRangeRecord | None = Field(
@@ -160,18 +154,15 @@ class AssessRecord(Record):
         )
     )
     present_pressure_kPa: PressureRangeRecord | None = Field(
-        description=(
-            "median and 90 % interval of the present urine pressure P_u; null if no dilated "
-            "segment was measured"
-        )
+        description="present urine pressure P_u; null if no dilated segment was measured"
     )
     critical_below_limit: FractionRecord | None = Field(
         description="fraction of samples whose P_ucr is below the pressure limit"
     )
     critical_below_limit_where_held: FractionRecord | None = Field(
         description=(
-            "this fraction among the samples in which the stone is larger than the lumen; null "
-            "if there are too few of them"
+            "this fraction among the samples in which the stone is larger than the lumen; null if "
+            "these are too few"
         )
     )
     critical_below_present: FractionRecord | None = Field(
@@ -183,27 +174,34 @@ class AssessRecord(Record):
         )
     )
     sensitivity: dict[str, float] = Field(
-        description="Sobol's total index of each input for the rank of P_ucr, in descending order"
+        description="Sobol' total index of each input for the rank of P_ucr, in descending order"
     )
     by_size: list[SizeFractionRecord] = Field(
-        description="fraction of samples below the limit if the stone had another diameter"
+        description="fraction below the limit for other sizes of the stone"
     )
     cohorts: list[CohortRecord] = Field(
         description="published passage rates of stones of this size and place"
     )
-    inputs: AssessInputsRecord = Field(description="the inputs of the assessment")
+    inputs: AssessInputsRecord = Field(description="measurements and settings of the assessment")
     accuracy: SurfaceAccuracyRecord = Field(
         description="accuracy of the samples and of the response surface"
     )
     level: float = Field(description="probability level of the intervals")
-    warnings: list[CautionRecord] = Field(
-        description="warnings about assumptions, extrapolation and contradictions"
+    cannot_decide: list[str] = Field(
+        description="questions that these measurements do not decide, as sentences"
     )
-    caution: str = Field(description="what the fractions do not mean")
+    decided: list[str] = Field(
+        description="questions that they decide within the model, as sentences"
+    )
+    warnings: list[CautionRecord] = Field(
+        description="assumptions, extrapolations and contradictions"
+    )
+    caution: str = Field(description="limits of the meaning of the fractions")
 
 
 def assess_record(found: Assessment, file: str) -> AssessRecord:
-    """Make the record of an assessment; `file` is the name of the patient file."""
+    """Return the record of an assessment; `file` is the name of the patient's file."""
+    asked = decisions(found)
     return AssessRecord(
         outcome=found.outcome.name,
         message=found.message,
@@ -230,6 +228,8 @@ def assess_record(found: Assessment, file: str) -> AssessRecord:
             fraction_noise=found.fraction_noise,
         ),
         level=LEVEL,
+        cannot_decide=[each.sentence for each in asked if not each.decided],
+        decided=[each.sentence for each in asked if each.decided],
         warnings=warning_records(found.warnings),
         caution=CAUTION,
     )
@@ -238,6 +238,7 @@ def assess_record(found: Assessment, file: str) -> AssessRecord:
 def _inputs(found: Assessment, file: str) -> AssessInputsRecord:
     patient = found.patient
     return AssessInputsRecord(
+        title=patient.title,
         file=file,
         measured={name: _measured(name, each) for name, each in patient.measured.items()},
         material=patient.material.name,
@@ -268,6 +269,9 @@ def _cohort(row: Row, beside: Fraction | None) -> CohortRecord:
         about=row.cohort.about,
         group=row.group,
         passed=row.passed,
+        count=row.count,
+        passed_low=None if row.interval is None else row.interval[0],
+        passed_high=None if row.interval is None else row.interval[1],
         days=row.days,
         model=_fraction(beside),
         comparison="" if row.passed is None else contradiction(row.passed, beside),

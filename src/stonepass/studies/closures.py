@@ -206,7 +206,7 @@ class ClosureJob:
     wetted: bool = False
 
     def run(self, cache_folder: Path | None) -> ClosureComparison:
-        """Return the outcome of `closures`."""
+        """Return the result of `closures`."""
         states = state_solver(cache_folder)
         return closures(self.case, self.order, states, wetted=self.wetted)
 

@@ -71,7 +71,7 @@ def friction_of_slopes(k0: float, k1: float) -> float:
 
     References
     ----------
-    Liu et al. 2022, Eq. 18; docs/friction.md, "What is done".
+    Liu et al. 2022, Eq. 18; docs/theory.md, "Friction from a surface".
     """
     require(k0 >= 0.0 and k1 >= 0.0, "slopes", f"{k0:g} and {k1:g}", "not negative")
     if k0 * k1 >= 1.0:

@@ -124,7 +124,7 @@ class SurfaceFriction(Result):
 
     References
     ----------
-    Liu et al. 2022, Eq. 18; docs/friction.md, "What is done".
+    Liu et al. 2022, Eq. 18; docs/theory.md, "Friction from a surface".
     """
 
     picture: SurfaceImage

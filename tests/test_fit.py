@@ -252,7 +252,7 @@ def test_the_command(tmp_path, capsys):
     assert "C, a1111" in shown
     assert "given" in shown
     for more, sentence in (
-        (["--fix", "G"], "written NAME=VALUE"),
+        (["--fix", "G"], "written as NAME=VALUE"),
         (["--fix", "Q=1"], "constant of law 'fung' is Q"),
         (["--fix", "a2222=x"], "--fix a2222 is x, but must be a number"),
         (["--fix", "C=3"], "--fix C"),
@@ -358,7 +358,7 @@ def test_constants_that_are_no_solid_are_given_as_such(tmp_path, capsys, fix):
         assert constant["value"] == pytest.approx(true, rel=1e-6)
         assert constant["given"] or constant["low"] <= true * (1.0 + 1e-6 * np.sign(true))
     assert record["strain_range"] == [1.1, 3.5]
-    assert "these constants, C10 0.16 MPa, C01 -0.028 MPa, are not a solid" in told
+    assert "the constants C10 0.16 MPa, C01 -0.028 MPa describe no stable solid" in told
     assert not out.exists()
 
 
@@ -529,8 +529,10 @@ def test_yeoh_without_its_third_constant_has_two(tmp_path):
 def test_stresses_in_the_wrong_unit_are_asked_about():
     """Data in MPa read as kPa: a shear modulus of 240 Pa."""
     found = fit_law(tension(NeoHookean(120.0), noise=0.01), "neo-hookean")
-    assert "the shear modulus is 24" in str(found.warnings[0])
-    assert "was the nominal stress given in MPa instead of kPa" in str(found.warnings[0])
+    assert "the fitted shear modulus is 24" in str(found.warnings[0])
+    assert "check whether the nominal stress was given in MPa instead of kPa" in str(
+        found.warnings[0]
+    )
 
 
 def test_sixty_points_at_as_many_axial_stretches_are_one_pass():

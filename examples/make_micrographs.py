@@ -6,8 +6,10 @@ writes ``known_slopes.png``, ``crystals.tif`` and ``crystals.x3p`` (the last one
 ``pip install 'stonepass[imaging]'``).
 """
 
+import re
 import sys
 from pathlib import Path
+from zipfile import ZipFile, ZipInfo
 
 import numpy as np
 from PIL import Image, TiffImagePlugin
@@ -106,9 +108,19 @@ def write_x3p(folder, heights, pixel=0.5):
 
     some = heights[:200, :256]
     sizes = (some.shape[1] * pixel * 1e-6, some.shape[0] * pixel * 1e-6)
-    Topography(some.T * 1e-6, physical_sizes=sizes, unit="m").to_x3p(
-        str(folder / "crystals.x3p"), dtype="I"
-    )
+    path = folder / "crystals.x3p"
+    Topography(some.T * 1e-6, physical_sizes=sizes, unit="m").to_x3p(str(path), dtype="I")
+    with_fixed_date(path)
+
+
+def with_fixed_date(path):
+    """Write an .x3p file again without the time at which it was written: equal at every run."""
+    with ZipFile(path) as file:
+        parts = {name: file.read(name) for name in file.namelist()}
+    parts["main.xml"] = re.sub(rb"(Date>)[^<]+<", rb"\g<1>2026-01-01T00:00:00<", parts["main.xml"])
+    with ZipFile(path, "w") as file:
+        for name, content in parts.items():
+            file.writestr(ZipInfo(name, (2026, 1, 1, 0, 0, 0)), content)
 
 
 def main():

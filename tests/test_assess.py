@@ -235,9 +235,7 @@ def test_without_a_surface_what_needs_none_is_told(tmp_path):
 
 def test_the_beam_is_refused(tmp_path):
     beam = '[method]\nmodel = "beam"\nsecant_stretch = 1.2'
-    with pytest.raises(
-        BadInput, match="model is beam, but must be one of finite elements, such as paper or direct"
-    ):
+    with pytest.raises(BadInput, match="model is beam, but must be a model with finite elements: "):
         assess(patient(tmp_path, dilated=beam), MadeUp())
 
 

@@ -249,7 +249,7 @@ def test_pairs_that_are_none_are_refused_with_their_place(tmp_path, text, senten
             {"closure": "series", "opening_curve": OpeningCurve((1.3,), (1.0,))},
             "opening_curve is 1 points, but must be at least as many points as coefficients, 3",
         ),
-        ({"closure": "series", "opening_curve": "pairs.csv"}, "as read_opening_curve gives it"),
+        ({"closure": "series", "opening_curve": "pairs.csv"}, "as read_opening_curve returns it"),
     ],
 )
 def test_a_method_asks_for_a_series_that_can_be(method, sentence):

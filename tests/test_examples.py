@@ -91,9 +91,11 @@ def test_outcomes_are_in_the_glossary():
 def test_readme_commands_are_real():
     """Every `stonepass …` line of the README and the docs parses: --help of it exists."""
     text = "".join(
-        path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *ROOT.glob("docs/*.md")]
+        path.read_text(encoding="utf-8")
+        for path in [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("docs/[ht]*/*.md")]
     )
-    commands = set(re.findall(r"^\s*stonepass (\w+)", text, flags=re.MULTILINE))
+    blocks = "".join(re.findall(r"^ *```sh$(.*?)^ *```$", text, flags=re.MULTILINE | re.DOTALL))
+    commands = set(re.findall(r"^\s*stonepass (\w+)", blocks, flags=re.MULTILINE))
     assert {"pressure", "size", "curve", "headline", "material"} <= commands
     for command in commands:
         assert run([command, "--help"]) == 0

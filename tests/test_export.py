@@ -260,7 +260,7 @@ def test_what_a_program_does_not_have_is_refused(case, options, words):
     [
         (latex(xi=0.9), 0.025, "larger than the lumen"),
         (latex(xi=2.5), 0.025, "axis"),
-        (latex(xi=1.00001), 0.025, "more than a touch"),
+        (latex(xi=1.00001), 0.025, "cannot resolve a shorter contact"),
         (
             sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3, material="ureter-printed")),
             0.025,

@@ -226,7 +226,7 @@ def test_paths_that_leave_the_picture_or_cross_a_gap():
             "0,0,40,0, but must be within columns 0 to 39 and rows 0 to 29",
         ),
         (StraightPath(0, 0, 1, 0), "at least two pixels long"),
-        (StraightPath(0, 10, 39, 10), "clear of places without a height; choose other paths"),
+        (StraightPath(0, 10, 39, 10), "one without gaps in the height map; choose other paths"),
     ):
         with pytest.raises(BadInput, match=sentence):
             profiles_along(heights, [path])
@@ -298,7 +298,7 @@ def test_of_several_pages_the_first(tmp_path):
     save_tiff(path, np.stack([some_grey(), some_grey() // 2]), photometric="minisblack")
     found = read_surface_image(path)
     np.testing.assert_array_equal(found.values, some_grey())
-    assert found.notes == ("the first of several pages is taken",)
+    assert found.notes == ("the first of several pages is read",)
 
 
 @pytest.mark.parametrize(
@@ -452,12 +452,12 @@ def test_a_file_that_needs_more_memory_than_it_may_is_refused(tmp_path):
         ("exit 1", "its reader ended with exit 1"),
         ("kill -9 $$", "its reader ended with signal 9"),
         ("echo ready; exec sleep 60", "readable in 0.5 s"),
-        ("echo ready; echo nonsense", "its reader made no sense"),
-        ("echo ready; echo '[1]'", "its reader made no sense"),
-        ('echo ready; echo \'{"refused": ["a"]}\'', "its reader made no sense"),
+        ("echo ready; echo nonsense", "its reader sent invalid data"),
+        ("echo ready; echo '[1]'", "its reader sent invalid data"),
+        ('echo ready; echo \'{"refused": ["a"]}\'', "its reader sent invalid data"),
         (
             'echo ready; echo \'{"header": {"shape": [20, 20], "type": "uint8", "area": [0, 0, 20, 20]}}\'',
-            "20 × 20 numbers",
+            "20 × 20 values",
         ),
         (
             'echo ready; echo \'{"header": {"shape": [16, 16], "type": "uint8", "area": [0, 0, 99, 16]}}\'; printf %0256d 0',
@@ -518,9 +518,7 @@ def test_a_picture_that_was_turned_is_refused(tmp_path):
     exif[274] = 8
     Image.fromarray(some_grey()).save(tmp_path / "turned.jpg", exif=exif)
     for name in ("turned.tif", "turned.jpg"):
-        with pytest.raises(
-            BadInput, match=r"stored turned or mirrored .*turn it and save it again"
-        ):
+        with pytest.raises(BadInput, match=r"rotated or mirrored .*rotate it and save it again"):
             read_surface_image(tmp_path / name)
 
 
@@ -544,10 +542,10 @@ def test_an_impossible_pixel_is_not_taken_and_may_be_given(tmp_path):
         found = read_surface_image(path)
         assert found.pixel is None
         (note,) = (each for each in found.notes if "pixel size" in each)
-        assert note.startswith("no pixel size is taken from the file: the FEI tag says")
-        assert note.endswith("which is impossible")
+        assert note.startswith("the pixel size in the file is not used: the FEI tag says")
+        assert note.endswith("which is outside the accepted range")
         assert found.with_pixel(1e-6).pixel == (1e-6, 1e-6)
-    with pytest.raises(BadInput, match="pixel is 1e-06 m × 1e-08 m"):
+    with pytest.raises(BadInput, match="pixel size is 1e-06 m × 1e-08 m"):
         SurfaceImage(some_grey(), (1e-6, 1e-8), 255, Area(0, 0, 80, 60))
 
 

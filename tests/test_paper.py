@@ -413,7 +413,7 @@ def test_the_command(tmp_path, capsys):
     before = (out / "fig5.csv").read_bytes()
     assert run([*arguments, "--workers", "1"]) == 0
     warned = capsys.readouterr().err
-    assert warned.count("warning: a damaged result was set aside in ") == 1
+    assert warned.count("warning: a damaged result was moved to ") == 1
     assert "--cache" not in warned  # no other folder is called for
     assert (out / "fig5.csv").read_bytes() == before
     assert run(["paper", "friction", "--limit", "0kPa"]) == 2

@@ -49,7 +49,7 @@ def test_a_resolution_for_print_is_no_scale_in_fiji_either(tmp_path):
     found = read_surface_image(path)
     assert found.pixel is None
     assert (
-        found.pixel_hint == "the ImageJ description gives the size of a pixel in inch, as for print"
+        found.pixel_hint == "the ImageJ description gives it in inch, a unit of print resolutions"
     )
     assert imagej_scan({"unit": "pixel"}, ((1, 1), (1, 1))).pixel is None
     assert imagej_scan({"unit": "um"}, ((0, 1), None)).pixel is None
@@ -129,7 +129,7 @@ def test_a_resized_picture_says_so_and_what_to_do(tmp_path, kind):
     assert (
         f"the {kind} says {size} µm for a picture 160 pixels wide, but this one is 80 wide" in told
     )
-    assert f"give {double}um if it was resized as a whole, or {size}um if it was cut" in told
+    assert f"give {double}um if it was resized as a whole, or {size}um if it was cropped" in told
     assert read_surface_image(path).with_pixel(MICRO).pixel == (MICRO, MICRO)
 
 
@@ -244,8 +244,8 @@ def test_a_long_name_never_hides_the_reason(tmp_path):
         ("png", "in colour, but must be grey"),
         ("tif", "of 32 signed or floating bits"),
         ("gwy", "without a channel of heights"),
-        ("x3p", "undamaged and of a kind that can be read (FileFormatMismatch"),
-        ("sur", "undamaged and of a kind that can be read (FileFormatMismatch"),
+        ("x3p", "an undamaged file of a kind that can be read (FileFormatMismatch"),
+        ("sur", "an undamaged file of a kind that can be read (FileFormatMismatch"),
     ):
         with pytest.raises(BadInput) as refused:
             read_surface_image(tmp_path / f"{stem}.{ending}")

@@ -275,6 +275,41 @@ def test_contradicting_walls_are_refused(given: dict[str, object], words: str) -
         sp.Ureter(**given)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (sp.Stone("4.2 mm"), "Stone(diameter='4.2 mm')"),
+        (sp.Stone(size_ratio=1.2, aspect=1.4, friction=0.3),
+         "Stone(friction=0.3, size_ratio=1.2, aspect=1.4)"),
+        (sp.Ureter("3.5 mm", wall_thickness="0.52 mm"),
+         "Ureter(inner_diameter='3.5 mm', outer_diameter='4.54 mm', material='ureter')"),
+        (sp.Ureter(wall_ratio=1.5, material="latex"), "Ureter(material='latex', wall_ratio=1.5)"),
+        (sp.Load("2 kPa", "hydrostatic"),
+         "Load(confining_pressure='2 kPa', confinement='hydrostatic')"),
+        (sp.SeatedBalance("frictionless"), "SeatedBalance(seating='frictionless')"),
+        (sp.PushThrough(), "PushThrough()"),
+        (BEAM, "ElasticFoundation(circumferential_modulus='400 kPa', "
+               "longitudinal_modulus='20 kPa')"),
+        (sp.Numerics("fast"), "Numerics(accuracy='fast')"),
+        (sp.Shape(1.4), "Shape(1.4)"),
+    ],
+)  # fmt: skip
+def test_inputs_print_as_they_are_written(value: object, text: str) -> None:
+    assert repr(value) == text
+    assert eval(text, vars(sp) | {name: getattr(sp, name) for name in sp.__all__}) == value
+
+
+def test_a_case_prints_its_parts() -> None:
+    assert repr(sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5))) == (
+        "Case(Stone(size_ratio=1.2), Ureter(material='ureter', wall_ratio=1.5), Load(), "
+        "SeatedBalance(), Numerics())"
+    )
+    law = "Fung(C=405600.0, a1111=0.7091, a2222=0.8892, a1122=0.1856, G=12000.0)"
+    assert repr(sp.material("ureter")) == f"Material('ureter', {law})"
+    egg = sp.read_shape(Path(__file__).parents[1] / "examples" / "egg.csv")
+    assert repr(egg).endswith("egg.csv: length over diameter 1.332>")
+
+
 def test_states_and_data_print_short() -> None:
     stretch = np.linspace(1.0, 1.5, 40)
     assert repr(sp.Tension(stretch, stretch, ("axial",) * 40)).startswith(
@@ -315,5 +350,5 @@ def test_progress_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "IPython.display", Display)
     monkeypatch.setattr("stonepass.studies.progress.DELAY", -1.0)
     sp.critical_curve(CASE, [1.1, 1.2])
-    assert shown == ['<progress value="1" max="2"></progress> size ratios: 1 of 2',
-                     "size ratios: 2 of 2"]  # fmt: skip
+    assert shown == ['<progress value="1" max="2"></progress> jobs: 1 of 2',
+                     "jobs: 2 of 2"]  # fmt: skip

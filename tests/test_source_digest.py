@@ -76,15 +76,15 @@ class Together:
 
 def test_laws_inside_laws_are_told_apart(monkeypatch):
     monkeypatch.setattr("stonepass.studies.solution_cache.LAWS", __name__.partition(".")[0])
-    with pytest.raises(TypeError, match="cannot be written down"):
+    with pytest.raises(TypeError, match="cannot be described"):
         describe_law(NeoHookean(1e5))
     monkeypatch.undo()
-    with pytest.raises(TypeError, match="a Together cannot be written down"):
+    with pytest.raises(TypeError, match="a Together cannot be described"):
         describe_law(Together((NeoHookean(1e5),)))
     monkeypatch.setattr(Together, "__module__", "stonepass.materials.together")
     one, other = (Together((law,)) for law in (NeoHookean(1e5), Yeoh(1e5, 0.0, 0.0)))
     described = [describe_law(each) for each in (one, other, Together((NeoHookean(2e5),)))]
     assert described[0]["constants"]["parts"][0]["type"].endswith(".NeoHookean")
     assert len({str(each) for each in described}) == 3
-    with pytest.raises(TypeError, match="cannot be written down"):
+    with pytest.raises(TypeError, match="cannot be described"):
         describe_law(Together((len,)))

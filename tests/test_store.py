@@ -102,7 +102,7 @@ def test_a_failure_is_remembered_too(tmp_path, solved):
     second = sp.solve(question, states=store)
     assert first.outcome is second.outcome is sp.Outcome.NO_SOLUTION
     assert first.message == second.message
-    assert "buckles all along" in first.message
+    assert "it buckles axisymmetrically" in first.message
     assert solved == ["push"]
 
 
@@ -164,7 +164,7 @@ def test_a_corrupt_file_is_set_aside_and_solved_again(tmp_path, canned, where):
     raw[where] ^= 1
     path.write_bytes(raw)
     assert set_aside(tmp_path) == 0
-    with pytest.warns(CacheWarning, match=r"damaged result was set aside in .*corrupt"):
+    with pytest.warns(CacheWarning, match=r"damaged result was moved to .*corrupt"):
         assert_same(first.pressure, sp.solve(case(), states=store).pressure)
     assert set_aside(tmp_path) == 1
     assert len(canned) == 2

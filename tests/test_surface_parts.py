@@ -134,7 +134,7 @@ def test_colour_outside_the_area_is_no_matter(tmp_path):
         for read in (read_surface_image, read_untrusted):
             found = read(tmp_path / name, area=area)
             np.testing.assert_array_equal(found.surface, surface())
-            with pytest.raises(BadInput, match="within 0, 0, 360, 240, the part that is known"):
+            with pytest.raises(BadInput, match="within 0, 0, 360, 240, the part without colours"):
                 found.with_area(0, 0, COLUMNS, ROWS + 30)
         assert read_surface_image(tmp_path / name).area == area  # the bar is left out anyhow
         sentence = f"{name} in colour, but must be grey; column 300 of row 260 is coloured"
@@ -158,7 +158,7 @@ def test_a_thumbnail_is_not_the_picture(tmp_path):
             file.write(large, photometric="minisblack")
         found = read_surface_image(tmp_path / name)
         np.testing.assert_array_equal(found.values, large)
-        assert found.notes == ("page 2 of 2 is taken, the largest that is no reduced image",)
+        assert found.notes == ("page 2 of 2 is read, the largest that is no reduced image",)
     path = tmp_path / "lzw.tif"
     images = [Image.fromarray(each) for each in (small, large)]
     images[0].save(path, save_all=True, append_images=images[1:], compression="tiff_lzw")
@@ -198,7 +198,7 @@ def test_a_missing_height_beside_a_path_is_no_matter():
         np.testing.assert_array_equal(
             profiles_along(holed, [path]).values, profiles_along(whole, [path]).values
         )
-    with pytest.raises(BadInput, match="clear of places without a height; choose other paths"):
+    with pytest.raises(BadInput, match="one without gaps in the height map; choose other paths"):
         profiles_along(holed, [StraightPath(0, 20.5, 399, 20.5)])
 
 
@@ -244,7 +244,7 @@ def test_a_border_without_heights_is_named_with_the_area_that_helps():
     found = surface_friction(heights_of(z).with_area(12, 5, 393, 111))
     whole = surface_friction(heights_of(wave()).with_area(12, 5, 393, 111))
     assert found.friction == pytest.approx(whole.friction, rel=0.01)
-    sentence = "clear of places without a height at its ends; shorten it to 1"
+    sentence = "one with measured heights at both ends; shorten it to 1"
     with pytest.raises(BadInput, match=sentence):
         surface_friction(heights_of(z), paths=[StraightPath(0, 60, 399, 60)])
     z[:, 50:] = np.nan
@@ -337,4 +337,4 @@ def test_the_margin_is_an_option_and_its_effect_is_told(tmp_path, capsys):
     assert "by margin at the ends" in shown
     assert "the least-squares plane is" in shown
     assert run([*command, "--margin", "3"]) == 2
-    assert "margin is 3.0, but must be a number from 0 to 2" in capsys.readouterr().err
+    assert "margin is 3.0, but must be from 0 to 2" in capsys.readouterr().err

@@ -1,6 +1,7 @@
 """Pages that follow from the code: the Python interface and the command line."""
 
 from pathlib import Path
+from types import ModuleType
 
 from typer.cli import get_docs_for_click
 from typer.main import get_command
@@ -12,14 +13,18 @@ from stonepass.cli.app import app as command_line
 GROUPS = {
     "Questions, cases and answers": ("model",),
     "Wall laws and materials": ("materials",),
-    "Reading and writing files": ("inputs",),
+    "Reading and writing files": ("inputs", "export"),
     "Studies of many cases": ("studies",),
     "Laboratory": ("bench",),
     "Friction from a surface": ("surface",),
     "Patients": ("clinic",),
+    "Quantities": ("units",),
+    "Results": ("result",),
     "Errors, outcomes and warnings": ("errors", "caution"),
     "Records": ("records",),
 }
+# Functions of the packages that are public as a whole.
+FUNCTIONS = {"export": ("formats", "write")}
 INTRODUCTION = """# Python interface
 
 This page lists every public name of the package, which is `import stonepass as sp` in the
@@ -33,8 +38,9 @@ their keys. The [keys of records](../reference.md) have a page of their own.
 
 
 def homes():
-    """Return the package in which each public name lives."""
-    return {name: stonepass._HOME[name].split(".")[0] for name in stonepass.__all__}
+    """Return the package in which each public name lives; a package lives in itself."""
+    homes = stonepass._HOME
+    return {name: homes.get(name, name).split(".")[0] for name in stonepass.__all__}
 
 
 def python_interface():
@@ -57,8 +63,14 @@ def _functions_first(name):
 
 def _directive(name):
     thing = getattr(stonepass, name)
+    if isinstance(thing, ModuleType):
+        members = "".join(
+            f".. autofunction:: stonepass.{name}.{each}\n" for each in FUNCTIONS[name]
+        )
+        return f".. automodule:: stonepass.{name}\n   :no-members:\n\n{members}"
     if not isinstance(thing, type):
-        return f".. autofunction:: stonepass.{name}\n"
+        kind = "function" if callable(thing) else "data"
+        return f".. auto{kind}:: stonepass.{name}\n" + ("   :no-value:\n" * (kind == "data"))
     if name.endswith("Record"):
         return f".. autoclass:: stonepass.{name}()\n"
     return f".. autoclass:: stonepass.{name}\n   :members:\n"

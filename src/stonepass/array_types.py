@@ -1,8 +1,9 @@
-"""Types of arrays with their shapes, for annotations: ``Float[np.ndarray, "points 3"]``.
+"""Array types with shapes, for annotations such as ``Float[np.ndarray, "points 3"]``.
 
-They are those of jaxtyping for static checkers and for whoever checks annotations at run time, who
-has loaded jaxtyping before this package, as the tests do. In any other process they are the bare
-array types: importing jaxtyping takes as long as importing NumPy, and nothing would read them.
+For static type checkers these are the types of jaxtyping. At run time they are the types of
+jaxtyping only if jaxtyping has been imported before this package; the tests do so to check
+annotations. Otherwise an annotation is the plain array type, because importing jaxtyping takes as
+long as importing NumPy and the shapes would not be used.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ if TYPE_CHECKING or "jaxtyping" in sys.modules:
 else:
 
     class _Unchecked:
-        """Stands for the array type alone."""
+        """A replacement for the types of jaxtyping that ignores the shape."""
 
         def __class_getitem__(cls, item):  # type: ignore[no-untyped-def]
             array_type, _shape = item

@@ -1,9 +1,9 @@
-"""Declared inputs: each input of a question is declared once, and every door is made from that.
+"""Declarations of inputs: name, kind, bounds, default and help text of each input, written once.
 
-An input is declared in the metadata of the dataclass field that holds its value, with `declared`.
-The command line, case files, their JSON schema and the documentation read the declarations with
-`inputs_of`; the constructor of the dataclass checks its values against them with `check_inputs`, or
-with `set_inputs` where it accepts text as well as the type of the field.
+An input is declared with `declared`, in the metadata of the dataclass field that stores its value.
+The command line, case files, their JSON schema and the documentation are generated from the
+declarations, which they read with `inputs_of`. The constructor of the dataclass reads and checks
+its values with `check_inputs`, or with `set_inputs` if the class has a constructor of its own.
 """
 
 from __future__ import annotations
@@ -17,11 +17,20 @@ from typing import Any
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.units import format_length, format_pressure, length, pressure
 
-__all__ = ["DeclaredInput", "Input", "Kind", "check_inputs", "declared", "inputs_of", "set_inputs"]
+__all__ = [
+    "DeclaredInput",
+    "Input",
+    "Kind",
+    "check_inputs",
+    "declared",
+    "described",
+    "inputs_of",
+    "set_inputs",
+]
 
 
 class Kind(enum.Enum):
-    """What an input is: decides how text is read, and its type in a schema."""
+    """The kind of an input. It determines how text is read, and the type in the JSON schema."""
 
     LENGTH = "length"
     PRESSURE = "pressure"
@@ -42,19 +51,19 @@ class Input:
     ----------
     kind : Kind
     option : str
-        Name on the command line; a flag has two, ``--on/--off``.
+        Name on the command line; a flag has two names, ``--on/--off``.
     meaning : str
-        One sentence of help, without its default.
+        Help text of one sentence, without the default value.
     title : str
-        Name in the messages of the Python interface; the name of the field where it is empty.
+        Name in messages of the Python interface; if it is empty, the name of the field is used.
     bounds : (float, float), optional
-        Smallest and largest value in SI units.
+        Smallest and largest allowed value, in SI units.
     choices : tuple of str
-        The values of a choice.
+        Allowed values of an input of the kind `Kind.CHOICE`.
     shown_default : str
-        The default in words, where the value itself does not say it.
+        Default in words, for inputs whose default value does not explain itself.
     metavar : str
-        Placeholder of the value in the help.
+        Placeholder of the value in the help text.
     """
 
     kind: Kind
@@ -68,7 +77,7 @@ class Input:
 
     @property
     def allowed(self) -> str:
-        """The values that are allowed, in words."""
+        """The allowed values in words."""
         if self.bounds is None:
             return {Kind.FLAG: "true or false"}.get(self.kind, f"a {self.kind.value}")
         low, high = (_shown(self.kind, bound) for bound in self.bounds)
@@ -79,7 +88,18 @@ class Input:
 
 @dataclass(frozen=True)
 class DeclaredInput:
-    """An input with the place of its field: `key` is ``section.name`` as in a case file."""
+    """A declared input together with its section in a case file, its field name and its default.
+
+    Attributes
+    ----------
+    section : str
+        Section of the case file.
+    name : str
+        Name of the dataclass field, which is also the key within the section.
+    default : object
+        Default value, or ``dataclasses.MISSING`` if a value must be given.
+    declaration : Input
+    """
 
     section: str
     name: str
@@ -88,17 +108,31 @@ class DeclaredInput:
 
     @property
     def key(self) -> str:
-        """Where a case file has it."""
+        """The key in a case file, ``section.name``."""
         return f"{self.section}.{self.name}"
 
     @property
     def title(self) -> str:
-        """Its name in the messages of the Python interface."""
+        """The name in messages of the Python interface."""
         return self.declaration.title or self.name
 
 
 def declared(kind: Kind, option: str, meaning: str, *, default: Any = MISSING, **more: Any) -> Any:
-    """Make a dataclass field that carries the declaration of its input (see `Input`)."""
+    """Create a dataclass field that carries the declaration of its input.
+
+    Parameters
+    ----------
+    kind, option, meaning
+        See `Input`.
+    default : object, optional
+        Default value of the field; without it a value must be given.
+    **more
+        Further attributes of `Input`.
+
+    Returns
+    -------
+    dataclasses.Field
+    """
     metadata = {"input": Input(kind, option, meaning, **more)}
     return field(metadata=metadata) if default is MISSING else field(
         default=default, metadata=metadata
@@ -106,9 +140,9 @@ def declared(kind: Kind, option: str, meaning: str, *, default: Any = MISSING, *
 
 
 def inputs_of(owner: type) -> dict[str, DeclaredInput]:
-    """The declared inputs of a dataclass by the name of their field.
+    """Return the declared inputs of a dataclass by the names of their fields.
 
-    The class names the section of the case file in its attribute ``SECTION``.
+    The class attribute ``SECTION`` is the name of the section in a case file.
     """
     section: str = owner.SECTION  # type: ignore[attr-defined]
     return {
@@ -119,14 +153,14 @@ def inputs_of(owner: type) -> dict[str, DeclaredInput]:
 
 
 def check_inputs(instance: Any) -> None:
-    """Read and check every declared field of a frozen dataclass in its ``__post_init__``.
+    """Read and check every declared field; call this in ``__post_init__`` of a frozen dataclass.
 
-    Text of a length or a pressure is read into SI units; numbers become floats.
+    Lengths and pressures given as text are converted to SI units; numbers are converted to floats.
 
     Raises
     ------
     BadInput
-        A value of the wrong kind, out of bounds, or none of the choices.
+        A value is of the wrong kind, is out of bounds, or is not one of the choices.
     """
     for each in fields(instance):
         if "input" in each.metadata:
@@ -137,7 +171,20 @@ def check_inputs(instance: Any) -> None:
 
 
 def set_inputs(instance: Any, **given: Any) -> None:
-    """Set the declared fields in a constructor of its own; None stands for the default."""
+    """Set and check all declared fields; call this in a hand-written ``__init__`` of the dataclass.
+
+    Parameters
+    ----------
+    instance : object
+        Instance of the dataclass.
+    **given
+        A value for every declared field; None stands for the default.
+
+    Raises
+    ------
+    BadInput
+        See `check_inputs`.
+    """
     for each in fields(instance):
         if "input" in each.metadata:
             value = given.pop(each.name)
@@ -145,6 +192,42 @@ def set_inputs(instance: Any, **given: Any) -> None:
             object.__setattr__(instance, each.name, chosen)
     assert not given, given
     check_inputs(instance)
+
+
+def described(instance: Any, *left_out: str) -> str:
+    """Write a value as its constructor would be called, without inputs that have their default.
+
+    It serves as ``__repr__`` of dataclasses with declared inputs.
+
+    Parameters
+    ----------
+    instance : dataclass with declared inputs
+    left_out : str
+        Names of inputs that follow from the others.
+
+    Examples
+    --------
+    >>> import stonepass as sp
+    >>> sp.Load("2 kPa"), sp.Numerics("fast"), sp.Ureter(wall_ratio=1.5, material="latex")
+    (Load(confining_pressure='2 kPa'), Numerics(accuracy='fast'), Ureter(material='latex', \
+wall_ratio=1.5))
+    """
+    parts = []
+    for each in inputs_of(type(instance)).values():
+        value = getattr(instance, each.name)
+        if each.name not in left_out and value is not None and value != each.default:
+            parts.append(f"{each.name}={_written(each.declaration.kind, value)}")
+    return f"{type(instance).__name__}({', '.join(parts)})"
+
+
+def _written(kind: Kind, value: Any) -> str:
+    if kind is Kind.LENGTH:
+        return repr(format_length(value))
+    if kind is Kind.PRESSURE:
+        return repr(format_pressure(value))
+    if kind is Kind.MATERIAL and value.reference:
+        return repr(value.reference)
+    return repr(value)
 
 
 def _optional(each: Field[Any]) -> bool:
@@ -176,7 +259,7 @@ def _number(declaration: Input, title: str, value: Any) -> float:
         raise BadInput(title, value, declaration.allowed)
     try:
         number = float(value)
-    except OverflowError:  # a whole number of hundreds of digits
+    except OverflowError:  # an integer with hundreds of digits
         raise BadInput(title, value, declaration.allowed) from None
     return float(_bounded(declaration, title, number, number))
 

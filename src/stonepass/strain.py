@@ -1,4 +1,4 @@
-"""The arguments of a strain energy: right Cauchy–Green components and the place in the wall."""
+"""Arguments of a strain energy: right Cauchy–Green components, and place in the wall."""
 
 from __future__ import annotations
 
@@ -8,11 +8,18 @@ __all__ = ["INNER_WALL", "CauchyGreen", "Place"]
 
 
 class CauchyGreen(NamedTuple):
-    """Components of C = FᵀF in the cylindrical reference frame (r radial, t around, z axial).
+    """Components of the right Cauchy–Green tensor C = FᵀF in the cylindrical reference frame.
 
-    Each component is a number, an array or a symbol of the finite elements. C is symmetric, so
-    `rz` stands for C_rz and C_zr alike, and a derivative with respect to it counts both. In
-    axisymmetry without torsion `rt` and `tz` are the plain number 0.0.
+    All components are dimensionless. Each is a number, an array or a symbol of the finite elements.
+
+    Attributes
+    ----------
+    rr, tt, zz
+        Diagonal components: r radial, t circumferential, z axial.
+    rz, rt, tz
+        Off-diagonal components. C is symmetric, so `rz` represents both C_rz and C_zr, and a
+        derivative with respect to `rz` is the sum of the derivatives by C_rz and C_zr. In
+        axisymmetric deformations without torsion `rt` and `tz` are the Python number 0.0.
     """
 
     rr: Any
@@ -24,12 +31,12 @@ class CauchyGreen(NamedTuple):
 
     @property
     def I1(self) -> Any:
-        """First invariant, the trace of C; 3 at rest."""
+        """First invariant, the trace of C; its value at rest is 3."""
         return self.rr + self.tt + self.zz
 
     @property
     def I2(self) -> Any:
-        """Second invariant, ½ (I₁² − tr C²); 3 at rest."""
+        """Second invariant, ½ (I₁² − tr C²); its value at rest is 3."""
         first = self.I1
         squares = self.rr * self.rr + self.tt * self.tt + self.zz * self.zz
         sheared = self.rz * self.rz + self.rt * self.rt + self.tz * self.tz
@@ -37,7 +44,7 @@ class CauchyGreen(NamedTuple):
 
     @property
     def I3(self) -> Any:
-        """Third invariant, det C = J²; 1 where volume is kept."""
+        """Third invariant, det C = J²; its value is 1 if the volume is preserved."""
         return (
             self.tt * (self.rr * self.zz - self.rz * self.rz)
             - self.rr * self.tz * self.tz
@@ -47,7 +54,16 @@ class CauchyGreen(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Reference coordinates in inner radii at rest: R from 1 to η, Z along the axis."""
+    """Reference coordinates of a point of the wall, in undeformed inner radii.
+
+    Attributes
+    ----------
+    R
+        Radial coordinate, from 1 at the inner to η at the outer surface: a number, an array or a
+        symbol.
+    Z
+        Axial coordinate, 0 at the widest place of the stone and positive downstream.
+    """
 
     R: Any
     Z: Any = 0.0

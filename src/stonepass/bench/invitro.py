@@ -187,7 +187,7 @@ def fit_friction(
     ----------
     docs/bench.md, "A series in vitro".
     """
-    library, solver = lmfit(), solver or JobSolver()
+    library, solver = lmfit(), solver or JobSolver(progress=True)
     if not setting.model.NEEDS_ELEMENTS:
         raise BadInput("model", "beam", "'paper' or 'direct'",
                        "the beam model holds for thin walls only")  # fmt: skip

@@ -50,7 +50,7 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     BadInput
         An unstable material, or measurements that hardly any wall could have together.
     """
-    solver = solver or JobSolver()
+    solver = solver or JobSolver(progress=True)
     check(patient.material)
     case = patient.case()
     draws, possible = draw_patient(patient)

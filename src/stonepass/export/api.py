@@ -1,4 +1,4 @@
-"""Write a case in an export format: the one function behind Python and the command line."""
+"""Export of a case to a file for another program, for Python and for the command line."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ def formats() -> tuple[Writer, ...]:
     Returns
     -------
     tuple of Writer
-        In the order of the help. Each has `name`, `ending`, `description`, `options`, `limits`.
+        The formats in the order in which the help lists them. Each has the attributes `name`,
+        `ending`, `description`, `options` and `limits`.
 
     Examples
     --------
@@ -47,37 +48,42 @@ def write(
     words: Words = as_keyword,
     **options: Any,
 ) -> Export:
-    """Write a case for another program, or its solved wall to look at.
+    """Write the input file of a case for another program, or its solved wall for display.
 
     Parameters
     ----------
     case : Case
-        Lengths in the file are in mm, with an inner radius of 1 mm where the case has only ratios.
+        The case to be written. Lengths in the file are in mm; the inner radius is 1 mm if the case
+        has only ratios.
     path : Path or str
         File to write, with the ending of the format. An existing file is replaced.
     format : str, optional
         Name of a registered format (`formats`); by default the one with the ending of `path`.
     solved : callable, optional
-        Returns the answer of `case` for formats that show results; by default the case is solved
-        here. It is not called for formats that need no answer.
+        Function that returns the answer of `case`. Only formats that show results call it; by
+        default they solve the case.
     writers : sequence of Writer, optional
         Formats to choose from; the registered ones by default.
     words : callable, optional
-        How messages name an option; the command line has words of its own.
+        Function that returns the name of an option in messages; by default its keyword in Python.
     **options
         Options of the format, e.g. ``flavour="abaqus"``; None stands for the default.
 
     Returns
     -------
     Export
-        `path` is where the file was written. It is None where the case has no answer to show: then
-        no file is written, and `summary` has the outcome and its sentence.
+        Its `path` is the written file. If the case has no result to show, no file is written, the
+        path is None, and `summary` has the outcome as a sentence.
 
     Raises
     ------
     BadInput
-        The format or an option is unknown, an option is not one of this format, the format cannot
+        The format or an option is unknown, the option belongs to another format, the format cannot
         express the case, or the file cannot be written.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
 
     Examples
     --------

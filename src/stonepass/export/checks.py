@@ -1,4 +1,4 @@
-"""What is refused before anything is written: unknown formats and options, cases beyond a limit."""
+"""Checks before an export: known formats and options, and cases that the format can express."""
 
 from __future__ import annotations
 
@@ -18,16 +18,27 @@ if TYPE_CHECKING:  # loads NumPy and SciPy
 __all__ = ["check_case", "checked_options", "checked_value", "find_writer", "names_of"]
 
 OWN_LAW = "a law of one's own"
-WITH_OPTIONS = ("model", "seating")  # kinds that are options at the doors too
+WITH_OPTIONS = ("model", "seating")  # kinds that are named by an option in messages
 
 
 def find_writer(writers: Sequence[Writer], path: Path, format: str | None, words: Words) -> Writer:
-    """Return the writer that `format` names, or else the one with the ending of `path`.
+    """Return the writer with a given name, or else the one with the ending of a path.
+
+    Parameters
+    ----------
+    writers : sequence of Writer
+        Formats to choose from.
+    path : Path
+        The file to be written.
+    format : str or None
+        Name of the format; None for the one with the ending of `path`.
+    words : callable
+        Function that returns the name of an option in messages.
 
     Raises
     ------
     BadInput
-        No writer has this name; without a `format`, none has this ending.
+        No writer has this name, or without a `format` no writer has this ending.
     """
     if format is None:
         found = [each for each in writers if each.ending == path.suffix.lower()]
@@ -45,12 +56,23 @@ def find_writer(writers: Sequence[Writer], path: Path, format: str | None, words
 def checked_options(
     writers: Sequence[Writer], writer: Writer, given: Mapping[str, Any], words: Words
 ) -> dict[str, Any]:
-    """Return a value for every option of the writer; an option that is None counts as not given.
+    """Return a checked value for every option of a writer.
+
+    Parameters
+    ----------
+    writers : sequence of Writer
+        All formats; they are needed to name the format that an option belongs to.
+    writer : Writer
+        The format of the export.
+    given : mapping of str to value
+        Given options by name; None stands for the default.
+    words : callable
+        Function that returns the name of an option in messages.
 
     Raises
     ------
     BadInput
-        An option is unknown, is of another format, or has a value that is not allowed.
+        An option is unknown, belongs to another format, or has a value that is not allowed.
     """
     values = {option.name: option.default for option in writer.options}
     declared = {option.name: option for option in writer.options}
@@ -71,12 +93,21 @@ def checked_options(
 
 
 def checked_value(option: Option, value: Any, words: Words) -> Any:
-    """Return the value of an option: one of its choices, or a number within its bounds.
+    """Return the value of an option after a check against its choices or bounds.
+
+    Parameters
+    ----------
+    option : Option
+        Declaration of the option.
+    value : str or float
+        The given value, in the unit of the option.
+    words : callable
+        Function that returns the name of an option in messages.
 
     Raises
     ------
     BadInput
-        The value is not allowed.
+        The value is none of the choices, or a number out of bounds.
     """
     if option.kind is str:
         if value not in option.choices:
@@ -96,12 +127,25 @@ def check_case(
     options: Mapping[str, Any],
     words: Words,
 ) -> None:
-    """Refuse a case that the format cannot express, in one sentence.
+    """Refuse a case that a format cannot express.
+
+    Parameters
+    ----------
+    writers : sequence of Writer
+        All formats; the message names those that can express the case.
+    writer : Writer
+        The format of the export.
+    case : Case
+        The case to be written.
+    options : mapping of str to value
+        A value for every option of the writer.
+    words : callable
+        Function that returns the name of an option in messages.
 
     Raises
     ------
     BadInput
-        A law, model, seating, load or shape of the case is beyond a declared limit.
+        The law, model, seating, load or shape of the case is outside a declared limit.
     """
     for kind, names in names_of(case).items():
         limit = writer.limits.get(kind)
@@ -118,9 +162,10 @@ def check_case(
 
 
 def names_of(case: Case) -> dict[str, tuple[str, ...]]:
-    """Return the names of a case by kind (`contract.KINDS`), as a `Limit` has them.
+    """Return the names of the model, law, seating, loads and shape of a case.
 
-    A case has one name of each kind, except of loads: it may have none, or a pre-stretch and a
+    The keys are those of `contract.KINDS`, and the names are those that a `Limit` contains. There
+    is one name for each kind except the loads: a case may have no load, or a pre-stretch and a
     confining pressure.
     """
     from stonepass.materials.known_laws import name_of_law  # loads NumPy
@@ -144,7 +189,7 @@ def _within(limit: Limit, name: str, options: Mapping[str, Any]) -> bool:
 
 
 def _remedy(writers: Sequence[Writer], writer: Writer, kind: str, name: str, words: Words) -> str:
-    """The reason of the limit; or the options or other formats that can express the name."""
+    """Return the reason of the limit, or the options or formats that can express the name."""
     own = writer.limits[kind]
     if name not in own.names and own.reason:
         return own.reason

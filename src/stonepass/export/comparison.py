@@ -1,4 +1,4 @@
-"""The contact that another program found, beside the contact of our own seated state."""
+"""Comparison of the contact computed by another program with that of stonepass."""
 
 from __future__ import annotations
 
@@ -20,19 +20,23 @@ __all__ = ["Comparison", "compare"]
 
 @dataclass(frozen=True)
 class Comparison:
-    """One case, solved here and by another program.
+    """One case, solved by stonepass and by another program.
 
     Attributes
     ----------
     answer : Answer
-        Our answer.
+        Answer of stonepass.
     seated : SeatedState
-        The seated state of our answer.
+        Seated state of this answer.
     contact : Contact
-        The contact that the other program found.
+        Contact that the other program computed.
     pressure : float or None
-        P_ucr in Pa by the paper's balance and closure with the other contact; None where the forces
-        do not balance.
+        P_ucr in Pa by the paper's force balance and closure with the contact of the other program;
+        None if the forces do not balance.
+
+    References
+    ----------
+    docs/export.md, "CalculiX and back".
     """
 
     answer: Answer
@@ -42,19 +46,19 @@ class Comparison:
 
 
 def compare(case: Case, contact: Contact) -> Comparison | Answer:
-    """Solve a case and put the contact of another program beside it.
+    """Solve a case and compare it with the contact that another program computed.
 
     Parameters
     ----------
     case : Case
-        A case with the linear closure.
+        A case of the paper's model with the linear closure.
     contact : Contact
-        As `read_contact` returns it for the same case.
+        Contact of the same case, e.g. from `results.read_contact`.
 
     Returns
     -------
     Comparison or Answer
-        The answer alone where it has no seated state.
+        Only the answer if it has no seated state.
 
     Raises
     ------
@@ -63,7 +67,7 @@ def compare(case: Case, contact: Contact) -> Comparison | Answer:
     """
     model = case.model
     closure = model.closure if isinstance(model, SeatedBalance) else f"that of '{model.NAME}'"
-    require(closure == "linear", "closure", closure, "'linear' beside another program's contact")
+    require(closure == "linear", "closure", closure, "'linear' for a comparison of contacts")
     answer = solve(case)
     seated, detail = answer.contact, answer.detail
     if not isinstance(seated, SeatedState) or not isinstance(detail, SeatedBalanceDetail):

@@ -1,7 +1,8 @@
-"""The writer contract: what an export format declares, what its function takes and returns.
+"""The contract of an export format: its declaration, and the arguments and result of its function.
 
-A new format is one file that makes a `Writer`, and one line in `export.registry`. This module loads
-no numerical library, since the help of the command line is made from these declarations.
+A new format needs one file with a `Writer`, and one line in `export.registry` (docs/developing.md,
+"An export format"). This module loads no numerical library, because the help of the command line is
+made from these declarations.
 """
 
 from __future__ import annotations
@@ -33,13 +34,13 @@ class Option:
     kind : type
         `str` for one of `choices`, `float` for a number within `bounds`.
     default : str, float or None
-        Value that the function gets where the option is not given.
+        Value that the function gets if the option is not given.
     default_text : str
-        What the help says of the default; empty where `default` says it.
+        Description of the default in the help; empty if `default` itself is shown.
     choices : tuple of str
-        Allowed words, where `kind` is `str`.
+        Allowed words if `kind` is `str`.
     bounds : (float, float) or None
-        Smallest and largest number, both allowed, where `kind` is `float`.
+        Smallest and largest allowed number if `kind` is `float`.
     unit : str
         Unit of the number, as a phrase for messages.
     """
@@ -56,18 +57,20 @@ class Option:
 
 @dataclass(frozen=True)
 class Limit:
-    """The names of one kind that a format can express; a case with any other name is refused.
+    """The models, laws, seatings, loads or shapes that a format can express.
+
+    A case with any other name is refused.
 
     Attributes
     ----------
     names : tuple of str
-        Names of laws, models, seatings, loads (``prestretch``, ``dead``, ``hydrostatic``) or shapes
+        Names of models, laws, seatings, loads (``prestretch``, ``dead``, ``hydrostatic``) or shapes
         (``sphere``, ``spheroid``, ``outline``).
     reason : str
-        Why the others are refused, or what to do instead: a clause for the end of the message.
-        Where it is empty, the message names the formats that can express the case.
+        Why other names are refused, or what to do instead; a clause at the end of the message. If
+        it is empty, the message names the formats that can express the case.
     needs : mapping
-        Values that options must have for a name: ``{"fung": {"flavour": "abaqus"}}``.
+        Values that options must have for a name, e.g. ``{"fung": {"flavour": "abaqus"}}``.
     """
 
     names: tuple[str, ...]
@@ -77,22 +80,22 @@ class Limit:
 
 @dataclass(frozen=True)
 class Export:
-    """What a writer made of a case.
+    """The result of an export.
 
     Attributes
     ----------
     content : str, bytes or None
-        Content of the file (text is written in UTF-8). None where the case has no answer, so that
-        there is nothing to write; `summary` then has the outcome and its sentence.
+        Content of the file; text is written in UTF-8. It is None if the case has no result to
+        write; `summary` then has the outcome as a sentence.
     summary : str
-        What the file holds, in one line.
+        Description of the content in one line.
     next_step : str
         What to do with the file; ``{file}`` and ``{stem}`` stand for its name with and without the
-        ending. May be empty.
+        ending. It may be empty.
     warnings : tuple of str
-        Warnings of the answer behind it.
+        Warnings of the answer whose results are in the file.
     path : Path or None
-        Where it was written; None before that, and where there is no content.
+        The written file; None if no file has been written.
     """
 
     content: str | bytes | None = field(repr=False)
@@ -104,7 +107,7 @@ class Export:
 
 @runtime_checkable
 class WriteFunction(Protocol):
-    """The function of a format. It writes no file and solves nothing that it does not need."""
+    """The function of a format; it returns the content and does not write the file itself."""
 
     def __call__(
         self, case: Case, options: Mapping[str, Any], solved: Callable[[], Answer]
@@ -114,11 +117,12 @@ class WriteFunction(Protocol):
         Parameters
         ----------
         case : Case
-            It is within the limits that the writer declares.
-        options : mapping
-            A checked value for each declared option, the default where none was given.
+            A case within the limits that the writer declares.
+        options : mapping of str to value
+            A checked value for each declared option.
         solved : callable
-            Solves the case and returns its answer; only a format that shows results calls it.
+            Function that solves the case and returns its answer. Only a format that shows results
+            calls it.
 
         Raises
         ------
@@ -129,27 +133,26 @@ class WriteFunction(Protocol):
 
 @dataclass(frozen=True)
 class Writer:
-    """An export format.
+    """The declaration of an export format.
 
     Attributes
     ----------
     name : str
-        Name of the format, ``--format NAME``; unique among the registered writers.
+        Name of the format for ``--format NAME``, unique among the registered writers.
     ending : str
-        Ending of its files with the dot, in lower case; unique as well.
+        Ending of its files in lower case, with the dot; unique as well.
     description : str
-        What the file is for, a phrase for the help.
+        Purpose of the file, a phrase for the help.
     write : WriteFunction
-        The function that makes the content. It imports numerical libraries when it is called, so
-        that declaring a format costs nothing.
+        Function that returns the content. It imports numerical libraries only when it is called.
     options : tuple of Option
-        The options it has; all others are refused.
+        Options of the format; all others are refused.
     limits : mapping of str to Limit
-        What it can express, by kind (`KINDS`). A kind that is left out is not limited.
+        What the format can express, by kind (`KINDS`). A kind without a limit is unrestricted.
     ignores : tuple of str
         Names of inputs of models and numerics that have no influence on the file. A case may have
-        any values of them; the command line refuses them as flags, since whoever gives one expects
-        an effect.
+        any value of them. The command line refuses them as options, because a user who gives one
+        expects an effect.
     """
 
     name: str

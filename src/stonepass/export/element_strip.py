@@ -1,7 +1,8 @@
-"""The element strip: the stone's surface as a row of elements with a prescribed motion.
+"""The element strip: the surface of the stone as a row of elements with prescribed displacements.
 
-The points of an axisymmetric stone that is pressed into the wall move radially, which no rigid body
-can do. So other programs get the surface of the stone as elements whose nodes are all moved.
+While an axisymmetric stone is pressed into the wall, all its points move radially, which is not the
+motion of a rigid body. Therefore the input files describe the surface of the stone by elements with
+prescribed displacements at all nodes.
 """
 
 from __future__ import annotations
@@ -17,11 +18,11 @@ from stonepass.model.seating import Seating
 
 __all__ = ["CLEARANCE", "element_strip"]
 
-CLEARANCE = 1e-3  # gap between strip and lumen at the start, over R_a
-THICKNESS = 0.05  # over R_a
-REACH = 1.6  # how far the strip goes, over the guessed contact
-COLUMN = np.radians(2.0)  # angle of one element of the strip
-SMALLEST_RADIUS = 0.02  # at the start, over R_a
+CLEARANCE = 1e-3  # gap between strip and lumen at the start, in inner radii R_a
+THICKNESS = 0.05  # thickness of the strip in inner radii
+REACH = 1.6  # axial length of the strip divided by the guessed length of the contact
+COLUMN = np.radians(2.0)  # largest angle of one element of the strip
+SMALLEST_RADIUS = 0.02  # smallest radius of the strip at the start, in inner radii
 
 
 def element_strip(
@@ -33,34 +34,41 @@ def element_strip(
     whole: bool,
     column: float = COLUMN,
 ) -> tuple[Grid, Float[np.ndarray, "points 2"]]:
-    """Return the element strip at its start and the displacement of each of its points.
+    """Return the element strip in its initial position and the displacements of its nodes.
 
     Parameters
     ----------
     case : Case
+        Stone, ureter and load.
     way : Seating
-        The way of the stone into the wall.
+        How the stone is seated in the wall.
     place : Profile
-        Meridian of the stone in its final place, in inner radii.
+        Meridian of the stone in its final position, in inner radii.
     open_to : float
-        Radius that the strip leaves free at its start but for `CLEARANCE`, in inner radii.
+        Largest radius of the strip in its initial position plus `CLEARANCE`, in inner radii.
     edges : (float, float)
-        Guessed upstream and downstream edges of the contact, z in inner radii.
+        Guessed axial positions z of the upstream and downstream contact edge, in inner radii.
     whole : bool
-        Whether the wall is the whole tube; otherwise the strip starts a little beyond the plane of
-        symmetry.
+        Whether the wall is the whole tube. For half a tube the strip starts a little beyond the
+        plane of symmetry.
     column : float
-        Largest angle of one element of the strip, in rad.
+        Largest angle of one element of the strip in rad.
 
     Returns
     -------
-    Grid, array
-        The strip, whose last row line faces the wall, and displacements r, z over both steps.
+    strip : Grid
+        The strip; the last line of its first index faces the wall.
+    displacement : array (points, 2)
+        Displacement r, z of each node over both steps, in inner radii.
 
     Raises
     ------
     BadInput
-        The strip would begin at or beyond the axis.
+        The strip would begin closer to the axis than 0.02 inner radii.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
     """
     stretch, xi = case.load.prestretch, case.size_ratio
     start = open_to - CLEARANCE
@@ -85,13 +93,13 @@ def element_strip(
         nearest >= SMALLEST_RADIUS,
         "size ratio",
         round(xi, 6),
-        "such that the element strip of the stone begins clear of the axis",
+        "small enough for the element strip of the stone to begin outside the axis",
         "use --seating growing, or a smaller stone",
     )
     return Grid(begin, end.cells, end.numbers), end.points - begin
 
 
 def _angle_at(place: Profile, z: float) -> float:
-    """Parametric angle at which the stone in its final place has the axial coordinate z."""
+    """Return the parametric angle at which the stone in its final position has the coordinate z."""
     tau = np.linspace(0.0, np.pi, 2001)
     return float(np.interp(z, place.radius * place.meridian(tau)[1], tau))

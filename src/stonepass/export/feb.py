@@ -1,9 +1,9 @@
-"""An input file for FEBio 4: millimetres, kilopascals, and so millinewtons.
+"""Writer of input files for FEBio 4, in millimetres, kilopascals and millinewtons.
 
-FEBio has no axisymmetric elements. The file has a wedge of them, one thick, about the axis z: one
-side in the plane y = 0, the other turned by `WEDGE`. There u_y = u_x tan(WEDGE) ties the nodes to
-their plane. FEBio's "normal displacement" would hold them altogether, for it prescribes all three
-components.
+FEBio has no axisymmetric elements. The model is a wedge about the axis z that is one element thick.
+One side lies in the plane y = 0, the other is rotated by the angle `WEDGE`. On the rotated side the
+constraint u_y = u_x tan(WEDGE) keeps the nodes in their plane. FEBio's "normal displacement" cannot
+be used, because it prescribes all three components of the displacement.
 """
 
 from __future__ import annotations
@@ -21,29 +21,33 @@ from stonepass.materials.derivatives import hoop_modulus
 
 __all__ = ["CONTACT_FILE", "INNER_FILE", "WEDGE", "write_feb"]
 
-LOAD_INCREMENTS = 10
-SEARCH = 0.25  # distance within which a face of the wall finds the element strip, over R_a
-INNER_FILE = "seated_inner.csv"  # node, u_r, 0, u_z of the inner wall, in mm
-CONTACT_FILE = "seated_contact.csv"  # face, contact pressure in kPa
+LOAD_INCREMENTS = 10  # number of increments of the first step if it applies a load
+SEARCH = 0.25  # distance in inner radii within which a face of the wall can find the element strip
+INNER_FILE = "seated_inner.csv"  # columns: node, u_r, 0, u_z of the inner wall in mm
+CONTACT_FILE = "seated_contact.csv"  # columns: face, contact pressure in kPa
 
-STRIP_CURVE, LOAD_CURVE = "1", "2"
-# Squared residual, in mN², that counts as none. FEBio's own, 1e-20, is less than rounding leaves in
-# a step without forces, such as the first one of a tube without a load.
+STRIP_CURVE, LOAD_CURVE = "1", "2"  # numbers of the load curves
+# Squared residual in mN² below which a step has converged. FEBio's default of 1e-20 is below the
+# rounding errors of a step without forces, such as the first step of a tube without a load.
 NO_RESIDUAL = 1e-12
 
 
 def write_feb(seating: Seating) -> str:
-    """Return the input file as text.
+    """Return the text of the input file.
 
     Parameters
     ----------
     seating : Seating
-        Meshes, motions and loads.
+        Meshes, prescribed displacements and loads.
 
     Raises
     ------
     BadInput
-        FEBio has no such law.
+        FEBio does not have the law of the wall.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
     """
     wall = Wedge(seating.wall, 1)
     strip = Wedge(seating.element_strip, 1 + wall.count)
@@ -159,7 +163,11 @@ def _move(section: Element, node_set: str, dof: str) -> Element:
 
 
 def _load(root: Element, s: Seating) -> None:
-    """Add the confining pressure; a dead one keeps its first area and normal, so its forces."""
+    """Add the confining pressure.
+
+    FEBio's linear pressure acts on the initial area in the initial direction, so that its forces
+    stay constant like those of a dead load.
+    """
     load = s.case.load
     if load.confining_pressure == 0.0:
         return
@@ -171,7 +179,7 @@ def _load(root: Element, s: Seating) -> None:
 
 
 def _contact(root: Element, s: Seating) -> None:
-    """Add the contact: pressure is penalty times penetration, as in the other input files."""
+    """Add the contact; the contact pressure is the penalty times the penetration."""
     section = SubElement(root, "Contact")
     touch = SubElement(section, "contact", type="sliding-elastic", surface_pair="touch")
     _leaf(touch, "laugon", "PENALTY")
@@ -192,7 +200,10 @@ def _steps(root: Element, s: Seating) -> None:
 
 
 def _control(control: Element, count: int) -> None:
-    """Take a time of one, at first in `count` increments, with full Newton steps."""
+    """Add the control of a step of duration 1 that starts with the increment 1/`count`.
+
+    The solver takes full Newton steps with a new tangent in every iteration.
+    """
     _leaf(control, "analysis", "STATIC")
     _leaf(control, "time_steps", count)
     _leaf(control, "step_size", 1.0 / count)

@@ -1,6 +1,7 @@
-"""The wall's law in FEBio's words: an uncoupled material of the 4.0 file format.
+"""The wall law as an uncoupled material of the FEBio 4.0 file format.
 
-FEBio writes an energy in C̃ = J^(−2/3) C and adds ½ k (ln J)², so at J = 1 it has the energy here.
+The energy of an uncoupled material is a function of C̃ = J^(−2/3) C plus ½ k (ln J)². At J = 1 it
+is equal to the energy of the law in stonepass.
 """
 
 from __future__ import annotations
@@ -23,28 +24,44 @@ from stonepass.materials.yeoh import Yeoh
 
 __all__ = ["FEBIO", "VANISHING", "add_wall_material", "fung_constants"]
 
-# Stiffness of a Fung law along r over that around, which FEBio wants above zero.
+# Radial over circumferential stiffness of a Fung law; FEBio requires a positive value.
 VANISHING = 1e-6
-RADIAL, AROUND = "1,0,0", "0,1,0"
+RADIAL, AROUND = "1,0,0", "0,1,0"  # first material axis: radial or circumferential
 
 Constants = dict[str, float]
 Attributes = Mapping[str, str]
 
 
 def fung_constants(law: Fung) -> dict[str, float]:
-    """Constants of FEBio's "Fung orthotropic", directions 1, 2, 3 along r, θ, z; moduli in Pa.
+    """Return the constants of FEBio's "Fung orthotropic" with the directions 1, 2, 3 = r, θ, z.
 
-    FEBio's Ψ = c/2 (exp Q̃ − 1), c Q̃ = Σ λ_ab E_aa E_bb + Σ 2 μ_a (E²)_aa, takes λ + 2μ as the
-    inverse of the compliance 1/E_a, −ν_ab/E_a (its manual, "Fung orthotropic"). Every μ_a is zero
-    with no G_ab. So the block of θ and z is inverted by hand, c λ⁻¹ = [a2222, −a1122; −a1122,
-    a1111]/D with D = a1111 a2222 − a1122². That leaves E1 = c ε a1111, ε = `VANISHING`: Q̃ is too
-    large by ε a1111 E_rr², and the energy by less than C/2 exp(Q) times that, to first order.
+    FEBio's energy is Ψ = c/2 (exp Q̃ − 1) with c Q̃ = Σ λ_ab E_aa E_bb + Σ 2 μ_a (E²)_aa. The matrix
+    λ + 2μ is the inverse of the compliance matrix with the elements 1/E_a and −ν_ab/E_a (FEBio
+    manual, "Fung orthotropic"). All G_ab are 0 here, so that all μ_a are 0. The block of θ and z of
+    λ must be c [a1111, a1122; a1122, a2222]. Its inverse, [a2222, −a1122; −a1122, a1111]/(c D) with
+    D = a1111 a2222 − a1122², gives E2, E3 and v23.
+
+    The law has no radial stiffness, but FEBio requires E1 > 0. With E1 = c ε a1111 and
+    ε = `VANISHING`, Q̃ is too large by ε a1111 E_rr², and the energy is too large by less than
+    C/2 exp(Q) times that, to first order.
+
+    Parameters
+    ----------
+    law : Fung
+        Law with constants C and G in Pa.
+
+    Returns
+    -------
+    dict of str to float
+        FEBio's constants by name; moduli in Pa.
 
     Raises
     ------
     BadInput
-        D is not positive: there is no such compliance.
+        D is not positive, so that the compliance matrix does not exist.
 
+    Examples
+    --------
     >>> fung_constants(Fung(2.0, 1.0, 4.0, 0.0))["E3"]
     8.0
     """
@@ -65,12 +82,25 @@ def fung_constants(law: Fung) -> dict[str, float]:
 
 
 def add_wall_material(parent: Element, law: Law, **attributes: str) -> None:
-    """Add the material of `law`, moduli in kPa.
+    """Add the material of a law to an XML element.
+
+    Parameters
+    ----------
+    parent : Element
+        The element ``Material`` of the input file.
+    law : Law
+        Law of the wall; its moduli are written in kPa.
+    **attributes : str
+        Attributes of the new element, such as ``id`` and ``name``.
 
     Raises
     ------
     BadInput
-        FEBio has no such law.
+        FEBio does not have this law.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
     """
     if type(law) not in FEBIO:
         *others, last = (name for name, each in KNOWN_LAWS.items() if each in FEBIO)
@@ -95,7 +125,7 @@ def _yeoh(parent: Element, law: Yeoh, k: Constants, attributes: Attributes) -> N
 
 
 def _ogden(parent: Element, law: Ogden, k: Constants, attributes: Attributes) -> None:
-    """FEBio has Σ c/m² (λ₁^m + λ₂^m + λ₃^m − 3), so that c = μ_p α_p and m = α_p."""
+    """Write FEBio's Σ c/m² (λ₁^m + λ₂^m + λ₃^m − 3) with c = μ_p α_p and m = α_p."""
     constants: Constants = {}
     for number, (mu, alpha) in enumerate(law.terms, start=1):
         constants |= {f"c{number}": mu * alpha, f"m{number}": alpha}
@@ -103,8 +133,8 @@ def _ogden(parent: Element, law: Ogden, k: Constants, attributes: Attributes) ->
 
 
 def _fung(parent: Element, law: Fung, k: Constants, attributes: Attributes) -> None:
-    # Without a ground matrix the law is no solid, and no deck is made. FEBio takes the bulk
-    # modulus of a mixture from the mixture alone.
+    # A law without a ground matrix is unstable and has been refused before. FEBio uses only the
+    # bulk modulus of the mixture itself, not those of its components.
     mixture = _solid(parent, "uncoupled solid mixture", k, attributes)
     _along_cylinder(_solid(mixture, "Fung orthotropic", fung_constants(law)))
     _solid(mixture, "Mooney-Rivlin", {"c1": law.G / 2.0, "c2": 0.0})
@@ -113,7 +143,7 @@ def _fung(parent: Element, law: Fung, k: Constants, attributes: Attributes) -> N
 def _holzapfel(
     parent: Element, law: HolzapfelGasserOgden, k: Constants, attributes: Attributes
 ) -> None:
-    """FEBio's fibres lie at ±gamma, in degrees, to its axis 1 in its plane of 1 and 2."""
+    """Write the law; the fibres lie in the plane of axes 1 and 2, at ±gamma (degrees) to axis 1."""
     constants = {
         "c": law.mu, "k1": law.k1, "k2": law.k2, "gamma": math.degrees(law.angle),
         "kappa": law.kappa,
@@ -146,14 +176,16 @@ def _solid(
 
 
 def _is_modulus(name: str) -> bool:
-    """Whether FEBio takes the constant as a pressure: not Poisson's ratios, powers and angles."""
+    """Return whether a constant is a pressure, not a Poisson's ratio, an exponent or an angle."""
     return name[0] not in "vmg" and name not in ("k2", "kappa")
 
 
 def _along_cylinder(solid: Element, first: str = RADIAL) -> None:
-    """Turn the axes 1, 2, 3 to r, θ, z at each integration point, or to θ, z, r from `AROUND`.
+    """Set cylindrical material axes 1, 2, 3 at each integration point.
 
-    FEBio turns `vector` with the radius: it is the first axis as it stands where r is along x.
+    They are r, θ, z for the first axis `RADIAL`, and θ, z, r for `AROUND`. FEBio's ``vector`` is
+    the first axis at a point on the x axis; FEBio rotates it with the angular position of the
+    integration point.
     """
     axes = SubElement(solid, "mat_axis", type="cylindrical")
     SubElement(axes, "center").text = "0,0,0"

@@ -1,4 +1,4 @@
-"""The fingerprint that tells the input deck of one case and mesh from all others."""
+"""The fingerprint that identifies the input deck of a case and a mesh."""
 
 from __future__ import annotations
 
@@ -12,21 +12,27 @@ from stonepass.units import Length
 
 __all__ = ["fingerprint"]
 
-LETTERS = 8
+LETTERS = 8  # length of a fingerprint
 
 
 def fingerprint(case: Case, inner_radius: Length, fine: float) -> str:
-    """Return eight letters and digits that depend on all that an input deck depends on.
+    """Return eight letters and digits that differ if anything in the input deck differs.
 
-    They follow from those parts of the canonical record of the case that the seated state has.
+    They are the beginning of the SHA-256 digest of stone, ureter, load, seating and mesh in the
+    canonical record of the case, and of the version of stonepass.
 
     Parameters
     ----------
     case : Case
+        The case of the deck.
     inner_radius : Length
         Inner radius R_a of the deck in m.
     fine : float
-        Length of the elements in the contact over R_a.
+        Length of the elements in the contact in inner radii.
+
+    References
+    ----------
+    docs/export.md, "CalculiX and back".
     """
     record = describe(case, case.model, case.numerics)
     document = {

@@ -18,17 +18,18 @@ Values = Float[np.ndarray, "..."]
 @array_dataclass
 @dataclass(frozen=True)
 class Grid:
-    """Eight-node quadrilaterals on grid lines, rows (first index) by columns.
+    """Eight-node quadrilaterals in rows (first index) and columns (second index).
 
     Attributes
     ----------
-    points : array
-        r, z of every node.
-    cells : array
-        Nodes of every element, from 0: corners anticlockwise, then the middles of the sides in the
-        same order. Elements run along a row, then to the next.
-    numbers : array
-        Node on each line of corners or middles, −1 where there is none (centres of elements).
+    points : array (points, 2)
+        Coordinates r, z of the nodes, in the unit that the caller chose.
+    cells : array (cells, 8)
+        Nodes of each element, counted from 0: the corners anticlockwise, then the mid-side nodes in
+        the same order. The elements are ordered row by row.
+    numbers : array (lines_across, lines_along)
+        Node at each crossing of the lines through corners and mid-side nodes; −1 at the centres of
+        elements, which have no node.
     """
 
     points: Float[np.ndarray, "points 2"]
@@ -59,14 +60,16 @@ def grid(
     along: Float[np.ndarray, " columns_1"],
     place: Callable[[Values, Values], tuple[Values, Values]] = lambda a, b: (a, b),
 ) -> Grid:
-    """Return the grid with corner lines at `across` × `along` and middle nodes halfway between.
+    """Return the grid with given lines through the corners and mid-side nodes halfway between.
 
     Parameters
     ----------
-    across, along : arrays
-        Coordinates of the corner lines, ascending.
+    across : array (rows + 1)
+        First coordinate of the lines through the corners, ascending.
+    along : array (columns + 1)
+        Second coordinate of these lines, ascending.
     place : callable
-        Maps the two coordinates of nodes to r and z; by default they are r and z.
+        Function that maps arrays of both coordinates to r and z; by default the identity.
 
     Examples
     --------

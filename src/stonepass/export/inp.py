@@ -1,10 +1,13 @@
-"""An input deck for CalculiX or Abaqus: millimetres, kilopascals, and so millinewtons.
+"""Writer of input decks for CalculiX and Abaqus, in millimetres, kilopascals and millinewtons.
 
-Both programs read one format and differ in a few lines, the flavour of the deck. CalculiX has no
-hybrid elements, so the wall is nearly incompressible (ν = 0.499); Abaqus has them and keeps volume
-exactly. In the first step CalculiX treats surfaces that touch as fitted together, and takes gaps
-below 1/penalty, in the units of the deck, for contact, which pulls the wall on. So the element
-strip touches in the second step only, and the units make 1/penalty far smaller than the clearance.
+Both programs read the same format; the flavours of the deck differ in a few lines. CalculiX has no
+hybrid elements, so that the wall is nearly incompressible there (ν = 0.499). Abaqus has hybrid
+elements, which keep the volume exactly.
+
+At the beginning of a calculation CalculiX treats gaps below 1/penalty, in the units of the deck, as
+closed contact, and pulls the wall towards the stone. For this reason the element strip touches the
+wall in the second step only, and the units are chosen such that 1/penalty is far smaller than the
+initial clearance.
 """
 
 from __future__ import annotations
@@ -23,10 +26,10 @@ from stonepass.export.seating import KPA, MM, Seating
 
 __all__ = ["write_inp"]
 
-A_LINE = 12  # numbers
-# Largest elastic slip, over R_a and as a fraction of the travel of the element strip.
+A_LINE = 12  # largest number of node numbers in a line
+# Largest elastic slip in inner radii, and as a fraction of the displacement of the element strip.
 ELASTIC_SLIP, SLIP_FRACTION = 1e-3, 5e-3
-ONLY_LAST = 1_000_000  # output every so many increments, and at the end of a step
+ONLY_LAST = 1_000_000  # increments between outputs, so that only the end of a step is written
 
 
 def write_inp(
@@ -35,24 +38,29 @@ def write_inp(
     flavour: str = "calculix",
     increment: float | None = None,
 ) -> str:
-    """Return the input deck as text.
+    """Return the text of the input deck.
 
     Parameters
     ----------
     seating : Seating
-        Meshes, motions and loads.
+        Meshes, prescribed displacements and loads.
     element : {"CAX8", "CAX8R"}
         Element type of the wall.
     flavour : {"calculix", "abaqus"}
         Program that reads the deck.
     increment : float, optional
-        Largest travel of the element strip in one increment of the second step, over R_a;
-        `Seating.increment` by default.
+        Largest displacement of the element strip in one increment of the second step, in inner
+        radii; `Seating.increment` by default.
 
     Raises
     ------
     BadInput
-        Element or flavour is not known, or the program has no such law.
+        The element type or the flavour is unknown, or the program does not have the law of the
+        wall.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
     """
     for option, value in ((ELEMENT, element), (FLAVOUR, flavour)):
         if value not in option.choices:
@@ -86,7 +94,7 @@ def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
     yield from _elements(s.wall, 1, 1)
     first = len(s.wall.cells) + 1
     if has_overlaid_matrix(s.case.ureter.material.law):
-        yield "** the ground matrix: the same elements again; those of the wall keep the volume"
+        yield "** ground matrix: copies of the wall elements, which alone constrain the volume"
         yield f"*ELEMENT, TYPE={element}, ELSET=MATRIX"
         yield from _elements(s.wall, first, 1)
         first += len(s.wall.cells)
@@ -146,10 +154,10 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield from ("FIRST, 2, 2", "LAST, 2, 2")
     if _radial(s):
         yield "STONE, 2, 2"
-    size = increment / s.length  # of an increment of time in the second step
+    size = increment / s.length  # first and largest time increment of the second step
     unsymmetric = ", UNSYMM=YES" if flavour == "abaqus" else ""
     step = f"*STEP, NLGEOM, INC={max(1000, 20 * int(np.ceil(1.0 / size)))}{unsymmetric}"
-    yield "** first: ends and load, the strip still clear of the wall"
+    yield "** step 1: ends and load are applied; the strip does not touch the wall yet"
     yield step
     yield "*STATIC"
     yield deck_line(*((0.1, 1.0, 1e-4, 0.2) if s.loaded else (1.0, 1.0)))
@@ -161,7 +169,7 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield from _motion(s, s.first_fraction)
     yield from _load(s)
     yield "*END STEP"
-    yield "** then: the strip presses the wall open"
+    yield "** step 2: the strip presses the wall open"
     yield step
     yield "*STATIC"
     yield deck_line(min(size, 1.0), 1.0, 1e-6, min(size, 1.0))
@@ -196,7 +204,7 @@ def _load(s: Seating) -> Iterator[str]:
         for column in range(s.wall.columns):
             yield deck_line(last_row + column + 1, "P2", load.confining_pressure / KPA)
         return
-    yield "** dead: the radial resultant is kept"
+    yield "** dead load: the radial nodal forces stay constant"
     yield "*CLOAD"
     forces = s.dead_forces() / KPA * (s.inner_radius / MM) ** 2
     for node, force in zip(s.wall.row_line(-1), forces, strict=True):
@@ -213,12 +221,12 @@ def _output(s: Seating, flavour: str) -> Iterator[str]:
         yield "*CONTACT OUTPUT"
         yield "CSTRESS, CDISP"
         return
-    yield "** read back by: stonepass compare"
+    yield "** output for: stonepass compare"
     yield f"*NODE PRINT, NSET=INNER_{s.fingerprint}, FREQUENCY={ONLY_LAST}"
     yield "U"
     yield f"*CONTACT PRINT, FREQUENCY={ONLY_LAST}"
     yield "CSTR"
-    yield "** to look at: cgx"
+    yield "** output for display with: cgx"
     yield f"*NODE FILE, FREQUENCY={ONLY_LAST}"
     yield "U"
     yield f"*EL FILE, FREQUENCY={ONLY_LAST}"

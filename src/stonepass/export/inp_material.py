@@ -1,7 +1,7 @@
-"""The wall's law and the strip's stiffness in a deck for CalculiX or Abaqus.
+"""The materials of wall, ground matrix and element strip in a deck for CalculiX or Abaqus.
 
-Each law that a program has is written by one function; `CALCULIX` and `ABAQUS` say which. Moduli
-are in kPa.
+The tables `CALCULIX` and `ABAQUS` contain the laws that each program has, with the function that
+writes each law. Moduli are in kPa.
 """
 
 from __future__ import annotations
@@ -24,18 +24,36 @@ from stonepass.materials.yeoh import Yeoh
 
 __all__ = ["ABAQUS", "CALCULIX", "deck_line", "has_overlaid_matrix", "material_lines"]
 
-# Bulk modulus over G of a ground matrix that is laid over a hybrid wall: the wall keeps the volume.
+# Bulk modulus of a ground matrix of its own elements, divided by G. It is small, because the hybrid
+# elements of the wall on the same nodes keep the volume.
 MATRIX_BULK = 20.0
-A_LINE = 8  # constants
+A_LINE = 8  # largest number of constants in a line
 
 
 def has_overlaid_matrix(law: Law) -> bool:
-    """Whether the ground matrix is a second set of elements on the nodes of the wall."""
+    """Return whether the ground matrix is a second set of elements on the nodes of the wall."""
     return isinstance(law, Fung)
 
 
 def material_lines(s: Seating, flavour: str) -> Iterator[str]:
-    """Lines of the materials and sections of wall, ground matrix and strip."""
+    """Return the lines of the materials and sections of wall, ground matrix and strip.
+
+    Parameters
+    ----------
+    s : Seating
+        Meshes, prescribed displacements and loads.
+    flavour : {"calculix", "abaqus"}
+        Program that reads the deck.
+
+    Raises
+    ------
+    BadInput
+        The program does not have the law of the wall.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
+    """
     law = s.case.ureter.material.law
     D1 = 0.0 if flavour == "abaqus" else 2.0 / (bulk_modulus(law) / KPA)
     oriented = isinstance(law, Fung | HolzapfelGasserOgden)
@@ -48,7 +66,7 @@ def material_lines(s: Seating, flavour: str) -> Iterator[str]:
         yield "*MATERIAL, NAME=MATRIX"
         yield from _neo_hookean(NeoHookean(law.G / 2.0), 2.0 / (MATRIX_BULK * law.G / KPA))
         yield "*SOLID SECTION, ELSET=MATRIX, MATERIAL=MATRIX"
-    yield "** its nodes all have prescribed motions"
+    yield "** the displacements of all nodes of the strip are prescribed"
     yield "*MATERIAL, NAME=STONE"
     yield "*ELASTIC"
     yield deck_line(25.0 * hoop_modulus(law) / KPA, 0.3)
@@ -56,8 +74,8 @@ def material_lines(s: Seating, flavour: str) -> Iterator[str]:
 
 
 def _orientation(law: Law) -> Iterator[str]:
-    """Local axes r, z and around; the Holzapfel law has the directions of its fibres there too."""
-    yield "** directions 1, 2, 3 are r, z and around"
+    """Return the lines of the local axes r, z, θ and of the fibre directions, if there are any."""
+    yield "** the local directions 1, 2, 3 are radial, axial, circumferential"
     if not isinstance(law, HolzapfelGasserOgden):
         yield "*ORIENTATION, NAME=CYLINDER"
         yield "1., 0., 0., 0., 1., 0."
@@ -98,7 +116,7 @@ def _yeoh(law: Yeoh, D1: float) -> Iterator[str]:
 
 
 def _ogden(law: Ogden, D1: float) -> Iterator[str]:
-    """Write Σ 2 μ/α² (λ₁^α + λ₂^α + λ₃^α − 3): μ here is μ_p α_p/2 of the law, in both programs."""
+    """Write Σ 2 μ/α² (λ₁^α + λ₂^α + λ₃^α − 3), the convention of both programs: μ = μ_p α_p/2."""
     count = len(law.terms)
     yield f"*HYPERELASTIC, OGDEN, N={count}"
     pairs = [x for mu, alpha in law.terms for x in (mu * alpha / 2.0 / KPA, alpha)]
@@ -136,5 +154,5 @@ ABAQUS: Mapping[type[Any], Writer] = {
 
 
 def deck_line(*values: str | int | float) -> str:
-    """Write one line of a deck, numbers separated by commas."""
+    """Return a line of a deck with values separated by commas."""
     return ", ".join(f"{v:.12g}" if isinstance(v, float) else str(v) for v in values)

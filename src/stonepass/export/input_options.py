@@ -1,7 +1,6 @@
-"""Options and limits of the input files for other finite-element programs.
+"""Options and limits that all input files for other finite-element programs have in common.
 
-The declarations of the formats, the functions that write them and the mesh share them, so this
-module loads no numerical library.
+This module loads no numerical library, because the declarations of the formats use it.
 """
 
 from __future__ import annotations
@@ -10,7 +9,7 @@ from stonepass.export.contract import Limit, Option
 
 __all__ = ["ELEMENT", "FINE", "FLAVOUR", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS"]
 
-LENGTHS = (0.002, 0.5)  # of an element in the contact, in inner radii: smallest and largest
+LENGTHS = (0.002, 0.5)  # smallest and largest length of the elements in the contact, inner radii
 FINE = Option(
     "fine",
     "length of the elements in the contact, in inner radii",
@@ -35,7 +34,8 @@ SEATED_LIMITS = {
     "load": Limit(("prestretch", "dead", "hydrostatic")),
     "shape": Limit(("sphere", "spheroid", "outline")),
 }
-# The files have the mesh of `FINE`, and what follows from a contact is not in them.
+# Inputs without influence on the files: `FINE` sets the mesh, and the files end with the contact,
+# before the force balance and its closure.
 SEATED_IGNORES = (
     "accuracy", "as_printed", "closure_start", "closure", "series_order", "opening_curve",
     "far_field_ground", "wetted",

@@ -1,4 +1,4 @@
-"""The solved wall as points and quadrilaterals of its meridian, with the stress at each point."""
+"""The solved wall as points and quadrilaterals of its meridian plane, with stresses."""
 
 from __future__ import annotations
 
@@ -12,15 +12,26 @@ from stonepass.fe.axisymmetric.wall_values import STRESSES, Field
 
 __all__ = ["SEGMENTS", "Meridian", "meridian"]
 
-SEGMENTS = 48  # round the axis, where the meridian is turned round it
+SEGMENTS = 48  # number of segments around the axis of a wall that is rotated about it
 
 
 @array_dataclass
 @dataclass(frozen=True)
 class Meridian:
-    """Points of the meridian with stresses, and quadrilaterals between them, four to an element.
+    """Points in the meridian plane of the wall with stresses, and quadrilaterals between them.
 
-    R, Z are reference coordinates and r, z deformed ones in inner radii; stresses are in Pa.
+    Each finite element has four quadrilaterals.
+
+    Attributes
+    ----------
+    R, Z : array (points)
+        Radial and axial coordinates in the reference configuration, in inner radii.
+    r, z : array (points)
+        Radial and axial coordinates of the deformed wall, in inner radii.
+    stress : dict of str to array (points)
+        Components of the Cauchy stress in Pa by name, tension positive.
+    quads : array (quads, 4)
+        Indices of the corners of each quadrilateral.
     """
 
     R: Float[np.ndarray, " points"]
@@ -37,9 +48,9 @@ def meridian(wall: Field, *, mirrored: bool) -> Meridian:
     Parameters
     ----------
     wall : Field
-        Solved wall of a half tube or of a whole one.
+        Solved wall of half a tube or of a whole one.
     mirrored : bool
-        Whether to add the other half of a half tube.
+        Whether the wall is half a tube, whose mirror image is to be added.
     """
     count = round(np.sqrt(wall.r.shape[1]))
     kept = np.array([0, count // 2, count - 1])

@@ -1,4 +1,4 @@
-"""The registered export formats, in the order in which the help names them."""
+"""The registered export formats in the order in which the help lists them."""
 
 from __future__ import annotations
 

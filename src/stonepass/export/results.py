@@ -1,4 +1,4 @@
-"""The results of CalculiX for an input deck, as a contact like that of our own seated state."""
+"""Reader of the contact that CalculiX computed from an input deck of stonepass."""
 
 from __future__ import annotations
 
@@ -21,37 +21,42 @@ __all__ = ["read_contact"]
 DISPLACEMENTS, STRESSES = "displacements (vx,vy,vz) for set INNER", "contact stress (slave"
 COLUMNS = {DISPLACEMENTS: 4, STRESSES: 5}
 HEADER = re.compile(r"^ \S.* and time\s+(\S+)$")
-KIND = "a .dat of CalculiX"
-END = 2.0  # time: two steps, each of one
+KIND = "a .dat file of CalculiX"
+END = 2.0  # time at the end of the two steps, which take a time of 1 each
 OF_THIS = "export and compare with the same options and version"
-SAMPLES = 9  # of each side of an element
-ANGLES = 1001
-MOST = 200_000_000  # bytes
+SAMPLES = 9  # number of points on each side of an element, both ends included
+ANGLES = 1001  # number of angles of the returned contact
+MOST = 200_000_000  # largest size of the file in bytes
 
 
 def read_contact(seating: Seating, path: Path) -> Contact:
-    """Read contact angle and contact pressure of the last increment from CalculiX's ``.dat``.
+    """Read the contact at the end of the last step from a ``.dat`` file of CalculiX.
 
-    The pressure is CalculiX's own, averaged over each element of the wall. The contact ends where
-    the deformed wall leaves the stone. CalculiX's contact has a penalty, so the wall sinks in a
-    little.
+    The contact pressure is that of CalculiX, averaged over each element of the wall. The edges of
+    the contact are the points at which the deformed wall leaves the stone. Because of the penalty
+    in the contact the wall penetrates the stone slightly.
 
     Parameters
     ----------
     seating : Seating
-        The meshes that the input deck was written from.
+        The meshes from which the input deck was written.
     path : Path
-        File of at most 200 MB.
+        The ``.dat`` file, at most 200 MB.
 
     Returns
     -------
     Contact
-        Angles in rad, pressures in Pa, compression positive.
+        Angles in rad; contact pressures in Pa, compression positive.
 
     Raises
     ------
     BadInput
-        The file has no such results, or results of another input deck.
+        The file does not contain the results at the end of the last step, or it contains results of
+        another input deck.
+
+    References
+    ----------
+    docs/export.md, "CalculiX and back".
     """
     blocks = _last_blocks(path, seating.fingerprint)
     r, z = _inner_wall(seating, blocks[DISPLACEMENTS], path).T
@@ -61,8 +66,8 @@ def read_contact(seating: Seating, path: Path) -> Contact:
     first = 1 if seating.whole else 0
     sound = len(touching) > 0 and first <= touching[0] and touching[-1] < len(angle) - 1
     sound = sound and bool(np.all(np.diff(angle[touching[0] : touching[-1] + 2]) > 0.0))
-    require(sound, "results", path.name, "of a wall that touches this case's stone, and not its "
-            "ends")  # fmt: skip
+    require(sound, "results", path.name, "those of a wall that touches the stone of this case "
+            "between the ends of the tube")  # fmt: skip
     low = _crossing(angle, overlap, int(touching[0])) if seating.whole else angle[0]
     high = _crossing(angle, overlap, int(touching[-1]) + 1)
     theta, pressure = _means(seating, blocks[STRESSES], angle, (low, high), path)
@@ -78,7 +83,7 @@ def read_contact(seating: Seating, path: Path) -> Contact:
 
 
 def _last_blocks(path: Path, fingerprint: str) -> dict[str, list[list[float]]]:
-    """Return the rows of the last block of each kind."""
+    """Return the rows of the last block of displacements and of contact stresses in the file."""
     found: dict[str, list[list[float]]] = {}
     kind = None
     for number, line in enumerate(read_text(path, MOST, KIND, "results").splitlines(), start=1):
@@ -94,16 +99,16 @@ def _last_blocks(path: Path, fingerprint: str) -> dict[str, list[list[float]]]:
                     f"those of this case's input deck, {fingerprint}",
                     OF_THIS,
                 )
-            # A run that broke off leaves what it had.
+            # The file of an interrupted run ends before the end of the last step.
             require(_is(header[1], END), "results", path.name, f"at time {END:g}, not {header[1]}",
-                    "CalculiX has to run the input deck to its end")  # fmt: skip
+                    "let CalculiX complete both steps of the input deck")  # fmt: skip
             if kind is not None:
                 found[kind] = []
         elif line.strip() and kind is not None:
             found[kind].append(_numbers(line, COLUMNS[kind], f"{path.name}, line {number}"))
     for kind, what in ((DISPLACEMENTS, "displacements of INNER"), (STRESSES, "contact stresses")):
         require(bool(found.get(kind)), "results", path.name, f"{KIND} with {what}",
-                "CalculiX has to run the input deck to its end")  # fmt: skip
+                "let CalculiX complete both steps of the input deck")  # fmt: skip
     return found
 
 
@@ -115,7 +120,7 @@ def _is(text: str, number: float) -> bool:
 
 
 def _numbers(line: str, count: int, where: str) -> list[float]:
-    """Return the numbers of one row."""
+    """Return the numbers of one row, which must be finite and of the given count."""
     try:
         row = [float(word) for word in line.split()]
     except ValueError:
@@ -128,10 +133,7 @@ def _numbers(line: str, count: int, where: str) -> list[float]:
 def _inner_wall(
     seating: Seating, rows: list[list[float]], path: Path
 ) -> Float[np.ndarray, "samples 2"]:
-    """Return points of the deformed inner wall, r and z in inner radii.
-
-    Each side of an element is sampled in `SAMPLES` − 1 steps.
-    """
+    """Return points r, z on the deformed inner wall in inner radii, SAMPLES per element side."""
     nodes = seating.wall.row_line(0)
     moved = {int(number): (u, w) for number, u, w, _ in rows}
     require(

@@ -1,7 +1,7 @@
-"""The loading path to the seated state as any finite-element program can follow it.
+"""The seating of a stone as meshes and prescribed displacements for finite-element programs.
 
-It consists of the mesh of the wall, the element strip that stands for the stone, and the prescribed
-displacements of both.
+The model consists of the mesh of the wall, the element strip that represents the stone, and the
+prescribed displacements of the strip and of the ends of the wall.
 """
 
 from __future__ import annotations
@@ -35,46 +35,57 @@ from stonepass.units import METRE_PER_MM, PASCAL_PER, Length
 
 __all__ = ["KPA", "MM", "Seating", "bulk_modulus", "seating"]
 
-COARSEST, PER_CONTACT = 0.025, 16  # by default: over R_a, and elements on the guessed contact
-BEYOND = 1.3  # largest ratio of neighbouring elements outside it
-FACING_REACH = 1.5  # how far the part of the wall goes that may touch, over the guessed contact
-UNIT_RADIUS = Length(1e-3)  # R_a in m where the case has ratios only
-# Penalty of the contact times the element length over w″(1), in the range that CalculiX converges
-# with: contact pressure comes out within 1 %, a stiffer one chatters.
+COARSEST = 0.025  # largest default length of the elements in the contact, in inner radii
+PER_CONTACT = 16  # least default number of elements on each side of the guessed contact
+BEYOND = 1.3  # largest ratio of the lengths of neighbouring elements outside the contact
+# Length of the part of the wall that may touch the stone, over the guessed length of the contact.
+FACING_REACH = 1.5
+UNIT_RADIUS = Length(1e-3)  # R_a in m for a case that has only ratios
+# Penalty of the contact times the element length divided by w″(1). With this value the contact
+# pressure of CalculiX is accurate to 1 %; with a stiffer penalty the contact state oscillates.
 PENALTY = 2.0
-POISSON = 0.499  # of programs that cannot keep volume exactly
-INCREMENT, FEWEST = 0.4, 8  # travel in one over the element length, and the fewest
-# In Pa and m. Input files are in kilopascals and millimetres, and so in millinewtons.
+POISSON = 0.499  # Poisson's ratio for programs that cannot keep the volume exactly
+INCREMENT = 0.4  # largest displacement per increment, in element lengths
+FEWEST = 8  # smallest number of increments
+# Kilopascal in Pa and millimetre in m, the units of the input files; forces are in millinewtons.
 KPA, MM = PASCAL_PER["kPa"], METRE_PER_MM
-LONGEST_NAME = 60
+LONGEST_NAME = 60  # largest number of characters of a material name in a file
 
 
 @array_dataclass
 @dataclass(frozen=True)
 class Seating:
-    """Meshes and motions; lengths in inner radii, the stone's widest place at z = 0.
+    """Meshes and prescribed displacements; all lengths are in inner radii.
 
-    There are two steps. In the first the ends are pulled to the pre-stretch and the confining
-    pressure is applied, while the element strip closes half of its clearance. In the second the
-    strip moves through the rest of its `travel` and presses the wall open.
+    The widest cross-section of the stone lies at z = 0. The loading has two steps. In the first
+    step the ends are pulled to the pre-stretch and the confining pressure is applied, while the
+    element strip closes half of its clearance. In the second step the strip completes its
+    displacement `travel` and presses the wall open.
 
     Attributes
     ----------
+    case : Case
+        Stone, ureter and load.
     wall : Grid
-        Unloaded; rows from the inner wall outwards, columns along the tube: half of it, from the
-        plane of symmetry, where the stone's halves are mirror images.
+        The unloaded wall. Rows run from the inner wall outwards, columns along the tube. It is half
+        the tube, from the plane of symmetry, if the halves of the stone are mirror images.
     element_strip : Grid
-        The stone's surface at the start; its last row line faces the wall.
-    travel : array
-        Displacement r, z of each point of the element strip, over both steps.
+        The surface of the stone in its initial position; the last line of its first index faces the
+        wall.
+    travel : array (strip_points, 2)
+        Displacement r, z of each node of the element strip over both steps.
     facing : slice
-        Columns of the wall whose inner faces may touch.
+        Columns of the wall whose inner faces may touch the stone.
     whole : bool
         Whether the wall is the whole tube.
     fine : float
-        Length of elements in the contact.
+        Length of the elements in the contact.
     stiffness : float
-        Penalty of the contact times `fine` over w″(1).
+        Penalty of the contact times `fine` divided by w″(1), dimensionless.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
     """
 
     case: Case
@@ -88,18 +99,18 @@ class Seating:
 
     @property
     def friction(self) -> float:
-        """Coulomb coefficient while the stone is seated."""
+        """Coulomb friction coefficient while the stone is being seated."""
         return seating_of(self.case).friction
 
     @property
     def inner_radius(self) -> Length:
-        """R_a in m; 1 mm where the case does not say it."""
+        """Inner radius R_a in m; 1 mm if the case has only ratios."""
         diameter = self.case.ureter.inner_diameter
         return UNIT_RADIUS if diameter is None else Length(diameter / 2.0)
 
     @property
     def penalty(self) -> float:
-        """Contact pressure over penetration, in Pa per inner radius."""
+        """Contact pressure divided by penetration, in Pa per inner radius."""
         return self.stiffness * hoop_modulus(self.case.ureter.material.law) / self.fine
 
     @property
@@ -109,11 +120,11 @@ class Seating:
 
     @property
     def pull(self) -> float:
-        """How far an end is pulled to the pre-stretch, over R_a."""
+        """Axial displacement of an end of the tube for the pre-stretch, in inner radii."""
         return (self.case.load.prestretch - 1.0) * self.case.numerics.half_length
 
     def heading(self) -> tuple[str, ...]:
-        """Lines that describe the case at the head of a file, without control characters."""
+        """Return the lines that describe the case at the head of a file."""
         case, name = self.case, self.case.ureter.material.name
         name = "".join(c if c.isprintable() else "?" for c in name)[:LONGEST_NAME]
         return (
@@ -129,36 +140,41 @@ class Seating:
 
     @property
     def fingerprint(self) -> str:
-        """Eight letters and digits that tell the file of one case and mesh from others."""
+        """Eight letters and digits that identify the case and the mesh of a file."""
         return fingerprint(self.case, self.inner_radius, self.fine)
 
     @property
     def length(self) -> float:
-        """Largest displacement of a point of the element strip, over R_a."""
+        """Largest displacement of a node of the element strip, in inner radii."""
         return float(np.linalg.norm(self.travel, axis=1).max())
 
     @property
     def first_fraction(self) -> float:
-        """Fraction of the travel in the first step."""
+        """Fraction of the displacement of the strip that belongs to the first step."""
         return 0.5 * CLEARANCE / self.length
 
     @property
     def increment(self) -> float:
-        """Travel of the element strip in one increment, over R_a.
+        """Largest displacement of the element strip in one increment, in inner radii.
 
-        Twice this value is faster in the cases in which it converges.
+        Twice this value is faster if the program still converges.
         """
         return min(INCREMENT * self.fine, self.length / FEWEST)
 
     def dead_forces(self) -> Float[np.ndarray, " nodes"]:
         """Return the radial forces of a dead confining pressure on the nodes of the outer line.
 
-        The force on a node is 2π P_out R_b ∫ N dZ over the whole turn, in Pa × R_a², inwards
-        positive; an element gives 1/6, 4/6 and 1/6 of its length to its three nodes.
+        The force on a node over the whole circumference is 2π P_out R_b ∫ N dZ with the shape
+        function N of the node. The integrals of an element are 1/6, 4/6 and 1/6 of its length.
+
+        Returns
+        -------
+        array (nodes)
+            Forces in Pa × R_a², positive inwards.
         """
         nodes = self.wall.row_line(-1)
         Z = self.wall.points[nodes, 1]
-        tributary = np.zeros(len(nodes))  # length of wall that a node carries
+        tributary = np.zeros(len(nodes))  # ∫ N dZ of each node
         run = Z[2::2] - Z[:-2:2]
         for offset, weight in ((0, 1.0), (1, 4.0), (2, 1.0)):
             tributary[offset : len(nodes) - 2 + offset : 2] += weight / 6.0 * run
@@ -167,15 +183,15 @@ class Seating:
 
 
 def seating(case: Case, fine: float | None = None) -> Seating:
-    """Mesh the wall and the element strip of a case.
+    """Make the meshes and the prescribed displacements for the seating of a stone.
 
     Parameters
     ----------
     case : Case
         A case of the paper's model.
     fine : float, optional
-        Length of the elements in the contact over R_a, 0.002 to 0.5; by default at most 0.025, and
-        short enough for about 16 elements in contact on each side.
+        Length of the elements in the contact in inner radii, 0.002 to 0.5. By default it is at most
+        0.025, and small enough for about 16 elements in contact on each side.
 
     Returns
     -------
@@ -184,16 +200,20 @@ def seating(case: Case, fine: float | None = None) -> Seating:
     Raises
     ------
     BadInput
-        The stone is hardly larger than the lumen, the law is unstable, the case is of another model
-        than the paper's, or the element strip would begin beyond the axis.
+        The stone is hardly larger than the lumen, the law is unstable, the model of the case is not
+        the paper's, or the element strip would begin too close to the axis.
+
+    References
+    ----------
+    docs/export.md, "What is in an input deck".
     """
     fine = None if fine is None else checked_value(FINE, fine, as_keyword)
     way = seating_of(case)
     check(case.ureter.material)
     lumen = stuck_lumen(case)
     least = lumen * (1.0 + SMALLEST_RESOLVED_OVERSIZE)
-    require(case.size_ratio >= least, "size ratio", case.size_ratio, f"at least {least:.6g}, so "
-            "that the stone is held by more than a touch")  # fmt: skip
+    require(case.size_ratio >= least, "size ratio", case.size_ratio, f"at least {least:.6g}, since "
+            "the mesh cannot resolve a shorter contact")  # fmt: skip
     place = profile_of(case)
     first, last = wrap_round_arc(case, case.numerics.half_length, lumen, 1.0, place).contact
     if fine is None:
@@ -206,7 +226,13 @@ def seating(case: Case, fine: float | None = None) -> Seating:
 
 
 def seating_of(case: Case) -> ModelSeating:
-    """Return the way of the stone into the wall; refused for a model without a seated state."""
+    """Return how the stone of a case is seated in the wall.
+
+    Raises
+    ------
+    BadInput
+        The model of the case has no seated state.
+    """
     model = case.model
     if not isinstance(model, SeatedBalance):
         why = "the file describes the seated state, which is the paper's model"
@@ -217,8 +243,10 @@ def seating_of(case: Case) -> ModelSeating:
 def bulk_modulus(law: Law) -> float:
     """Return the bulk modulus in Pa of a nearly incompressible wall.
 
-    κ = 2 μ (1 + ν)/(3 (1 − 2ν)) with μ = w″(1)/4 and ν = 0.499.
+    κ = 2 μ (1 + ν)/(3 (1 − 2ν)) with the shear modulus μ = w″(1)/4 and Poisson's ratio ν = 0.499.
 
+    Examples
+    --------
     >>> from stonepass.materials.neo_hookean import NeoHookean
     >>> round(bulk_modulus(NeoHookean(0.5)), 3)
     499.667
@@ -229,7 +257,7 @@ def bulk_modulus(law: Law) -> float:
 def _axial_lines(
     case: Case, fine: float, first: float, last: float, whole: bool
 ) -> tuple[Float[np.ndarray, " lines"], slice]:
-    """Grid lines along the tube, and the columns that may touch."""
+    """Return the grid lines along the tube, and the columns that may touch the stone."""
 
     def half(edge: float) -> tuple[Float[np.ndarray, " lines"], int]:
         count = int(np.ceil(edge / fine))

@@ -1,4 +1,4 @@
-"""The solved wall, turned round its axis, as a VTU file for ParaView."""
+"""Writer of the solved wall, rotated about its axis, as a VTU file for ParaView."""
 
 from __future__ import annotations
 
@@ -17,22 +17,28 @@ __all__ = ["vtu_file", "write_vtu"]
 
 
 def vtu_file(wall: Field, *, mirrored: bool, inner_radius: float = 1.0) -> bytes:
-    """Return the deformed wall as hexahedra, with displacement and Cauchy stress at the points.
+    """Return a VTU file of the deformed wall with displacements and Cauchy stresses.
+
+    The wall consists of hexahedra; its axis is z.
 
     Parameters
     ----------
     wall : Field
-        Solved wall of a half tube or of a whole one.
+        Solved wall of half a tube or of a whole one.
     mirrored : bool
-        Whether to add the other half of a half tube.
+        Whether the wall is half a tube, whose mirror image is to be added.
     inner_radius : float
-        Inner radius R_a in the unit of length of the file; z is along the tube.
+        Inner radius R_a in the unit of length of the file.
 
     Returns
     -------
     bytes
-        Content of the file. Stress in Pa, cylindrical components, tension positive: rr, tt (hoop),
-        zz, rz.
+        Content of the file. Stresses are in Pa, tension positive, with the cylindrical components
+        rr, tt (circumferential), zz and rz.
+
+    References
+    ----------
+    docs/export.md.
     """
     half = meridian(wall, mirrored=mirrored)
     quads, count = half.quads, len(half.r)
@@ -48,14 +54,21 @@ def vtu_file(wall: Field, *, mirrored: bool, inner_radius: float = 1.0) -> bytes
     data = {name: np.tile(values, SEGMENTS) for name, values in half.stress.items()}
     data["displacement"] = turned(half.r - half.R, half.z - half.Z)
     mesh = meshio.Mesh(turned(half.r, half.z), [("hexahedron", cells)], point_data=data)
-    with TemporaryDirectory() as folder:  # meshio writes VTU to a named file only
+    with TemporaryDirectory() as folder:  # meshio can write VTU only to a named file
         file = Path(folder) / "wall.vtu"
         mesh.write(file)
         return file.read_bytes()
 
 
 def write_vtu(path: Path, wall: Field, *, mirrored: bool, inner_radius: float = 1.0) -> None:
-    """Write `vtu_file` to `path`.
+    """Write the VTU file of a solved wall.
+
+    Parameters
+    ----------
+    path : Path
+        The file to be written.
+    wall, mirrored, inner_radius
+        As for `vtu_file`.
 
     Raises
     ------

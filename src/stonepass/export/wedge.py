@@ -1,4 +1,4 @@
-"""A wedge: an axisymmetric grid turned about the axis by a small angle, as hexahedra."""
+"""A wedge of hexahedra: an axisymmetric grid swept through a small angle about the axis."""
 
 from __future__ import annotations
 
@@ -12,15 +12,22 @@ from stonepass.export.grid import Grid
 
 __all__ = ["WEDGE", "Wedge"]
 
-WEDGE = float(np.radians(2.0))  # angle of the wedge
+WEDGE = float(np.radians(2.0))  # angle of the wedge in rad
 
 
 @dataclass(frozen=True)
 class Wedge:
-    """A grid turned about the axis; node numbers start at `first`.
+    """A wedge of hexahedra between a grid at angle 0 and its copy at the angle `WEDGE`.
 
-    Numbers go through the side at angle 0, then through the turned side, then through the middles
-    of the edges between their corners.
+    The nodes are numbered on the side at angle 0 first, then on the rotated side, then at the
+    middles of the edges between corresponding corners.
+
+    Attributes
+    ----------
+    grid : Grid
+        Nodes and elements in the r–z plane.
+    first : int
+        Number of the first node.
     """
 
     grid: Grid
@@ -28,7 +35,7 @@ class Wedge:
 
     @cached_property
     def corners(self) -> Int[np.ndarray, " corners"]:
-        """Nodes of the grid that are corners of its elements."""
+        """Indices of the nodes of the grid that are corners of elements."""
         return np.unique(self.grid.cells[:, :4])
 
     @property
@@ -38,9 +45,9 @@ class Wedge:
 
     @cached_property
     def sides(self) -> tuple[Int[np.ndarray, " points"], ...]:
-        """Node numbers at angle 0, on the turned side, and halfway between.
+        """Node numbers at angle 0, on the rotated side, and halfway between, for each grid node.
 
-        The last are −1 where the node of the grid is no corner.
+        There is no node halfway for a mid-side node of the grid; its number is −1.
         """
         n = len(self.grid.points)
         halfway = np.full(n, -1)
@@ -48,7 +55,7 @@ class Wedge:
         return self.first + np.arange(n), self.first + n + np.arange(n), halfway
 
     def turned(self, vectors: Float[np.ndarray, "points 2"]) -> Float[np.ndarray, "nodes 3"]:
-        """Return x, y, z of every node for points or displacements r, z of the grid."""
+        """Return the components x, y, z at every node of vectors r, z at the nodes of the grid."""
         parts = []
         for angle, (r, z) in (
             (0.0, vectors.T),
@@ -59,9 +66,9 @@ class Wedge:
         return np.vstack(parts)
 
     def elements(self) -> Int[np.ndarray, "cells 20"]:
-        """Return the nodes of the elements (hex20).
+        """Return the node numbers of the 20-node hexahedra (hex20).
 
-        The turned side is the bottom, since e_r × e_z = −e_θ.
+        The rotated side is the bottom of each element, since e_r × e_z = −e_θ.
         """
         flat, turned, halfway = (side[self.grid.cells] for side in self.sides)
         parts = (turned[:, :4], flat[:, :4], turned[:, 4:], flat[:, 4:], halfway[:, :4])
@@ -70,9 +77,16 @@ class Wedge:
     def faces(
         self, cells: Int[np.ndarray, "faces 8"], start: int, end: int, middle: int
     ) -> Int[np.ndarray, "faces 8"]:
-        """Return the faces (quad8) on the side of each cell from corner `start` to corner `end`.
+        """Return the eight-node faces (quad8) that one side of each element sweeps.
 
-        Their normal is the direction from `start` to `end` times e_θ (cross product).
+        The normal of a face is the cross product of the direction from `start` to `end` with e_θ.
+
+        Parameters
+        ----------
+        cells : array (faces, 8)
+            Grid nodes of the elements.
+        start, end, middle : int
+            Positions in `cells`, 0 to 7, of the two corners and of the middle of the side.
         """
         a, b, m = cells[:, start], cells[:, end], cells[:, middle]
         flat, turned, halfway = self.sides
@@ -80,14 +94,14 @@ class Wedge:
         return np.column_stack([*around, halfway[a]])
 
     def inner(self, columns: slice) -> Int[np.ndarray, "faces 8"]:
-        """Return the faces of the first row; their normals point towards the axis."""
+        """Return the faces on the inner side of the first row; normals point towards the axis."""
         return self.faces(self.grid.cells[: self.grid.columns][columns], 0, 3, 7)
 
     def outer(self) -> Int[np.ndarray, "faces 8"]:
-        """Return the faces of the last row; their normals point away from the axis."""
+        """Return the faces on the outer side of the last row; normals point away from the axis."""
         return self.faces(self.grid.cells[-self.grid.columns :], 2, 1, 5)
 
     def on(self, line: Int[np.ndarray, " nodes"]) -> Int[np.ndarray, " numbers"]:
-        """Return the numbers of all nodes on a line of the grid, in ascending order."""
+        """Return the numbers of all nodes that a line of the grid sweeps, in ascending order."""
         numbers = np.concatenate([side[line] for side in self.sides])
         return np.sort(numbers[numbers >= 0])

@@ -1,4 +1,4 @@
-"""How messages name an option: in the words of Python, or in those of the command line."""
+"""Names of options in messages, as keywords of Python or as options of the command line."""
 
 from __future__ import annotations
 
@@ -6,20 +6,29 @@ from typing import Any, Protocol, runtime_checkable
 
 __all__ = ["Words", "as_flag", "as_keyword"]
 
-FLAGS = {"path": "out"}  # arguments whose flag has another name
+FLAGS = {"path": "out"}  # arguments whose command-line option has another name
 
 
 @runtime_checkable
 class Words(Protocol):
-    """Name an option in a message, with its value where one is given."""
+    """A function that returns the name of an option, with its value if one is given."""
 
     def __call__(self, name: str, value: Any = None) -> str:
-        """Return the words for the option `name`, or for the option with `value`."""
+        """Return the text for the option `name`, or for the option with `value`."""
 
 
 def as_keyword(name: str, value: Any = None) -> str:
-    """Return the words of Python.
+    """Return an option as a keyword of Python.
 
+    Parameters
+    ----------
+    name : str
+        Name of the option.
+    value : str or float, optional
+        Its value; None for the name alone.
+
+    Examples
+    --------
     >>> as_keyword("flavour"), as_keyword("flavour", "abaqus")
     ('flavour', "flavour='abaqus'")
     """
@@ -27,8 +36,17 @@ def as_keyword(name: str, value: Any = None) -> str:
 
 
 def as_flag(name: str, value: Any = None) -> str:
-    """Return the words of the command line.
+    """Return an option as it is written on the command line.
 
+    Parameters
+    ----------
+    name : str
+        Name of the option in Python.
+    value : str or float, optional
+        Its value; None for the name alone.
+
+    Examples
+    --------
     >>> as_flag("flavour"), as_flag("flavour", "abaqus")
     ('--flavour', '--flavour abaqus')
     """

@@ -1,1 +1,1 @@
-"""Material laws: strain energies of the wall, their published constants, their stability."""
+"""Material laws: strain energies of the wall, published constants, and stability checks."""

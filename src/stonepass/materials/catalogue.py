@@ -1,4 +1,4 @@
-"""Published sets of constants, each with its source, its test and how far it was verified."""
+"""Published sets of constants, each with its source, its test and the extent of verification."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ _RASSOLI = f"{_LIU}, section 2.4.2, citing Rassoli et al. 2014 (Urology Journal)
 _BIAXIAL = "planar biaxial tension of human cadaver ureter (Rassoli et al. 2014)"
 _TABLE_UNSEEN = "the parameter table of Rassoli et al. was not reachable"
 
-# Shear modulus of the ground matrix in Pa. The paper does not give one. Calibrated once: with
-# pressed seating and friction 0.5, every G from 5 to 14 kPa meets both published critical sizes at
-# 12 kPa (1.22 and 1.11) within 0.01; below 10 kPa the thin wall loses strong ellipticity within the
-# paper's own range, ξ ≤ 1.3, so a value with some margin is taken. See docs/theory.md, "The wall".
+# Shear modulus of the ground matrix in Pa. The paper does not give a value, so it was calibrated.
+# With pressed seating and a friction coefficient of 0.5, every G from 5 to 14 kPa reproduces both
+# published critical sizes at 12 kPa (1.22 and 1.11) within 0.01. Below 10 kPa the thin wall loses
+# strong ellipticity within the paper's range ξ ≤ 1.3, so a value with some margin was chosen. See
+# "The wall" in docs/theory.md.
 G_CALIBRATED = 1.2e4
 
 _ENTRIES = (
@@ -65,13 +66,19 @@ CATALOGUE = {entry.name: replace(entry, reference=entry.name) for entry in _ENTR
 
 
 def material(name: str) -> Material:
-    """Look up a catalogue entry; an unknown name is refused, naming the nearest one."""
+    """Look up a material of the catalogue by its name.
+
+    Raises
+    ------
+    BadInput
+        No material has this name; the message suggests the most similar name.
+    """
     if name in KNOWN_LAWS:
         raise BadInput(
             "material",
             name,
-            "a material, and this is a law without its constants",
-            f'write them in a file, law.toml, with law = "{name}", and name that file',
+            "the name of a material; this is the name of a law, which has no constants",
+            f'write its constants to a file, law.toml, with law = "{name}", and give that file',
         )
     if name not in CATALOGUE:
         refuse_unknown("material", name, list(CATALOGUE), ONES_OWN)

@@ -1,4 +1,4 @@
-"""Laws made of parts: fibres in a ground matrix, whose energies add."""
+"""Laws composed of fibres and a ground matrix, whose energies are added."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ __all__ = ["Composed", "HasGroundMatrix", "fibres_of"]
 
 @runtime_checkable
 class HasGroundMatrix(Protocol):
-    """A law to which a ground matrix was added that its published form does not have."""
+    """A law whose ground matrix is not part of its published form."""
 
     @property
     def fibres(self) -> Law:
-        """The published law alone."""
+        """The published law, without the ground matrix."""
         ...
 
 
@@ -28,22 +28,23 @@ class Composed:
     Attributes
     ----------
     fibres : Law
-        The fibres, which need not resist every strain.
+        The law of the fibres; by itself it may be without stiffness against some strains.
     matrix : Law
-        The ground matrix.
+        The law of the ground matrix.
     """
 
     fibres: Law
     matrix: Law
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         return self.fibres.energy(C, place, xp) + self.matrix.energy(C, place, xp)
 
 
 def fibres_of(law: Law) -> Law:
-    """Leave out the ground matrix of a composed law; any other law is returned as it is.
+    """Return a law without its ground matrix; a law without one is returned unchanged.
 
-    The seated-balance model of the paper evaluates its far field with this part (Eq. 22).
+    The paper's model evaluates its far field without the ground matrix (Eq. 22; "Far field" in
+    docs/theory.md).
     """
     return law.fibres if isinstance(law, HasGroundMatrix) else law

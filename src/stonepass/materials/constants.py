@@ -1,7 +1,7 @@
-"""A law declares its constants once: symbol, unit, bounds, meaning, and how a fit begins.
+"""Declarations of the constants of a law: symbol, unit, bounds, meaning, and first value of a fit.
 
-The declaration is metadata of the dataclass field. Law files, ``material show``, fits and exports
-read it from there.
+Each constant is declared once, in the metadata of the dataclass field that stores its value. Law
+files, the command ``material show``, fits and exports read the declarations from there.
 """
 
 from __future__ import annotations
@@ -33,29 +33,30 @@ _ANGLE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(deg|°|r
 
 @dataclass(frozen=True)
 class ConstantDeclaration:
-    """One constant of a law.
+    """The declaration of one constant of a law.
 
     Attributes
     ----------
     name : str
-        Name of the dataclass field, and so of the key in a law file.
+        Name of the dataclass field, which is also the key in a law file.
     symbol : str
         Symbol in formulas.
     unit : {"Pa", "1", "rad"}
-        SI unit of the stored number; "1" is a number without unit.
+        SI unit of the stored number; "1" means dimensionless.
     meaning : str
-        What the constant is, in words.
+        Meaning of the constant in words.
     low, high : float
         Bounds in `unit`.
     low_allowed, high_allowed : bool
-        Whether the bound itself is a value.
+        True if the bound itself is an allowed value.
     guess : float
-        First value in a fit. For a modulus it is a multiple of the shear modulus that the data
-        suggest; for a number without unit it is multiplied by each of several starts.
+        First value in a fit. For a modulus it is a factor of the shear modulus that is estimated
+        from the data. A fit is started several times; for a dimensionless constant the first value
+        of each start is `guess` times a factor that differs from start to start.
     held : bool
-        Whether a fit keeps the default unless it is asked to free the constant.
+        True if a fit keeps the default value unless the user frees the constant.
     default : float or None
-        Value where none is given; None where one must be given.
+        Default value in `unit`; None if a value must be given.
     """
 
     name: str
@@ -72,11 +73,11 @@ class ConstantDeclaration:
 
     @property
     def positive(self) -> bool:
-        """Whether no value is negative."""
+        """True if no negative value is allowed."""
         return self.low >= 0.0
 
     def allows(self, value: float) -> bool:
-        """Whether the value lies within the bounds; a NaN does not."""
+        """Return True if `value`, in `unit`, is finite and within the bounds."""
         above = value >= self.low if self.low_allowed else value > self.low
         below = value <= self.high if self.high_allowed else value < self.high
         return bool(math.isfinite(value) and above and below)
@@ -110,7 +111,17 @@ def constant(
     held: bool = False,
     default: float | None = None,
 ) -> Any:
-    """Declare a constant as a field of a law's dataclass; see `ConstantDeclaration`."""
+    """Declare a constant as a field of the dataclass of a law.
+
+    Parameters
+    ----------
+    symbol, unit, meaning, low, high, low_allowed, high_allowed, guess, held, default
+        See `ConstantDeclaration`.
+
+    Returns
+    -------
+    dataclasses.Field
+    """
     declared = {
         "symbol": symbol, "unit": unit, "meaning": meaning, "low": low, "high": high,
         "low_allowed": low_allowed, "high_allowed": high_allowed, "guess": guess, "held": held,
@@ -119,9 +130,9 @@ def constant(
 
 
 def constants_of(law: Any) -> tuple[ConstantDeclaration, ...]:
-    """Constants that a law, or a class of laws, declares, in the order of its fields.
+    """Return the constants that a law or a class of laws declares, in the order of its fields.
 
-    The tuple is empty for a law without declarations, as one written by a user.
+    The tuple is empty for a law without declarations, such as a Python function of the user.
     """
     if not hasattr(law, "__dataclass_fields__"):
         return ()
@@ -137,7 +148,7 @@ def constants_of(law: Any) -> tuple[ConstantDeclaration, ...]:
 
 
 def check_constants(law: Any) -> None:
-    """Refuse the first constant of a law that is out of its declared bounds.
+    """Check the constants of a law against their declared bounds.
 
     Raises
     ------
@@ -150,14 +161,25 @@ def check_constants(law: Any) -> None:
 
 
 def read_constant(text: str | float, declared: ConstantDeclaration, argument: str = "") -> float:
-    """Turn what a file or an option says into the stored number: "12 kPa", "40 deg" or 0.7.
+    """Convert the text of a file or an option into the stored number.
 
-    `argument` is how the caller calls the constant, its name where it is left out.
+    Parameters
+    ----------
+    text : str or float
+        A value with its unit, such as "12 kPa" or "40 deg", or a dimensionless number.
+    declared : ConstantDeclaration
+    argument : str
+        Name of the constant in the error message; by default its declared name.
+
+    Returns
+    -------
+    float
+        The value in ``declared.unit``. Its bounds are not checked here.
 
     Raises
     ------
     BadInput
-        A number without the unit that it needs, a wrong unit, or no number.
+        The unit is missing or wrong, or the text is not a number.
     """
     argument = argument or declared.name
     if declared.unit == "Pa":
@@ -174,14 +196,33 @@ def read_constant(text: str | float, declared: ConstantDeclaration, argument: st
 
 
 def format_constant(value: float, declared: ConstantDeclaration) -> str | float:
-    """Turn the stored number into what `read_constant` reads: "12 kPa", "40 deg" or 0.7."""
+    """Convert a stored number into text or a number that `read_constant` accepts.
+
+    Parameters
+    ----------
+    value : float
+        The value in ``declared.unit``.
+    declared : ConstantDeclaration
+
+    Returns
+    -------
+    str or float
+        For example "12 kPa", "40 deg" or 0.7.
+    """
     if declared.unit == "Pa":
         return format_pressure(value)
     return f"{math.degrees(value):.12g} deg" if declared.unit == "rad" else value
 
 
 def shown_constant(value: float, declared: ConstantDeclaration) -> str:
-    """Write the number with its unit for a person: moduli in MPa, angles in degrees."""
+    """Format a stored number for display: moduli in MPa, angles in degrees.
+
+    Parameters
+    ----------
+    value : float
+        The value in ``declared.unit``.
+    declared : ConstantDeclaration
+    """
     if declared.unit == "Pa":
         return f"{value / 1e6:g} MPa"
     return f"{math.degrees(value):g} deg" if declared.unit == "rad" else f"{value:g}"

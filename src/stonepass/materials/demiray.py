@@ -13,16 +13,16 @@ __all__ = ["Demiray"]
 
 @dataclass(frozen=True)
 class Demiray:
-    """Isotropic soft tissue that stiffens exponentially: shear modulus μ at rest.
+    """Isotropic soft tissue that stiffens exponentially; its shear modulus at rest is μ.
 
-    Source: Demiray 1972, Journal of Biomechanics 5, 309–311 (there β = μ and α = b).
+    Source: Demiray 1972, Journal of Biomechanics 5, 309–311, where μ and b are called β and α.
 
     Attributes
     ----------
     mu : float
         Shear modulus at rest in Pa, positive.
     b : float
-        Stiffening, without unit, above 0 and below 1000.
+        Dimensionless exponent of the stiffening, above 0 and below 1000.
     """
 
     mu: float = constant("μ", "Pa", "shear modulus at rest", guess=1.0)
@@ -32,5 +32,5 @@ class Demiray:
         check_constants(self)
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         return self.mu / (2.0 * self.b) * (xp.exp(self.b * (C.I1 - 3.0)) - 1.0)

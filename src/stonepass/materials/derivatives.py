@@ -1,7 +1,7 @@
-"""Exact derivatives of any law, by algorithmic differentiation of its one formula.
+"""Exact derivatives of any law, by automatic differentiation of its formula.
 
-Autograd is loaded with the first derivative that is asked for: to check a request, or to show the
-help of a command, none is needed.
+Autograd is imported only when the first derivative is computed, because the checks of a request and
+the help of a command need no derivatives.
 """
 
 from __future__ import annotations
@@ -32,11 +32,26 @@ REST = CauchyGreen(*(np.array([each]) for each in (1.0, 1.0, 1.0, 0.0, 0.0, 0.0)
 def hoop_energy_slope(
     law: Law, stretch: Values, axial: float = 1.0, place: Place = INNER_WALL
 ) -> Values:
-    """w′(λ) in Pa: slope of the energy of an inflated tube (model: far field).
+    """Return w′(λ), the derivative of the energy of a uniformly inflated tube.
 
-    w(λ) is the energy at circumferential stretch λ and axial stretch `axial`; the radial stretch
-    follows from incompressibility, 1/(λ λ_z). For a neo-Hookean law 2 C₁₀ (λ − 1/(λ³ λ_z²)). Where
-    the energy is not finite, as beyond the locking stretch of a law, the slope is NaN.
+    w(λ) is the energy density at the circumferential stretch λ and the axial stretch λ_z; the
+    radial stretch 1/(λ λ_z) follows from incompressibility. For a neo-Hookean law the result is
+    2 C₁₀ (λ − 1/(λ³ λ_z²)). See "Far field" in docs/theory.md.
+
+    Parameters
+    ----------
+    law : Law
+    stretch : float or array
+        Circumferential stretch λ, positive.
+    axial : float
+        Axial stretch λ_z, positive.
+    place : Place
+        Reference coordinates in inner radii, as numbers or as arrays of the shape of `stretch`.
+
+    Returns
+    -------
+    array
+        w′(λ) in Pa. It is NaN where the energy is not finite, as beyond a locking stretch.
     """
 
     import autograd.numpy as anp
@@ -47,21 +62,24 @@ def hoop_energy_slope(
         C = CauchyGreen(1.0 / (t * axial) ** 2, t * t, axial**2 * one, 0.0 * one)
         return law.energy(C, place, anp)
 
-    with np.errstate(all="ignore"):  # what has no energy gets no slope
+    with np.errstate(all="ignore"):  # where the energy is not finite the slope becomes NaN
         backwards, energy = make_vjp(w)(np.asarray(stretch, dtype=float))
         slope: Values = np.where(np.isfinite(energy), backwards(np.ones_like(energy)), np.nan)
     return slope
 
 
 def hoop_modulus(law: Law) -> float:
-    """w″(1) in Pa: plane-strain circumferential modulus at rest (neo-Hookean: 8 C₁₀)."""
+    """Return w″(1) in Pa, the circumferential modulus at rest in plane strain.
+
+    For a neo-Hookean law it is 8 C₁₀. For w see `hoop_energy_slope`.
+    """
     return float(rest_moduli(law)[0][0, 0])
 
 
 def rest_gradient(law: Law) -> Float[np.ndarray, 6]:
-    """∂U/∂(C_rr, C_tt, C_zz, C_rz, C_rt, C_tz) in Pa at rest at the inner wall.
+    """Return ∂U/∂(C_rr, C_tt, C_zz, C_rz, C_rt, C_tz) in Pa at rest, at the inner wall.
 
-    A stress-free rest state has (a, a, a, 0, 0, 0).
+    In a stress-free rest state it has the form (a, a, a, 0, 0, 0).
     """
     gradient, _ = energy_derivatives(law, REST, INNER_WALL)
     return gradient[0]
@@ -71,12 +89,27 @@ def rest_gradient(law: Law) -> Float[np.ndarray, 6]:
 def energy_derivatives(
     law: Law, C: CauchyGreen, place: Place
 ) -> tuple[Float[np.ndarray, "points 6"], Float[np.ndarray, "points 6 6"]]:
-    """U,ᵢ and U,ᵢⱼ in Pa at many points, i and j over the components rr, tt, zz, rz, rt, tz of C.
+    """Return first and second derivatives of the energy with respect to C at several points.
 
-    Every component of C is an array (points), and so are the coordinates of the place, or they are
-    numbers that hold for all points. The energy at a point depends on that point alone, so that six
-    copies of the points give all rows of second derivatives in one pass, one row for each copy.
-    Where the energy is not finite the derivatives are NaN.
+    Parameters
+    ----------
+    law : Law
+    C : CauchyGreen
+        Six arrays (points,).
+    place : Place
+        Reference coordinates in inner radii, as arrays (points,) or as numbers for all points.
+
+    Returns
+    -------
+    gradient : array (points, 6)
+        ∂U/∂C_i in Pa for the components i = rr, tt, zz, rz, rt, tz.
+    curvature : array (points, 6, 6)
+        ∂²U/∂C_i ∂C_j in Pa. Both arrays are NaN at points where the energy is not finite.
+
+    Notes
+    -----
+    The energy at a point depends on that point only. Therefore the points are copied six times, and
+    a single backward pass returns one row of the second derivatives for each copy.
     """
     import autograd.numpy as anp
     from autograd import grad
@@ -87,7 +120,7 @@ def energy_derivatives(
     own_row = np.repeat(np.eye(6), count, axis=1)
 
     def total(c: Any) -> Any:
-        # Zero times every component, so that no derivative is missing where one is not used.
+        # Adding zero times every component defines the derivatives by components that U ignores.
         energy = law.energy(CauchyGreen(*(c[i] for i in range(6))), everywhere, anp)
         return anp.sum(energy + 0.0 * anp.sum(c, axis=0))
 
@@ -96,7 +129,7 @@ def energy_derivatives(
     def own_slopes(c: Any) -> Any:
         return anp.sum(slopes(c) * own_row + 0.0 * c)
 
-    with np.errstate(all="ignore"):  # what has no energy gets no derivatives
+    with np.errstate(all="ignore"):  # where the energy is not finite the derivatives become NaN
         curvature = np.asarray(grad(own_slopes)(components)).reshape(6, 6, count)
         gradient = np.asarray(slopes(components))[:, :count].T
         energy = law.energy(C, Place(*(x[:count] for x in everywhere)), anp)
@@ -112,17 +145,23 @@ def energy_derivatives(
 def rest_moduli(
     law: Law, strains: tuple[float, float] = (0.0, 0.0)
 ) -> tuple[Float[np.ndarray, "2 2"], float]:
-    """Small-strain moduli in Pa of the inner wall at rest: (hoop, axial) matrix, r–z shear modulus.
-
-    The matrix is the Hessian of the energy in the logarithmic strains (e_tt, e_zz) with
-    e_rr = −e_tt − e_zz; the shear modulus that of simple shear, C_rz = γ, C_zz = 1 + γ².
+    """Return the small-strain moduli of the inner wall at rest.
 
     Parameters
     ----------
     law : Law
     strains : (float, float)
-        (e_tt, e_zz) at which the matrix is taken. Tiny strains tell the moduli on either side of
-        rest of a law with fibres that bear tension only; at rest itself their mean is found.
+        Logarithmic strains (e_tt, e_zz) at which the matrix is evaluated. For a law with
+        tension-only fibres the second derivatives jump at rest. Tiny strains then select one side;
+        at zero strain automatic differentiation returns the mean of both sides.
+
+    Returns
+    -------
+    matrix : array (2, 2)
+        Hessian of the energy in Pa with respect to the logarithmic strains (e_tt, e_zz), with
+        e_rr = −e_tt − e_zz.
+    shear : float
+        r–z shear modulus in Pa, from the simple shear C_rz = γ, C_zz = 1 + γ² at γ = 0.
     """
 
     import autograd.numpy as anp

@@ -1,17 +1,18 @@
-"""Strong ellipticity: does every small shear band cost energy, in every direction of space?
+"""Strong ellipticity of a law: the stiffness against small shear bands in all directions of space.
 
-Superpose a shear on the deformation F: F(ε) = (1 + ε m⊗n) F with unit vectors m ⊥ n. Its
-determinant does not change, so for an incompressible law the pressure drops out, and the law is
-strongly elliptic at F where the energy's second derivative in ε is positive for every m and n.
-With a = Fᵀn and b = Fᵀm, C(ε) = C + ε (a⊗b + b⊗a) + ε² a⊗a; hence
+Superpose a simple shear on the deformation F: F(ε) = (1 + ε m⊗n) F with unit vectors m ⊥ n. The
+determinant of F does not change, so the pressure of an incompressible law drops out. The law is
+strongly elliptic at F if d²U/dε² is positive at ε = 0 for all m and n. With a = Fᵀn and b = Fᵀm the
+right Cauchy–Green tensor is C(ε) = C + ε (a⊗b + b⊗a) + ε² a⊗a, hence
 
     d²U/dε² = Σ U,ᵢⱼ ċᵢ ċⱼ + 2 Σ U,ᵢ c̈ᵢ,
     ċ = (2aᵣbᵣ, 2aₜbₜ, 2a_z b_z, aᵣb_z + bᵣa_z, aᵣbₜ + bᵣaₜ, aₜb_z + bₜa_z),
     c̈ = (aᵣ², aₜ², a_z², aᵣa_z, aᵣaₜ, aₜa_z),
 
-the sums over the six components of C, which all change in a shear out of the r–z plane. For given n
-this is a quadratic form in m, so its smallest value over m is an eigenvalue of a 2 × 2 matrix; n is
-scanned.
+where the sums extend over the six components of C in the order rr, tt, zz, rz, rt, tz. All six are
+needed, because a shear out of the r–z plane changes all of them. For a given n this is a quadratic
+form in m, so its smallest value is the smaller eigenvalue of a 2 × 2 matrix. The directions n are
+scanned. See "Stability" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -27,19 +28,25 @@ from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["Weakest", "shear_stiffness", "weakest"]
 
-COARSE = 7  # directions per quarter turn of n in the first scan
-REFINED = 24  # deformations, the weakest ones, whose direction is refined
-ZOOMS = 4  # refinements, each four times finer
+COARSE = 7  # number of directions n per quarter turn in the first scan
+REFINED = 24  # number of deformations, those of least stiffness, for which n is refined
+ZOOMS = 4  # number of refinements of n; each reduces the spacing to a quarter
 
 
 @dataclass(frozen=True)
 class Weakest:
-    """The weakest shear band: its stiffness in units of the rest r–z shear modulus, and where.
+    """The shear band of least stiffness among several deformations.
 
-    `stiffness` 1 is that of the unloaded wall across its softest plane, 0 the loss of ellipticity,
-    −∞ where the law has no energy;
-    `index` says which of the given deformations it is; `normal` and `direction` are n and m, in
-    (r, t, z).
+    Attributes
+    ----------
+    stiffness : float
+        d²U/dε² of the shear band, divided by the r–z shear modulus at rest. It is at most 1 in the
+        unloaded wall. Strong ellipticity is lost if it is zero or negative. It is −∞ if the energy
+        of the law is not finite at one of the deformations.
+    index : int
+        Index of the deformation.
+    normal, direction : (float, float, float)
+        Unit vectors n and m of the shear band in the deformed wall, in the directions (r, t, z).
     """
 
     stiffness: float
@@ -49,10 +56,18 @@ class Weakest:
 
 
 def weakest(law: Law, F: Float[np.ndarray, "points 5"], place: Place) -> Weakest:
-    """Find the weakest shear band among deformations F = (F_rr, F_rz, F_zr, F_zz, F_tt).
+    """Find the shear band of least stiffness among several deformations.
 
-    `place` has the reference coordinates of the points, or one place for all. All directions are
-    scanned for every deformation, and refined for the weakest of them.
+    A coarse grid of directions n is scanned for every deformation. The directions are then refined
+    for the `REFINED` deformations with the least stiffness.
+
+    Parameters
+    ----------
+    law : Law
+    F : array (points, 5)
+        Components F_rr, F_rz, F_zr, F_zz, F_tt of the deformation gradient, with det F = 1.
+    place : Place
+        Reference coordinates in inner radii, as arrays (points,) or as numbers for all points.
     """
     angles, derivatives = _scan(), energy_derivatives(law, _right_cauchy_green(F), place)
     values, _ = shear_stiffness(F, derivatives, _normals(angles)[None])
@@ -82,10 +97,23 @@ def shear_stiffness(
     derivatives: tuple[Float[np.ndarray, "points 6"], Float[np.ndarray, "points 6 6"]],
     normals: Float[np.ndarray, "any ways 3"],
 ) -> tuple[Float[np.ndarray, "points ways"], Float[np.ndarray, "points ways 3"]]:
-    """Smallest d²U/dε² over m, in Pa, for every deformation and every n; and the m it belongs to.
+    """Minimise d²U/dε² over m for every deformation and every n.
 
-    `derivatives` are U,ᵢ and U,ᵢⱼ at the points; `normals` are the same for all points (first axis
-    1) or each point's own.
+    Parameters
+    ----------
+    F : array (points, 5)
+        Components F_rr, F_rz, F_zr, F_zz, F_tt of the deformation gradient.
+    derivatives : array (points, 6), array (points, 6, 6)
+        First and second derivatives of the energy in Pa, see `energy_derivatives`.
+    normals : array (1 or points, ways, 3)
+        Unit vectors n; a first axis of length 1 means the same directions for all points.
+
+    Returns
+    -------
+    stiffness : array (points, ways)
+        Smallest d²U/dε² in Pa.
+    directions : array (points, ways, 3)
+        The unit vectors m for which it is attained.
     """
     F_rr, F_rz, F_zr, F_zz, F_tt = F.T[:, :, None]
     slope, curvature = derivatives
@@ -93,7 +121,7 @@ def shear_stiffness(
     a_r, a_t, a_z = F_rr * n_r + F_zr * n_z, F_tt * n_t, F_rz * n_r + F_zz * n_z  # Fᵀ n
 
     def rate(m: Float[np.ndarray, "any ways 3"]) -> Float[np.ndarray, "points ways 6"]:
-        """ċ for one m."""
+        """Return ċ for the directions m."""
         m_r, m_t, m_z = np.moveaxis(m, -1, 0)
         b_r, b_t, b_z = F_rr * m_r + F_zr * m_z, F_tt * m_t, F_rz * m_r + F_zz * m_z
         direct = (2.0 * a_r * b_r, 2.0 * a_t * b_t, 2.0 * a_z * b_z)
@@ -121,7 +149,7 @@ def _right_cauchy_green(F: Float[np.ndarray, "points 5"]) -> CauchyGreen:
 
 
 def _scan() -> Float[np.ndarray, "ways 2"]:
-    """Polar and azimuthal angles over a hemisphere of n."""
+    """Return polar and azimuthal angles of directions n that cover a hemisphere."""
     polar = np.linspace(0.0, np.pi / 2.0, COARSE)
     around = np.linspace(0.0, np.pi, 2 * (COARSE - 1), endpoint=False)
     p, q = np.meshgrid(polar, around, indexing="ij")
@@ -135,7 +163,7 @@ def _neighbourhood() -> Float[np.ndarray, "ways 2"]:
 
 
 def _normals(angles: Float[np.ndarray, "*any 2"]) -> Float[np.ndarray, "*any 3"]:
-    """Unit vectors (r, t, z): polar angle from the r–z plane, azimuth within it."""
+    """Return unit vectors (r, t, z), given the angle from the r–z plane and the azimuth in it."""
     p, q = angles[..., 0], angles[..., 1]
     return np.stack([np.cos(p) * np.cos(q), np.sin(p), np.cos(p) * np.sin(q)], axis=-1)
 
@@ -143,7 +171,7 @@ def _normals(angles: Float[np.ndarray, "*any 2"]) -> Float[np.ndarray, "*any 3"]
 def _tangents(
     normals: Float[np.ndarray, "any ways 3"],
 ) -> tuple[Float[np.ndarray, "any ways 3"], Float[np.ndarray, "any ways 3"]]:
-    """Two unit vectors that complete each normal to an orthonormal frame."""
+    """Return two unit vectors that complete each normal to an orthonormal frame."""
     least = np.eye(3)[np.argmin(np.abs(normals), axis=-1)]
     e = np.cross(normals, least)
     e /= np.linalg.norm(e, axis=-1)[..., None]

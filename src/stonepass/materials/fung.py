@@ -14,23 +14,25 @@ from stonepass.units import Values
 
 __all__ = ["Fung"]
 
-ROUNDS = 4  # of a fixed point that gains two digits with each
+ROUNDS = 4  # iterations of a fixed-point method that gains two digits in each iteration
 
 
 @dataclass(frozen=True)
 class Fung:
     """Fibre-reinforced wall: U = C/2 (exp Q − 1) + G/2 (I₁ − 3).
 
-    Q = a1111 E_tt² + a2222 E_zz² + 2 a1122 E_tt E_zz, E the Green–Lagrange strain; t is the
-    circumferential and z the axial direction. The paper's law (Eq. 21) is G = 0; it has no
-    stiffness in r–z shear, so finite elements need the ground matrix.
+    The exponent is Q = a1111 E_tt² + a2222 E_zz² + 2 a1122 E_tt E_zz with the Green–Lagrange strain
+    E; t is the circumferential and z the axial direction. The paper's law (Eq. 21) is the case
+    G = 0. It has no stiffness in r–z shear, so finite elements need the ground matrix. See "The
+    wall" in docs/theory.md.
 
     Attributes
     ----------
     C : float
-        Pa, positive.
+        Stiffness of the fibres in Pa, positive.
     a1111, a2222, a1122 : float
-        Circumferential, axial and cross constants, without unit.
+        Dimensionless circumferential, axial and cross constants. The first two are above 0 and
+        below 1000, the cross constant is between −1000 and 1000.
     G : float
         Shear modulus of the ground matrix in Pa, zero or positive.
     """
@@ -47,20 +49,20 @@ class Fung:
         check_constants(self)
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         E_tt, E_zz = (C.tt - 1.0) / 2.0, (C.zz - 1.0) / 2.0
         Q = self.a1111 * E_tt * E_tt + self.a2222 * E_zz * E_zz + 2.0 * self.a1122 * E_tt * E_zz
         return self.C / 2.0 * (xp.exp(Q) - 1.0) + self.G / 2.0 * (C.rr + C.tt + C.zz - 3.0)
 
     @property
     def fibres(self) -> Fung:
-        """The paper's law (Eqs 21 and 22), without the ground matrix."""
+        """The same law without the ground matrix, as in the paper (Eqs 21 and 22)."""
         return replace(self, G=0.0)
 
     def microbuckling_threshold(self, C_tt: Any, kept: float, xp: Any) -> Any:
-        """C_zz at which ∂U/∂C_zz has fallen to `kept` × G/2 (see `materials.relaxed_energy`).
+        """Return C_zz at which ∂U/∂C_zz = `kept` × G/2, see `Microbuckling`.
 
-        With E = (C_zz − 1)/2:  C exp(Q) (a2222 E + a1122 E_tt) + (1 − kept) G = 0.
+        With E = (C_zz − 1)/2 the equation is C exp(Q) (a2222 E + a1122 E_tt) + (1 − kept) G = 0.
         """
         E_tt = (C_tt - 1.0) / 2.0
         pull = (1.0 - kept) * self.G / self.C
@@ -72,7 +74,7 @@ class Fung:
 
     @property
     def defect(self) -> tuple[str, str] | None:
-        """Why these constants describe no solid, and what to do: the Fung form is indefinite."""
+        """Reason and remedy if the Fung form Q is not positive definite, else None."""
         form = np.array([[self.a1111, self.a1122], [self.a1122, self.a2222]])
         values, vectors = np.linalg.eigh(form)
         if values[0] > 0.0:
@@ -89,13 +91,15 @@ class Fung:
         )
 
     def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
-        """Eq. 22 without P_out, corrected, in Pa; the ground matrix adds Eq. 20 with C₁₀ = G/2.
+        """Return the transmural pressure in Pa, see `ClosedForm.inflation_pressure`.
 
-        With q = ½ √a1111 ((r_a/R_a)² − 1):  ¼ C √(π a1111) (erfi q − erfi(q/η²)).
-        As printed the paper has the factor R_a²/R_b² outside the second erfi; integrating Eq. 12
-        puts it inside, because E_tt at the outer wall is smaller by just that factor.
+        The fibres contribute the corrected Eq. 22 of the paper without P_out: with
+        q = ½ √a1111 ((r_a/R_a)² − 1), P = ¼ C √(π a1111) (erfi q − erfi(q/η²)). In the printed
+        equation the factor R_a²/R_b² = 1/η² stands outside the second erfi. Integration of Eq. 12
+        shows that it belongs inside, because E_tt at the outer wall is E_tt at the inner wall times
+        this factor (docs/theory.md, "Errata"). The ground matrix adds Eq. 20 with C₁₀ = G/2.
         """
-        from scipy.special import erfi  # half of SciPy comes with it
+        from scipy.special import erfi  # imported here because it loads half of SciPy
 
         q = 0.5 * np.sqrt(self.a1111) * (inner_ratio**2 - 1.0)
         fibres = 0.25 * self.C * np.sqrt(np.pi * self.a1111) * (erfi(q) - erfi(q / wall_ratio**2))

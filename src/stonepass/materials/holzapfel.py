@@ -1,4 +1,4 @@
-"""The Holzapfel–Gasser–Ogden law: two families of fibres, in tension only, in a soft matrix."""
+"""The Holzapfel–Gasser–Ogden law: two families of tension-only fibres in a soft matrix."""
 
 from __future__ import annotations
 
@@ -14,12 +14,15 @@ __all__ = ["HolzapfelGasserOgden"]
 
 @dataclass(frozen=True)
 class HolzapfelGasserOgden:
-    """U = μ/2 (I₁ − 3) + k₁/(2k₂) Σ (exp(k₂ ⟨E_i⟩²) − 1), the sum over two families of fibres.
+    """Two families of fibres in an isotropic matrix.
 
-    E = κ (I₁ − 3) + (1 − 3κ)(I₄ − 1) with I₄ = a·C a the squared stretch along the fibres, which
-    lie at +γ and −γ from the circumference in the surface θ–z. ⟨E⟩ is E where it is positive, else
-    zero: fibres bear tension only. U has a second derivative on either side of E = 0 but not there;
-    at exactly E = 0 automatic differentiation gives the mean of both. `one_sided_moduli` has both.
+    The energy is U = μ/2 (I₁ − 3) + k₁/(2k₂) Σ (exp(k₂ ⟨E⟩²) − 1), with the sum over both families.
+    The strain of a family is E = κ (I₁ − 3) + (1 − 3κ)(I₄ − 1), where I₄ = a·C a is the squared
+    stretch in the direction a of the fibres. In the t–z surface the fibres lie at the angles +γ and
+    −γ to the circumference. ⟨E⟩ = max(E, 0), because fibres resist tension only.
+
+    The second derivative of U jumps at E = 0. There, automatic differentiation returns the mean of
+    both one-sided values; `materials.stability.one_sided_moduli` returns each of them.
 
     Sources: Holzapfel, Gasser, Ogden 2000, Journal of Elasticity 61, 1–48 (κ = 0); Gasser, Ogden,
     Holzapfel 2006, Journal of the Royal Society Interface 3, 15–35 (dispersion κ).
@@ -27,16 +30,16 @@ class HolzapfelGasserOgden:
     Attributes
     ----------
     mu : float
-        Shear modulus of the matrix in Pa, positive. The matrix is a part of this law as it is
-        published, so `composition.fibres_of` leaves it in.
+        Shear modulus of the matrix in Pa, positive. The matrix is part of the published law, so
+        `composition.fibres_of` does not remove it.
     k1 : float
         Stiffness of the fibres in Pa, zero or positive.
     k2 : float
-        Stiffening of the fibres, without unit, above 0 and below 1000.
+        Dimensionless exponent of the stiffening of the fibres, above 0 and below 1000.
     angle : float
-        γ in rad, 0 (around) to π/2 (along the axis).
+        γ in rad, from 0 (circumferential) to π/2 (axial).
     kappa : float
-        Dispersion κ, 0 (parallel) to 1/3 (isotropic).
+        Dispersion κ of the fibre directions, from 0 (parallel) to 1/3 (isotropic).
     """
 
     mu: float = constant("μ", "Pa", "shear modulus of the matrix", guess=0.5)
@@ -55,7 +58,7 @@ class HolzapfelGasserOgden:
         check_constants(self)
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         c, s = math.cos(self.angle), math.sin(self.angle)
         excess = C.I1 - 3.0
         along, across = C.tt * c * c + C.zz * s * s - 1.0, 2.0 * c * s * C.tz

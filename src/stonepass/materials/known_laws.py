@@ -1,4 +1,4 @@
-"""The laws that a file may give constants for, by name: one line for each."""
+"""The registry of the laws that can be named in a material file."""
 
 from __future__ import annotations
 
@@ -31,12 +31,19 @@ KNOWN_LAWS: dict[str, type[Any]] = {
 
 
 def known_law(name: str, argument: str = "law") -> type[Any]:
-    """Look up a law; an unknown name is refused, naming the nearest one.
+    """Look up the class of a law.
+
+    Parameters
+    ----------
+    name : str
+        A key of `KNOWN_LAWS`.
+    argument : str
+        Name of the input in the error message.
 
     Raises
     ------
     BadInput
-        No law has this name; `argument` is how the caller calls it.
+        No law has this name; the message suggests the most similar name.
     """
     if name not in KNOWN_LAWS:
         refuse_unknown(argument, name, list(KNOWN_LAWS), ONES_OWN)
@@ -44,11 +51,11 @@ def known_law(name: str, argument: str = "law") -> type[Any]:
 
 
 def constants_by_name(law: str) -> dict[str, ConstantDeclaration]:
-    """Declarations of the constants of a known law, moduli first."""
+    """Return the declarations of the constants of a known law by name, moduli first."""
     declared = sorted(constants_of(known_law(law)), key=lambda each: each.unit != "Pa")
     return {each.name: each for each in declared}
 
 
 def name_of_law(law: Law) -> str:
-    """Name of a known law; empty for any other."""
+    """Return the name of a known law; an empty string for any other law."""
     return next((name for name, known in KNOWN_LAWS.items() if type(law) is known), "")

@@ -15,16 +15,16 @@ __all__ = ["MooneyRivlin"]
 
 @dataclass(frozen=True)
 class MooneyRivlin:
-    """Isotropic rubber with a second constant: shear modulus 2 (C10 + C01).
+    """Isotropic rubber with two constants; its shear modulus at rest is 2 (C10 + C01).
 
     Source: Rivlin 1948, Philosophical Transactions of the Royal Society A 241, 379–397.
 
     Attributes
     ----------
     C10 : float
-        Pa, positive.
+        Factor of I₁ − 3 in Pa, positive.
     C01 : float
-        Pa, of the second invariant; its sum with C10 is positive.
+        Factor of I₂ − 3 in Pa, above −C10.
     """
 
     C10: float = constant("C₁₀", "Pa", "factor of I₁ − 3", guess=0.5)
@@ -35,5 +35,5 @@ class MooneyRivlin:
         require(self.C10 + self.C01 > 0.0, "C01", self.C01, "above -C10")
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³; I₂ = ½ (I₁² − tr C²)."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         return self.C10 * (C.I1 - 3.0) + self.C01 * (C.I2 - 3.0)

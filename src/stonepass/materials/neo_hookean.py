@@ -16,12 +16,12 @@ __all__ = ["NeoHookean"]
 
 @dataclass(frozen=True)
 class NeoHookean:
-    """Isotropic rubber: shear modulus 2 C10.
+    """Isotropic rubber with the shear modulus 2 C10 (paper, Eq. 19).
 
     Attributes
     ----------
     C10 : float
-        Pa, positive.
+        Half the shear modulus in Pa, positive.
     """
 
     C10: float = constant("C₁₀", "Pa", "half the shear modulus", guess=0.5)
@@ -30,13 +30,14 @@ class NeoHookean:
         check_constants(self)
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³; I₁ is the trace of C."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         return self.C10 * (C.rr + C.tt + C.zz - 3.0)
 
     def inflation_pressure(self, inner_ratio: Values, wall_ratio: Values) -> Values:
-        """Eq. 20 without P_out, in Pa.
+        """Return the transmural pressure in Pa, see `ClosedForm.inflation_pressure`.
 
-        With s = (r_a/R_a)² and t = s + η² − 1:  C₁₀ (η²/t − 1/s + ln s − ln(t/η²)).
+        It is Eq. 20 of the paper without P_out: with s = (r_a/R_a)² and t = s + η² − 1,
+        P = C₁₀ (η²/t − 1/s + ln s − ln(t/η²)).
         """
         s = inner_ratio**2
         t = s + wall_ratio**2 - 1.0

@@ -17,7 +17,7 @@ LARGEST_POWER = 20.0
 
 
 def _modulus(number: str, **more: Any) -> Any:
-    meaning = f"modulus of term {number}; its product with α counts"
+    meaning = f"modulus of term {number}, whose shear modulus is μ{number} α{number}/2"
     return constant(f"μ{number}", "Pa", meaning, low=-math.inf, guess=0.5, **more)
 
 
@@ -30,18 +30,19 @@ def _power(number: str, **more: Any) -> Any:
 
 @dataclass(frozen=True)
 class Ogden:
-    """Isotropic rubber in principal stretches: shear modulus ½ Σ μ_p α_p at rest.
+    """Isotropic rubber in principal stretches; its shear modulus at rest is ½ Σ μ_p α_p.
 
-    Source: Ogden 1972, Proceedings of the Royal Society of London A 326, 565–584. Constants are in
-    his convention; Abaqus and CalculiX take μ_p α_p/2 as their μ_p. A term with μ_p = 0 is absent.
-    With one term and α = 2 this is the neo-Hookean law of C₁₀ = μ/2.
+    Source: Ogden 1972, Proceedings of the Royal Society of London A 326, 565–584. The constants
+    follow Ogden's convention. The constant μ_p of Abaqus and CalculiX equals μ_p α_p/2 here. With
+    one term and α = 2 the law is the neo-Hookean law with C₁₀ = μ/2.
 
     Attributes
     ----------
     mu1, mu2, mu3 : float
-        Pa, of any sign; Σ μ_p α_p is positive.
+        Moduli of the terms in Pa, of either sign; Σ μ_p α_p is positive. A modulus of zero, the
+        default of the second and the third term, removes the term.
     alpha1, alpha2, alpha3 : float
-        Powers, −20 to 20 and not zero.
+        Dimensionless powers of the terms, from −20 to 20, but not zero.
     """
 
     mu1: float = _modulus("₁")
@@ -60,12 +61,12 @@ class Ogden:
 
     @property
     def terms(self) -> tuple[tuple[float, float], ...]:
-        """(μ_p, α_p) of the terms that are present."""
+        """Pairs (μ_p, α_p) of the terms with μ_p ≠ 0."""
         pairs = ((self.mu1, self.alpha1), (self.mu2, self.alpha2), (self.mu3, self.alpha3))
         return tuple((mu, alpha) for mu, alpha in pairs if mu != 0.0)
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         first, *rest = (
             mu / alpha * (power_sum(C, alpha / 2.0, xp) - 3.0) for mu, alpha in self.terms
         )

@@ -1,7 +1,8 @@
-"""Automatic differentiation by one thread at a time.
+"""A lock that allows automatic differentiation in one thread at a time.
 
-Autograd counts the levels of nested derivatives in one variable of the process. Two threads that
-differentiate at once would take a level of the other for their own and get wrong numbers.
+Autograd counts the levels of nested derivatives in a variable that all threads of the process
+share. If two threads differentiated at the same time, their levels would be mixed up and the
+derivatives would be wrong.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ _TRACE = RLock()
 
 
 def one_trace(function: Callable[P, R]) -> Callable[P, R]:
-    """Let other threads wait while one is in `function`."""
+    """Decorate a function so that only one thread at a time executes it; other threads wait."""
 
     @wraps(function)
     def alone(*arguments: P.args, **keywords: P.kwargs) -> R:

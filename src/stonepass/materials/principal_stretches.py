@@ -1,15 +1,18 @@
 """Sums over principal stretches, λ₁ᵅ + λ₂ᵅ + λ₃ᵅ, smooth where principal stretches are equal.
 
-The squared stretches c₁, c₂, c₃ are the eigenvalues of C. They are not differentiable where two of
-them meet, which is so at rest and in every uniaxial state, but the sum S = Σ c_iᵃ with a = α/2 is.
+The squared principal stretches c₁, c₂, c₃ are the eigenvalues of C. Eigenvalues are not
+differentiable where two of them are equal, as at rest and in every uniaxial state. The sum
+S = Σ c_iᵃ with a = α/2 is differentiable everywhere.
 
-**Axisymmetry** (C_rt and C_tz the plain number 0). One eigenvalue is C_tt, the other two are
-m (1 ± √u), m = (C_rr + C_zz)/2, u = ((C_rr − C_zz)²/4 + C_rz²)/m². Their sum is a function of u
-without a root, 2 mᵃ Σ_k binom(a, 2k) uᵏ. Beyond u = `NEAR` it is evaluated with the root, below by
-three terms of the series. Both are added with u clipped to either side, so no branch is needed and
-the formula serves NumPy, automatic differentiation and the finite elements.
+**Axisymmetry**: C_rt and C_tz are the Python number 0.0. One eigenvalue is C_tt. The other two are
+m (1 ± √u) with m = (C_rr + C_zz)/2 and u = ((C_rr − C_zz)²/4 + C_rz²)/m². The sum of their powers
+is a power series in u, 2 mᵃ Σ_k binom(a, 2k) uᵏ, and therefore smooth at u = 0. For u > `NEAR` the
+sum is evaluated with the root √u, for u ≤ `NEAR` by three terms of the series. To avoid a
+conditional expression, the code evaluates the root formula at max(u, `NEAR`) and adds the series at
+min(u, `NEAR`) minus the series at `NEAR`. The same formula can therefore be used with NumPy,
+automatic differentiation and the finite elements.
 
-**All six components** are for `spectral_power`.
+**General deformation**: if all six components are arrays, `spectral_power` evaluates the sum.
 """
 
 from __future__ import annotations
@@ -23,16 +26,17 @@ __all__ = ["power_sum"]
 
 
 def power_sum(C: CauchyGreen, a: float, xp: Any) -> Any:
-    """Sum c₁ᵃ + c₂ᵃ + c₃ᵃ over the eigenvalues of C.
+    """Return c₁ᵃ + c₂ᵃ + c₃ᵃ for the eigenvalues c_i of C.
 
     Parameters
     ----------
     C : CauchyGreen
-        Positive definite. `rt` and `tz` are both the plain number 0.0, or all are arrays.
+        Positive definite. Either both `rt` and `tz` are the Python number 0.0, or all components
+        are arrays of one shape.
     a : float
-        Power of the squared stretches, α/2, at most 10 in size.
+        Power α/2 of the squared stretches, between −10 and 10.
     xp : namespace
-        Array namespace of the law; it serves the first case only.
+        Array namespace of the law. It is used only if `rt` and `tz` are 0.0.
     """
     if _is_zero(C.rt) and _is_zero(C.tz):
         return C.tt**a + _pair(C.rr, C.zz, C.rz, a, xp)
@@ -46,7 +50,7 @@ def _is_zero(value: Any) -> bool:
 
 
 def _pair(x: Any, y: Any, shear: Any, a: float, xp: Any) -> Any:
-    """Sum over both eigenvalues of the matrix [x, shear; shear, y]."""
+    """Return the sum of the a-th powers of the eigenvalues of the matrix [x, shear; shear, y]."""
     mean, half = (x + y) / 2.0, (x - y) / 2.0
     u = (half * half + shear * shear) / (mean * mean)
     root = xp.sqrt(xp.maximum(u, NEAR))

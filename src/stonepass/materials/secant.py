@@ -1,4 +1,4 @@
-"""Secant moduli of a law: what a wall of linear springs would have between rest and a stretch."""
+"""Secant moduli of a law: the moduli of a linear wall with the same stress at a given stretch."""
 
 from __future__ import annotations
 
@@ -19,15 +19,29 @@ STRETCH = (1.001, 2.0)
 
 @one_trace
 def secant_moduli(law: Law, stretch: float) -> tuple[float, float]:
-    """Circumferential and longitudinal modulus in Pa: nominal stress over λ − 1, plane strain.
+    """Return the circumferential and the longitudinal secant modulus in plane strain.
 
-    The other of the two directions keeps its length, the radial stretch follows from volume. For a
-    neo-Hookean law both are 2 C₁₀ (λ − λ⁻³)/(λ − 1), at rest 8 C₁₀.
+    The secant modulus is the nominal stress divided by λ − 1. The wall is stretched in one of the
+    two directions and keeps its length in the other; the radial stretch follows from
+    incompressibility. For a neo-Hookean law both moduli are 2 C₁₀ (λ − λ⁻³)/(λ − 1), which tends to
+    8 C₁₀ as λ tends to 1. See "The thin wall as a beam" in docs/theory.md.
+
+    Parameters
+    ----------
+    law : Law
+        It is evaluated at the inner wall, R = 1.
+    stretch : float
+        λ, from 1.001 to 2.
+
+    Returns
+    -------
+    (float, float)
+        Circumferential and longitudinal modulus in Pa.
 
     Raises
     ------
     BadInput
-        A stretch outside 1.001 to 2.
+        The stretch is out of bounds.
     """
     low, high = STRETCH
     require(low <= stretch <= high, "secant stretch", stretch, f"a number from {low:g} to {high:g}")

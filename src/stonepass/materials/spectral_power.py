@@ -1,10 +1,12 @@
-"""Sums of powers of the eigenvalues of C in all six components, with derivatives given by hand.
+"""Sums of powers of the eigenvalues of a full symmetric tensor C, with explicit derivatives.
 
-The eigenvalues c_i come from LAPACK. The derivatives are those of Daleckii and Krein: with
-S = Σ c_iᵃ, ∂S/∂C = a C^(a−1), and its derivative along dC has, in the frame of eigenvectors, the
-components Γ_ij dC_ij with the divided differences Γ_ij of a c^(a−1), which are series where
-eigenvalues are close. NumPy and automatic differentiation (twice) can evaluate it. This module
-loads autograd, so `principal_stretches` asks for it only where all six components are given.
+The eigenvalues c_i of C are computed by LAPACK. Let S = Σ c_iᵃ. Its first derivative is the tensor
+∂S/∂C = h(C) with the function h(c) = a c^(a−1). The derivative of h(C) in the direction dC follows
+from the theorem of Daleckii and Krein (1965): in the frame of the eigenvectors of C its components
+are Γ_ij dC_ij with the divided differences Γ_ij = (h(c_i) − h(c_j))/(c_i − c_j). For nearly equal
+eigenvalues Γ_ij is evaluated by a series. The functions can be evaluated with NumPy, and autograd
+can differentiate them twice. This module imports autograd, so `principal_stretches` loads it only
+if C has all six components.
 """
 
 from __future__ import annotations
@@ -22,18 +24,19 @@ from stonepass.strain import CauchyGreen
 __all__ = ["trace_of_power"]
 
 _ROWS = ((0, 0), (1, 1), (2, 2), (0, 2), (0, 1), (1, 2))  # rr, tt, zz, rz, rt, tz
-_TWICE = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])  # an off-diagonal component stands for two
+# A derivative with respect to C_rz counts both C_rz and C_zr; the same holds for C_rt and C_tz.
+_TWICE = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
 
 
 def trace_of_power(C: CauchyGreen, a: float) -> Any:
-    """Sum c₁ᵃ + c₂ᵃ + c₃ᵃ over the eigenvalues of C.
+    """Return c₁ᵃ + c₂ᵃ + c₃ᵃ for the eigenvalues c_i of C.
 
     Parameters
     ----------
     C : CauchyGreen
         Positive definite; its components are numbers or arrays of one shape.
     a : float
-        Power of the squared stretches.
+        Power of the eigenvalues, which are squared principal stretches.
     """
     spread = 0.0 * (C.I1 + C.rz + C.rt + C.tz)
     return _trace_of_power(anp.stack([each + spread for each in C]), a)
@@ -47,7 +50,7 @@ def _trace_of_power(C: Float[np.ndarray, "6 ..."], a: float) -> Float[np.ndarray
 
 @primitive  # type: ignore[untyped-decorator]
 def _slope(C: Float[np.ndarray, "6 ..."], a: float) -> Float[np.ndarray, "6 ..."]:
-    """∂S/∂C, the off-diagonal components counted twice."""
+    """Return ∂S/∂C; each off-diagonal component counts twice."""
     values, vectors = _eigen(C)
     return _components((vectors * (a * values ** (a - 1.0))[..., None, :]) @ _transposed(vectors))
 
@@ -55,14 +58,14 @@ def _slope(C: Float[np.ndarray, "6 ..."], a: float) -> Float[np.ndarray, "6 ..."
 def _slope_of_slope(
     along: Float[np.ndarray, "6 ..."], C: Float[np.ndarray, "6 ..."], a: float
 ) -> Float[np.ndarray, "6 ..."]:
-    """Second derivative of S along one direction and each component."""
+    """Return the second derivatives of S along the direction `along` and by each component."""
     values, vectors = _eigen(C)
     turned = _transposed(vectors) @ _matrix(along) @ vectors
     return _components(vectors @ (_divided_difference(values, a) * turned) @ _transposed(vectors))
 
 
 def _divided_difference(c: Float[np.ndarray, "... 3"], a: float) -> Float[np.ndarray, "... 3 3"]:
-    """(h(c_i) − h(c_j))/(c_i − c_j) of h = a cᵃ⁻¹, h′ where both are equal."""
+    """Return (h(c_i) − h(c_j))/(c_i − c_j) for h(c) = a cᵃ⁻¹, and h′(c_i) for equal eigenvalues."""
     one, other = c[..., :, None], c[..., None, :]
     mean, half = (one + other) / 2.0, (one - other) / 2.0
     u = (half / mean) ** 2
@@ -93,7 +96,7 @@ def _matrix(C: Float[np.ndarray, "6 ..."]) -> Float[np.ndarray, "... 3 3"]:
 
 
 def _components(full: Float[np.ndarray, "... 3 3"]) -> Float[np.ndarray, "6 ..."]:
-    """Derivatives by the six components from the derivative by the matrix."""
+    """Return the derivatives by the six components, given the derivative by the matrix."""
     return np.stack([twice * full[..., i, j] for twice, (i, j) in zip(_TWICE, _ROWS, strict=True)])
 
 

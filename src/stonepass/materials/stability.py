@@ -1,4 +1,7 @@
-"""Is the law a solid at all: stress-free at rest, and no strain that lowers the energy."""
+"""Checks of a law before any solve: stress-free rest state, stability at rest, strong ellipticity.
+
+See "Stability" in docs/theory.md.
+"""
 
 from __future__ import annotations
 
@@ -17,28 +20,30 @@ from stonepass.strain import INNER_WALL
 
 __all__ = ["SOFTEST_WALL", "RestState", "check", "one_sided_moduli", "rest_state"]
 
-TINY = 1e-7  # a strain that tells one side of rest from the other
-MOST_SIDES = 12
-SOFTEST_WALL = 1e3  # Pa, a shear modulus: constants of a softer law are probably in kPa
-MODULUS_RANGE = (1.0, 1e11)  # Pa: softer than any tissue, stiffer than steel
+TINY = 1e-7  # strain that selects tension or compression in the limit of zero strain
+MOST_SIDES = 12  # largest number of iterations of the lateral contraction
+SOFTEST_WALL = 1e3  # Pa; the constants of a law with a smaller shear modulus are probably in kPa
+MODULUS_RANGE = (1.0, 1e11)  # Pa, from softer than any tissue to far stiffer than any elastomer
 
 
 @dataclass(frozen=True)
 class RestState:
-    """Small-strain behaviour of a law, moduli in Pa.
+    """Small-strain behaviour of a law at rest.
 
     Attributes
     ----------
     hoop, axial : float
-        Uniaxial (free lateral strain) moduli along the circumference and the axis.
+        Moduli in Pa for uniaxial stress along the circumference and along the axis.
     plane_hoop : float
-        Circumferential modulus with the axial strain held, w″(1).
+        Circumferential modulus in Pa at constant axial length, w″(1).
     shear : float
-        r–z shear modulus.
+        r–z shear modulus in Pa.
     softest : float
-        Smallest eigenvalue of the (hoop, axial) matrix; negative means unstable.
+        Smallest eigenvalue in Pa of the matrix of `rest_moduli`; if it is negative, the law is
+        unstable.
     softest_direction : (float, float)
-        Strains (hoop, axial), the larger one 1 in size, that this eigenvalue belongs to.
+        Eigenvector (hoop strain, axial strain) of this eigenvalue, scaled so that its larger
+        component is 1.
     """
 
     hoop: float
@@ -50,7 +55,7 @@ class RestState:
 
 
 def rest_state(law: Law) -> RestState:
-    """Small-strain moduli of any law from its energy."""
+    """Return the small-strain moduli of a law, computed from its energy."""
     matrix, shear = rest_moduli(law)
     values, vectors = np.linalg.eigh(matrix)
     direction = _normalised(vectors[:, 0])
@@ -66,22 +71,28 @@ def rest_state(law: Law) -> RestState:
 
 
 def one_sided_moduli(law: Law, sign: float) -> tuple[float, float, float]:
-    """Moduli in Pa on one side of rest: uniaxial hoop and axial, and hoop with the axis held.
+    """Return the small-strain moduli of a law in tension or in compression.
 
-    They differ from side to side for a law with fibres that bear tension only.
+    The two sets differ for a law with tension-only fibres.
 
     Parameters
     ----------
     law : Law
     sign : float
         1 for tension, −1 for compression.
+
+    Returns
+    -------
+    (float, float, float)
+        `hoop`, `axial` and `plane_hoop` of `RestState`, in Pa.
     """
     small = sign * TINY
 
     def uniaxial(along: int) -> float:
-        """Modulus along one direction, the strain across being free."""
+        """Return the modulus for uniaxial stress along one direction (0 hoop, 1 axial)."""
         across, contraction = 1 - along, 0.5
-        for _ in range(MOST_SIDES):  # which fibres are in tension depends on the contraction
+        # The lateral contraction decides which fibres are in tension, and depends on them.
+        for _ in range(MOST_SIDES):
             strains = [small, small]
             strains[across] *= -contraction
             matrix, _ = rest_moduli(law, (strains[0], strains[1]))
@@ -95,15 +106,19 @@ def one_sided_moduli(law: Law, sign: float) -> tuple[float, float, float]:
 
 @lru_cache(maxsize=32)
 def check(material: Material) -> RestState:
-    """Return the rest state of a sound law; one that depends on the place is checked at R = 1.
+    """Check the law of a material and return its small-strain behaviour.
+
+    A law that depends on the place in the wall is checked at the inner wall, R = 1, only.
 
     Raises
     ------
     UnstableLaw
-        Some strain from rest lowers the energy, the law's constants are defective, or the law
-        loses strong ellipticity in the uniform tube somewhere in its strain range.
+        The law is unstable for one of these reasons: a small strain from rest lowers its energy;
+        its constants are defective (`MayBeDefective`); or it loses strong ellipticity in the
+        uniform tube within its strain range.
     BadInput
-        The law is stressed at rest, not finite there, or absurdly soft or stiff.
+        The law is not stress-free or not finite at rest, or its modulus is outside
+        `MODULUS_RANGE`.
     """
     law, name = material.law, f"material '{material.name}'"
     _check_rest_stress(law, name)
@@ -123,7 +138,7 @@ def check(material: Material) -> RestState:
         raise UnstableLaw(
             "law",
             material.name,
-            f"nothing resists r-z shear from rest (modulus {state.shear / 1e6:.3g} MPa)",
+            f"it has no stiffness in r-z shear at rest (modulus {state.shear / 1e6:.3g} MPa)",
             "give it a ground matrix, G > 0",
         )
     _check_ellipticity(material)
@@ -157,7 +172,7 @@ def _check_rest_stress(law: Law, name: str) -> None:
 
 
 def _check_ellipticity(material: Material) -> None:
-    """Every shear band must cost energy in the uniform tube, all over the strain range."""
+    """Check that the law is strongly elliptic in the uniform tube over the whole strain range."""
     low, high = material.strain_range
     hoop = np.linspace(low, high, 9)
     zero, one = np.zeros_like(hoop), np.ones_like(hoop)

@@ -1,4 +1,4 @@
-"""A law written by the user as a Python function."""
+"""A law that the user has written as a Python function."""
 
 from __future__ import annotations
 
@@ -24,12 +24,21 @@ OLD_PARAMETERS = 5
 
 @dataclass(frozen=True)
 class UserLaw:
-    """A strain energy written by the user: ``energy(C, place, xp)`` in J/m³.
+    """A strain energy that the user has written as a Python function.
+
+    See "A law of one's own" in docs/laws.md.
+
+    Attributes
+    ----------
+    function : callable
+        ``function(C, place, xp)`` returns the energy density in J/m³, see `Law.energy`.
+    label : str
+        Name of the law in messages.
 
     Raises
     ------
     BadInput
-        The function has five parameters, as in earlier versions.
+        The function has five parameters, as in earlier versions of this package.
     """
 
     function: Callable[..., Any]
@@ -38,7 +47,7 @@ class UserLaw:
     def __post_init__(self) -> None:
         try:
             parameters = signature(self.function).parameters.values()
-        except (TypeError, ValueError):  # a function that is not written in Python
+        except (TypeError, ValueError):  # functions written in C may have no signature
             return
         if sum(each.default is Parameter.empty for each in parameters) == OLD_PARAMETERS:
             raise BadInput(
@@ -49,28 +58,34 @@ class UserLaw:
             )
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Call the user's function; whatever it raises becomes one sentence."""
+        """Return the strain energy in J/m³, see `Law.energy`.
+
+        Raises
+        ------
+        BadInput
+            The function raises an exception or does not return an energy.
+        """
         try:
-            with redirect_stdout(sys.stderr):  # stdout is for answers
+            with redirect_stdout(sys.stderr):  # standard output is reserved for results
                 value = self.function(C, place, _allowed(xp))
         except Exception as problem:
             raise self.refusal(problem) from problem
         if value is None:
             raise BadInput(f"value of law '{self.label}'", "None", "an energy in J/m³")
         if getattr(value, "dtype", None) == np.dtype(object):
-            raise self.refusal(TypeError("a function of NumPy was used in place of one of xp"))
+            raise self.refusal(TypeError("a function of NumPy was used instead of one of xp"))
         return value
 
     def refusal(self, problem: Exception) -> BadInput:
-        """Turn what the function raises, or its derivatives, into one sentence."""
+        """Convert an exception of the function or of its derivatives into an error message."""
         return BadInput(
             f"law '{self.label}'",
             f"raising {type(problem).__name__}: {problem}",
             "a function energy(C, place, xp) that returns J/m³",
-            "it may use + - * / ** and xp." + ", xp.".join(NAMESPACE) + ", and no comparisons",
+            "it may use + - * / ** and xp." + ", xp.".join(NAMESPACE) + ", but no comparisons",
         )
 
 
 def _allowed(xp: Any) -> SimpleNamespace:
-    """Return the functions of an array namespace that every one of them has."""
+    """Return the functions of `xp` that all array namespaces provide (`NAMESPACE`)."""
     return SimpleNamespace(**{name: getattr(xp, name) for name in NAMESPACE})

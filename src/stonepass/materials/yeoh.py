@@ -14,16 +14,16 @@ __all__ = ["Yeoh"]
 
 @dataclass(frozen=True)
 class Yeoh:
-    """Isotropic rubber that stiffens at large strain: shear modulus 2 C10 at rest.
+    """Isotropic rubber that stiffens at large strain; its shear modulus at rest is 2 C10.
 
     Source: Yeoh 1993, Rubber Chemistry and Technology 66, 754–771.
 
     Attributes
     ----------
     C10 : float
-        Pa, positive.
+        Factor of I₁ − 3 in Pa, positive.
     C20, C30 : float
-        Pa, of the second and third power; C30 is 0 where it is left out.
+        Factors of (I₁ − 3)² and (I₁ − 3)³ in Pa, of either sign; the default of C30 is 0.
     """
 
     C10: float = constant("C₁₀", "Pa", "factor of I₁ − 3", guess=0.5)
@@ -34,6 +34,6 @@ class Yeoh:
         check_constants(self)
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
-        """Strain energy in J/m³."""
+        """Return the strain energy in J/m³, see `Law.energy`."""
         x = C.rr + C.tt + C.zz - 3.0
         return x * (self.C10 + x * (self.C20 + x * self.C30))

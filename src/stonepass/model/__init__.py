@@ -1,1 +1,1 @@
-"""The physics: stone, ureter and load; far field, seated state, balance, critical state."""
+"""The physics of one case: stone, ureter and load, far field, models, and critical pressure."""

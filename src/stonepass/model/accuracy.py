@@ -1,4 +1,4 @@
-"""How finely a case is solved, and how far its numbers may be from the limit of fine meshes."""
+"""Accuracy levels: resolutions of the finite elements, and the estimate of their error."""
 
 from __future__ import annotations
 
@@ -11,14 +11,25 @@ __all__ = ["LEVELS", "ErrorEstimate", "Level"]
 
 @dataclass(frozen=True)
 class Level:
-    """A resolution, a coarser companion, and what their difference says of the error.
+    """An accuracy level: a resolution, a coarser companion, and the rule of the error estimate.
 
-    Every case is solved with both; the error of the finer answer is estimated as `factor` × their
-    difference, plus `floor` × the number itself (for α₀ the half-width π/2 − α₀ of the contact),
-    since two solves may agree by chance. The companion's fitted mesh has elements of one order less
-    and is coarser, and its path half the increments (a quarter at `reference`). That path converges
-    with the first order of the increments, so there the difference equals the error left.
-    `error_estimates` of the verification page measures how often a claim holds.
+    Every case is solved with both resolutions. The estimated error of the finer result is
+    `factor` × the difference of the two results + `floor` × the result itself. The second term is
+    needed because two results may agree by chance. For α₀ the half-width π/2 − α₀ of the contact
+    takes the place of the result in the second term.
+
+    The fitted mesh of the companion is coarser and its elements are of one order less. Its loading
+    path has half the increments, or a quarter at the level `reference`. The error of a path is
+    proportional to the size of its increments, so the difference from a path with half the
+    increments equals the remaining error. See "How far a number is from the limit" in
+    docs/theory.md; docs/verification.md reports how often the true error is within the estimate.
+
+    Attributes
+    ----------
+    resolution, companion : Resolution
+        The fine and the coarse resolution.
+    factor, floor : float
+        Dimensionless factors of the error estimate, positive.
     """
 
     resolution: Resolution
@@ -27,7 +38,15 @@ class Level:
     floor: float
 
     def claim(self, difference: float, value: float) -> float:
-        """The error to claim where the companion differs from `value` by `difference`."""
+        """Return the error estimate of a result.
+
+        Parameters
+        ----------
+        difference : float
+            Difference between the results with both resolutions.
+        value : float
+            The result, or its scale, in the unit of `difference`.
+        """
         return self.factor * abs(difference) + self.floor * abs(value)
 
 
@@ -43,25 +62,26 @@ LEVELS = {
         1e-3,
     ),
     "standard": Level(_STANDARD, replace(_FAST, order=3), 2.0, 2e-4),
-    # Four times the increments of its companion: a third of the difference is left.
+    # With four times the increments of the companion, a third of the difference remains as error.
     "reference": Level(_REFERENCE, _STANDARD, 2.0 / 3.0, 5e-5),
 }
 
 
 @dataclass(frozen=True)
 class ErrorEstimate:
-    """Estimated discretisation error, absolute: the limit should lie within ± of the number.
+    """Estimated absolute discretisation errors of an answer.
 
-    An estimate, not a bound (see `Level`).
+    The result in the limit of fine meshes and many increments is expected to lie within ± the
+    estimate of the number. The estimates are not strict bounds (see `Level`).
 
     Attributes
     ----------
     contact_angle : float
-        Of α₀, in rad.
+        Error of α₀ in rad.
     equator_contact_pressure : float
-        Of σ(π/2), in Pa.
+        Error of σ(π/2) in Pa.
     critical_pressure : float or None
-        Of P_ucr, in Pa, where there is one.
+        Error of P_ucr in Pa; None if the answer has no critical pressure.
     """
 
     contact_angle: float

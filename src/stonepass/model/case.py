@@ -53,6 +53,10 @@ class Case(Problem):
     model: Model = field(default_factory=SeatedBalance)
     numerics: Numerics = field(default_factory=Numerics)
 
+    def __repr__(self) -> str:
+        parts = (self.stone, self.ureter, self.load, self.model, self.numerics)
+        return f"Case({', '.join(map(repr, parts))})"
+
     def __post_init__(self) -> None:
         super().__post_init__()
         require_kind("model", self.model, Model, _model_example(self.model))

@@ -1,4 +1,4 @@
-"""Finite-element states of a case, without asking for its critical pressure."""
+"""Finite-element states of a case, without the search for its critical pressure."""
 
 from __future__ import annotations
 
@@ -19,26 +19,35 @@ __all__ = ["push_along", "push_through", "seat"]
 
 
 def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSeat:
-    """Solve the seated state of a stone that is larger than the lumen.
+    """Solve the seated state: the wall stretched over the stone, without urine pressure.
+
+    See "Seated state" in docs/theory.md.
 
     Parameters
     ----------
     case : Case
-        Its model is `SeatedBalance`, whose seating is taken.
+        Its model must be `SeatedBalance`, which says how the stone is seated.
     resolution : Resolution, optional
-        Solve on this mesh alone, without an estimate of the error; by default at the accuracy of
-        the case's numerics, with an estimate from a second, coarser solve.
+        Resolution of a single solve without an error estimate. By default the accuracy of the case
+        is used, with an error estimate from a second, coarser solve.
+
+    Returns
+    -------
+    SeatedState or NoSeat
+        `NoSeat` gives the reason if no seated state was found.
 
     Raises
     ------
     UnstableLaw
-        The material law is no solid.
+        The material law is not stable.
     BadInput
-        The stone is not larger than the lumen, so it is not seated at all.
+        The stone is not larger than the lumen, so it is not seated.
+    Misplaced
+        The model of the case is not `SeatedBalance`.
     """
     model = case.model
     if not isinstance(model, SeatedBalance):
-        raise Misplaced("seat", f"the model '{model.NAME}'", "is of SeatedBalance")
+        raise Misplaced("seat", f"the model '{model.NAME}'", "needs the model SeatedBalance")
     return solve_seated(case, model.seating_of(case), case.numerics, resolution)
 
 
@@ -50,9 +59,24 @@ def push_through(
     tether: float = 0.0,
     offset: float = 0.0,
 ) -> PushedState | NoPush:
-    """Hold the stone under a urine pressure, the slide imminent everywhere.
+    """Solve the state of a held stone under one urine pressure, with fully mobilised friction.
 
-    See `push_along` for the parameters; this is one pressure alone.
+    Parameters
+    ----------
+    case, resolution, tether, offset
+        See `push_along`.
+    urine : str or Pressure
+        Urine pressure P_u upstream of the stone, zero or positive, e.g. ``"8 kPa"``.
+
+    Returns
+    -------
+    PushedState or NoPush
+        `NoPush` gives the reason if no state was found.
+
+    Raises
+    ------
+    UnstableLaw, BadInput
+        See `push_along`.
     """
     (found,) = push_along(case, [urine], resolution, tether=tether, offset=offset)
     return found
@@ -66,21 +90,30 @@ def push_along(
     tether: float = 0.0,
     offset: float = 0.0,
 ) -> list[PushedState | NoPush]:
-    """Hold the stone under one pressure after the other, each state the start of the next.
+    """Solve the states of a held stone under a sequence of urine pressures.
+
+    Friction is fully mobilised everywhere, because sliding is imminent. Each state is the starting
+    point of the next one. See "The push-through, solved directly" in docs/theory.md.
 
     Parameters
     ----------
     case : Case
-        Where its model is `PushThrough`, that says whether the contact is wetted; else it is dry.
+        If its model is `PushThrough`, the option `wetted` of the model is used. With any other
+        model the contact is dry.
     urine : sequence of str or Pressure
-        P_u above the stone, e.g. ``"8 kPa"``; zero or positive.
+        Urine pressures P_u upstream of the stone, zero or positive, e.g. ``"8 kPa"``.
     resolution, tether, offset
         See `model.states.loaded.solve_loaded`.
+
+    Returns
+    -------
+    list of PushedState or NoPush
+        One result for each pressure, in the same order.
 
     Raises
     ------
     UnstableLaw
-        The material law is no solid.
+        The material law is not stable.
     BadInput
         The stone is not larger than the lumen, or a number is out of range.
     """

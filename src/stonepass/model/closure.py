@@ -1,6 +1,9 @@
-"""The closure: the width of the tube above the stone where the wall has opened to α (Eqs 13–15).
+"""The closure: radius of the tube upstream of the stone as a function of the opened angle.
 
-An angle α is given by the half-width of the stone there, ρ_α/R_s: sin α of a sphere.
+When the wall has opened up to the angle α, the paper assumes a relation between α and the inner
+radius r_a of the tube upstream of the stone (Eqs 13–15). The functions here do not take α itself
+but the *width* ρ_α/R_s, where ρ_α is the half-width of the stone at α; for a sphere it is sin α.
+See "Closure and critical state" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -24,45 +27,82 @@ ORDER = (1, 8)
 def linear_closure(
     width: Values, first_width: float, size_ratio: float, start: float = 1.0
 ) -> Values:
-    """r_a/R_a, linear in ρ_α from `start` at α₀ to ξ at π/2 (Eq. 15, where `start` is 1).
+    """Return r_a/R_a by the paper's closure (Eq. 15), which is linear in ρ_α.
 
-    A choice, not a derivation: the paper's "tangent" condition does not fix it. Only the value at
-    α₀ is exact; r_a = R_s at π/2 is the limit of a membrane, and finite elements of the loaded
-    tube give smaller radii in between. Holds for α ≤ π/2, since ρ_α folds there.
+    The radius grows from `start` R_a at α₀ to R_s at α = π/2. This closure is an assumption that
+    does not follow from the paper's condition of tangency. Only the value at α₀ is exact. The value
+    R_s at π/2 is that of a membrane, and finite-element solutions of the loaded tube have smaller
+    radii in between. The closure is defined for α ≤ π/2 only, because ρ_α decreases beyond.
+
+    Parameters
+    ----------
+    width : float or array
+        ρ_α/R_s, from `first_width` to 1.
+    first_width : float
+        ρ/R_s at α₀, below 1.
+    size_ratio : float
+        ξ = R_s/R_a.
+    start : float
+        r_a/R_a at α₀; the paper's value is 1.
+
+    Returns
+    -------
+    float or array
+        r_a/R_a.
     """
     return start + (size_ratio - start) * _opening(width, first_width)
 
 
 def first_radius(size_ratio: float) -> float:
-    """Return r_a/R_a at α₀ by Eq. 15: 1, and ξ for a stone that is smaller than the unloaded lumen.
+    """Return r_a/R_a at α₀ for the closure of Eq. 15: 1 if ξ ≥ 1, else ξ.
 
-    A load that narrows the lumen holds stones with ξ < 1 too. From R_a to R_s < R_a the closure
-    would narrow as the wall opens. With r_a = R_s at every α the pressure is P(R_s), at which the
-    tube far away is as wide as the stone; at ξ = 1 both are the same.
+    A load that narrows the lumen also holds stones with ξ < 1. For these, a closure from R_a at α₀
+    to R_s < R_a at π/2 would narrow the tube as the wall opens. Instead, r_a = R_s is used at every
+    α, so that P_u is the pressure at which the far field is as wide as the stone. At ξ = 1 both
+    closures agree.
     """
     return min(1.0, size_ratio)
 
 
 @dataclass(frozen=True)
 class Series:
-    """r_a/R_a = s + (ξ − s) (c₁ t + c₂ t² + …), t = (ρ_α − ρ₀)/(R_s − ρ₀) (Eqs 13–14).
+    """The series closure r_a/R_a = s + (ξ − s) (c₁ t + c₂ t² + …) (paper, Eqs 13–14).
 
-    The paper's series in sin α, here ρ_α, written in t: at α₀ it is `start` s (the lumen) whatever
-    the `coefficients` c, and powers of t tell each other apart, which those of ρ_α do not. With
-    c₁ = 1 alone it is Eq. 15.
+    The variable is t = (ρ_α − ρ₀)/(R_s − ρ₀), where ρ₀ is the half-width of the stone at α₀. The
+    paper writes the series in powers of sin α, which is ρ_α/R_s for a sphere. In t the value at α₀
+    is s for all coefficients, and the least-squares problem of the coefficients is well
+    conditioned, which it is not in powers of ρ_α. With the single coefficient c₁ = 1 the series is
+    Eq. 15.
+
+    Attributes
+    ----------
+    coefficients : tuple of float
+        Dimensionless coefficients c₁, c₂, ….
+    start : float
+        s = r_a/R_a at α₀.
     """
 
     coefficients: tuple[float, ...]
     start: float = 1.0
 
     def __call__(self, width: Values, first_width: float, size_ratio: float) -> Values:
-        """r_a/R_a where the stone is `width` R_s wide, `first_width` R_s at α₀."""
+        """Return r_a/R_a; for the parameters see `linear_closure`."""
         t = _opening(width, first_width)
         powers = np.stack([t**k for k in range(1, len(self.coefficients) + 1)], axis=-1)
         return self.start + (size_ratio - self.start) * (powers @ np.array(self.coefficients))
 
     def printed(self, first_width: float, size_ratio: float) -> tuple[float, ...]:
-        """a₀, a₁, … of Eq. 14 in inner radii: R_s ρ_α − r_a = Σ aᵢ ρ_αⁱ, ρ_α over R_s."""
+        """Return the coefficients a₀, a₁, … of the series as printed in Eq. 14, in inner radii.
+
+        They satisfy R_s x − r_a = Σ aᵢ xⁱ with x = ρ_α/R_s, which is sin α for a sphere.
+
+        Parameters
+        ----------
+        first_width : float
+            ρ/R_s at α₀, below 1.
+        size_ratio : float
+            ξ = R_s/R_a.
+        """
         t = Polynomial([-first_width, 1.0]) / (1.0 - first_width)
         opened = Polynomial([0.0, *self.coefficients])(t) * (size_ratio - self.start)
         return tuple((Polynomial([-self.start, size_ratio]) - opened).coef.tolist())
@@ -76,7 +116,26 @@ def fit_series(
     order: int,
     start: float = 1.0,
 ) -> Series:
-    """The series nearest to pairs (ρ_α/R_s, r_a/R_a), α ≤ π/2, by least squares."""
+    """Fit the series closure to pairs of width and radius by least squares.
+
+    Parameters
+    ----------
+    width, radius : arrays (pairs,)
+        ρ_α/R_s and r_a/R_a at angles α₀ < α ≤ π/2.
+    first_width : float
+        ρ/R_s at α₀, below 1.
+    size_ratio : float
+        ξ = R_s/R_a.
+    order : int
+        Number of coefficients, 1 to 8.
+    start : float
+        r_a/R_a at α₀.
+
+    Raises
+    ------
+    BadInput
+        The order is out of bounds, or there are fewer pairs than coefficients.
+    """
     low, high = ORDER
     require(low <= order <= high, "order", order, f"{low} to {high}")
     require(
@@ -92,9 +151,21 @@ def fit_series(
 
 
 def series_through(case: Problem, curve: OpeningCurve, order: int) -> Series | None:
-    """Fit the series to an opening curve that begins at the seated stone.
+    """Fit the series closure to an opening curve whose first point is the seated state.
 
-    None where the curve has too few states for the order.
+    Parameters
+    ----------
+    case : Problem
+        Supplies the shape of the stone and the size ratio.
+    curve : OpeningCurve
+        Angles α in rad and radii r_a/R_a.
+    order : int
+        Number of coefficients, 1 to 8.
+
+    Returns
+    -------
+    Series or None
+        None if the curve has too few points for the order.
     """
     alpha, radius = curve.arrays
     if len(alpha) <= order:

@@ -1,4 +1,4 @@
-"""Contact of stone and wall: what the state of every model can say."""
+"""The interface to the contact of stone and wall that the states of all models share."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from stonepass.array_types import Float
 
-if TYPE_CHECKING:  # loads the finite elements
+if TYPE_CHECKING:  # at run time the import would load the finite elements
     from stonepass.fe.axisymmetric.wall_values import Field
 
 __all__ = ["ContactState", "SolvedState"]
@@ -16,7 +16,12 @@ __all__ = ["ContactState", "SolvedState"]
 
 @runtime_checkable
 class ContactState(Protocol):
-    """Where stone and wall touch, and how hard."""
+    """Extent and pressure of the contact between stone and wall.
+
+    θ is the angle from the upstream axis in rad: the angle at the centre of a sphere, and the
+    parametric angle of other stones (`model.shape`). σ(θ) is the contact pressure: normal force per
+    deformed area, compression positive.
+    """
 
     @property
     def contact_angle(self) -> float:
@@ -35,15 +40,25 @@ class ContactState(Protocol):
         """Largest σ(θ) in Pa."""
 
     def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
-        """Pressure on the stone in Pa at any θ in [0, π]."""
+        """Return the pressure on the stone in Pa at any angles θ in [0, π]."""
 
     def without_wall(self) -> Self:
-        """Return the same state without the stress field, which is most of its size."""
+        """Return the same state without the stress field, which takes most of its memory."""
 
 
 @runtime_checkable
 class SolvedState(ContactState, Protocol):
-    """A contact that finite elements have solved: with the wall, its stability and the work."""
+    """The contact in a finite-element solution.
+
+    Attributes
+    ----------
+    wall : Field or None
+        Deformed wall and Cauchy stress; None if it was not kept.
+    solver : SolverReport or PushReport
+        Size, cost and checks of the solution.
+    stability : StabilityReport
+        Stability of the solved wall.
+    """
 
     wall: Field | None
     solver: Any

@@ -1,7 +1,10 @@
-"""What an advance of the stone exchanges: inflated for uninflated tube (model: section 7).
+"""Energy balance of an advance of the stone along the tube, without friction.
 
-Without friction that alone is the force on the stone, whatever the contact looks like. Forces are
-divided by π R_s², so they are pressures in Pa.
+When the stone advances, inflated tube upstream of it replaces uninflated tube downstream. The
+change of energy per unit advance is the axial force N on the stone if there is no friction; it does
+not depend on the details of the contact. See "Identity" in docs/theory.md, section "The
+push-through, solved directly". Forces are divided by π R_s², so they are pressures in Pa. The law
+is relaxed (`materials.relaxed_energy`), as in the direct model.
 """
 
 from __future__ import annotations
@@ -17,13 +20,25 @@ from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["advance_force", "opened_radius", "opening_pressure", "strained_force"]
 
-WIDEST = 4.0  # r_a/R_a that is looked for
-POINTS = 48
-STEP = 1e-4  # of the axial stretch, for its slope
+WIDEST = 4.0  # largest r_a/R_a in the search for the opened radius
+POINTS = 48  # number of quadrature points
+STEP = 1e-4  # increment of the axial stretch in a difference quotient
 
 
 def opened_radius(case: Problem, pressure: float) -> float | None:
-    """r_a/R_a of the tube under P_u, the pre-stretch kept; None where it has no such state."""
+    """Return r_a/R_a of the uniform tube under the urine pressure P_u, at constant pre-stretch.
+
+    Parameters
+    ----------
+    case : Problem
+    pressure : float
+        P_u in Pa; a value of zero or less stands for no urine pressure.
+
+    Returns
+    -------
+    float or None
+        None if the tube has no equilibrium at this pressure up to r_a = 4 R_a.
+    """
     law = relaxed(case.ureter.material.law)
     lumen = lumen_ratio(case.wall_ratio, law, case.load)
     if lumen is None or pressure <= 0.0:
@@ -41,14 +56,27 @@ def opened_radius(case: Problem, pressure: float) -> float | None:
 
 
 def opening_pressure(case: Problem) -> float:
-    """P_u in Pa that opens the tube to R_s."""
+    """Return the urine pressure P_u in Pa at which the uniform tube is as wide as the stone."""
     return _urine(case, relaxed(case.ureter.material.law), case.size_ratio)
 
 
 def advance_force(case: Problem, pressure: float) -> float | None:
-    """I(P)/(π R_s²) with I = ∫₀ᴾ π r_a(p)² dp; None where the tube does not bear P.
+    """Return I(P)/(π R_s²) in Pa, with I(P) = ∫₀ᴾ π r_a(p)² dp.
 
-    By parts, π [r² P − 2 ∫ r p(r) dr] from the lumen to r_a(P).
+    I(P) is the axial force on the stone without friction, if the axial stretch of the tube is the
+    same on both sides of the stone. Integration by parts gives I = π [r_a² P − 2 ∫ r p(r) dr],
+    where r extends from the lumen to r_a(P).
+
+    Parameters
+    ----------
+    case : Problem
+    pressure : float
+        P in Pa.
+
+    Returns
+    -------
+    float or None
+        None if the tube has no equilibrium at this pressure.
     """
     radius, lumen = opened_radius(case, pressure), opened_radius(case, 0.0)
     if radius is None or lumen is None:
@@ -64,12 +92,23 @@ def advance_force(case: Problem, pressure: float) -> float | None:
 def strained_force(
     case: Problem, pressure: float, upstream_stretch: float, downstream_stretch: float
 ) -> float:
-    """N/(π R_s²) without friction where the sides are strained: [(ω − ε S)⁺ − (ω − ε S)⁻]/λ_z.
+    """Return N/(π R_s²) in Pa without friction, if the axial stretches of both sides differ.
 
-    ω(λ, p) = min over r_a of 2π ∫ w R dR − p λ π r_a² + the work of P_out, S = ∂ω/∂λ, ε = λ − λ_z
-    the change of the axial stretch from the pre-stretch λ_z. The wall slides freely, so ω − λ S is
-    the same on both sides; N = S⁺ − S⁻ balances the forces. To second order this is
-    I + ½ (K⁻ ε⁻² − K⁺ ε⁺²)/λ_z, K = ∂S/∂λ.
+    Let ω(λ, p) be the minimum over r_a of 2π ∫ w R dR − p λ π r_a² + the potential of P_out: the
+    energy per reference length of a uniform tube with the axial stretch λ and the inner pressure p.
+    Let S = ∂ω/∂λ, and let ε = λ − λ_z be the deviation of the axial stretch from the pre-stretch
+    λ_z. The superscript − denotes the upstream side (p = P_u), + the downstream side (p = 0). The
+    wall slides freely along the stone, so ω − λ S is equal on both sides, and the axial equilibrium
+    is N = S⁺ − S⁻. Both together give N = [(ω − ε S)⁺ − (ω − ε S)⁻]/λ_z. To second order in ε this
+    is I + ½ (K⁻ ε⁻² − K⁺ ε⁺²)/λ_z with K = ∂S/∂λ.
+
+    Parameters
+    ----------
+    case : Problem
+    pressure : float
+        P_u in Pa.
+    upstream_stretch, downstream_stretch : float
+        Axial stretch λ far from the stone on either side, positive.
     """
     ahead, behind = _side(case, 0.0, downstream_stretch), _side(case, pressure, upstream_stretch)
     return (ahead - behind) / (case.load.prestretch * case.size_ratio**2)
@@ -82,7 +121,7 @@ def _side(case: Problem, pressure: float, stretch: float) -> float:
 
 
 def _omega(case: Problem, pressure: float, axial: float) -> float:
-    """ω/π in units of R_a², Pa."""
+    """Return ω/π in Pa × inner radius²."""
     law, load = relaxed(case.ureter.material.law), case.load
     points, weights = np.polynomial.legendre.leggauss(POINTS)
     span = case.wall_ratio - 1.0
@@ -98,7 +137,8 @@ def _omega(case: Problem, pressure: float, axial: float) -> float:
         return stored - pressure * axial * lumen**2 + load.confining_pressure * outside
 
     bounds = (0.3, WIDEST) if pressure == 0.0 else (0.3, 2.0 * case.size_ratio)
-    from scipy.optimize import minimize_scalar  # most of SciPy, for loaded states alone
+    # Imported here because it loads most of SciPy, which only loaded states need.
+    from scipy.optimize import minimize_scalar
 
     found = minimize_scalar(potential, bounds=bounds, options={"xatol": 1e-11})
     return float(found.fun)

@@ -1,4 +1,8 @@
-"""The tube far from the stone: urine pressure against inner radius (paper, Eqs 9–12, 20, 22)."""
+"""The tube far from the stone: urine pressure as a function of inner radius.
+
+The source is the paper, Eqs 9–12, 20 and 22; see "Far field" in docs/theory.md. Radii are divided
+by the undeformed inner radius R_a.
+"""
 
 from __future__ import annotations
 
@@ -33,15 +37,37 @@ SMALLEST_LUMEN = 0.02
 
 
 def urine_pressure(inner_ratio: Values, wall_ratio: Values, law: Law, load: Load) -> Values:
-    """P_u in Pa that holds a uniform tube at r_a/R_a = `inner_ratio` (Eq. 12)."""
+    """Return the urine pressure P_u that holds a uniform tube at a given inner radius (Eq. 12).
+
+    Parameters
+    ----------
+    inner_ratio : float or array
+        r_a/R_a, positive.
+    wall_ratio : float or array
+        η = R_b/R_a, above 1.
+    law : Law
+    load : Load
+        Confining pressure and pre-stretch.
+
+    Returns
+    -------
+    float or array
+        P_u in Pa.
+    """
     transmural = inflation(inner_ratio, wall_ratio, law, load.prestretch)
     return transmural + confining_traction(inner_ratio, wall_ratio, load)
 
 
 def confining_traction(inner_ratio: Values, wall_ratio: Values, load: Load) -> Values:
-    """p_out in Pa on the deformed outer wall.
+    """Return the pressure p_out in Pa on the deformed outer wall.
 
-    Dead load keeps the radial resultant: P_out R_b / (λ_z r_b) (Eq. 10); hydrostatic: P_out.
+    A hydrostatic pressure is P_out itself. A dead load keeps its radial resultant, so
+    p_out = P_out R_b/(λ_z r_b) (Eq. 10).
+
+    Parameters
+    ----------
+    inner_ratio, wall_ratio, load
+        See `urine_pressure`.
     """
     ratio = np.asarray(inner_ratio, dtype=float)
     if load.hydrostatic:
@@ -51,7 +77,15 @@ def confining_traction(inner_ratio: Values, wall_ratio: Values, load: Load) -> V
 
 
 def inflation(inner_ratio: Values, wall_ratio: Values, law: Law, axial: float = 1.0) -> Values:
-    """Transmural pressure in Pa: in closed form where the law has one, else by quadrature."""
+    """Return the transmural pressure in Pa, in closed form if the law has one, else by quadrature.
+
+    Parameters
+    ----------
+    inner_ratio, wall_ratio, law
+        See `urine_pressure`.
+    axial : float
+        Axial stretch λ_z, positive.
+    """
     ratio = np.asarray(inner_ratio, dtype=float)
     if axial == 1.0 and isinstance(law, ClosedForm):
         return law.inflation_pressure(ratio, wall_ratio)
@@ -61,10 +95,16 @@ def inflation(inner_ratio: Values, wall_ratio: Values, law: Law, axial: float = 
 def inflation_by_quadrature(
     inner_ratio: Values, wall_ratio: Values, law: Law, axial: float = 1.0
 ) -> Values:
-    """Transmural pressure in Pa for any law: ∫ w′(λ)/(λ_z λ R) dR over the wall.
+    """Return the transmural pressure in Pa of any law by quadrature (paper, Eq. 12).
 
-    λ = r/R with r² = r_a² + (R² − R_a²)/λ_z. The integrand is regular for every law; in ln R it
-    is so smooth that `QUADRATURE_POINTS` Gauss points reach rounding error.
+    It is the integral of w′(λ)/(λ_z λ R) over R from R_a to R_b, with λ = r/R and
+    r² = r_a² + (R² − R_a²)/λ_z. The integrand is regular for every law, and so smooth as a function
+    of ln R that the quadrature error of `QUADRATURE_POINTS` Gauss points is below rounding.
+
+    Parameters
+    ----------
+    inner_ratio, wall_ratio, law, axial
+        See `inflation`.
     """
     ratio, thickness = np.asarray(inner_ratio, dtype=float), np.log(wall_ratio)
     points, weights = _gauss()
@@ -76,9 +116,20 @@ def inflation_by_quadrature(
 
 
 def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
-    """r_a/R_a of the tube without stone and urine pressure; None where the load closes it.
+    """Return r_a/R_a of the tube without stone and without urine pressure.
 
-    1 without confining pressure and pre-stretch.
+    Parameters
+    ----------
+    wall_ratio : float
+        η = R_b/R_a, above 1.
+    law : Law
+    load : Load
+        Confining pressure and pre-stretch; without both of them the result is 1.
+
+    Returns
+    -------
+    float or None
+        None if the load closes the lumen.
     """
     if load.confining_pressure == 0.0 and load.prestretch == 1.0:
         return 1.0
@@ -98,9 +149,10 @@ def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
 
 
 def _nearest_with_value(pressure: Callable[[float], float], ratio: float, inside: float) -> float:
-    """Return `ratio`, or the place nearest to it, on the way to `inside`, where there is a value.
+    """Return the point nearest to `ratio`, between it and `inside`, with a finite pressure.
 
-    A law with a locking stretch has none beyond it, and its pressure is unbounded on the way there.
+    The pressure of a law with a locking stretch is not finite beyond that stretch, and it grows
+    without bound as the stretch is approached.
     """
     with np.errstate(all="ignore"):
         if np.isfinite(pressure(ratio)):
@@ -116,7 +168,13 @@ def _nearest_with_value(pressure: Callable[[float], float], ratio: float, inside
 
 
 def stuck_lumen(case: Problem) -> float:
-    """The lumen r_a/R_a that load leaves open, refused where the stone is not larger."""
+    """Return the lumen r_a/R_a under the load, and check that the stone is larger.
+
+    Raises
+    ------
+    BadInput
+        The stone is not larger than the lumen, or the load closes the lumen.
+    """
     lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
     if lumen is None or case.size_ratio <= lumen:
         raise BadInput(
@@ -129,13 +187,20 @@ def stuck_lumen(case: Problem) -> float:
 
 
 def far_field_law(case: Problem, *, ground: bool) -> Law:
-    """The law of the far field: the paper's leaves the ground matrix out unless `ground` is set."""
+    """Return the law with which the far field is evaluated.
+
+    Parameters
+    ----------
+    case : Problem
+    ground : bool
+        True to include the ground matrix. The paper leaves it out (Eq. 22).
+    """
     law = case.ureter.material.law
     return law if ground else fibres_of(law)
 
 
 @lru_cache(maxsize=1)
 def _gauss() -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Gauss–Legendre points and weights on [0, 1]."""
+    """Return Gauss–Legendre points and weights on [0, 1]."""
     points, weights = np.polynomial.legendre.leggauss(QUADRATURE_POINTS)
     return (points + 1.0) / 2.0, weights / 2.0

@@ -1,6 +1,7 @@
-"""Resistance of the wall and drive of the urine (paper, Eqs 3–7).
+"""Resistance of the wall and drive of the urine in the paper's model (Eqs 3–7).
 
-All forces here are divided by π R_s², so they are pressures in Pa and absolute size drops out.
+All forces in this module are divided by π R_s², so they are pressures in Pa that do not depend on
+the absolute size. See "Resistance and drive" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -16,15 +17,27 @@ __all__ = ["Resistance", "drive", "resistance"]
 
 @dataclass(frozen=True)
 class Resistance:
-    """F_re(α)/(π R_s²) of the part of the wall that is still closed, θ from α to its end.
+    """The resistance F_re(α) of the wall that is still in contact when it has opened up to α.
 
-    With the stone's meridian ρ(θ), z(θ); `friction` and `wall` are its two parts, both counted
-    positive against the motion:
+    σ⁰(θ) is the contact pressure of the seated state, and ρ(θ), z(θ) is the meridian of the stone.
+    The integrals extend over the remaining contact, from α to its downstream edge. The resistance
+    has two parts, both positive against the motion:
 
-    * F_f = 2π μ_f ∫ σ⁰ ρ dz (of a sphere 2π μ_f R_s² ∫ σ⁰ sin²θ dθ, Eq. 6);
-    * F_σ = −π ∫ σ⁰ d(ρ²) (of a sphere −π R_s² ∫ σ⁰ sin 2θ dθ): pressure on the upstream half pushes
-      the stone downstream, on the downstream half upstream; where they no longer cancel, the rest
-      resists. Eq. 5 as printed lacks the minus sign, and so would assist.
+    * friction, F_f = 2π μ_f ∫ σ⁰ ρ dz; for a sphere 2π μ_f R_s² ∫ σ⁰ sin²θ dθ (Eq. 6);
+    * axial resultant of the contact pressure, F_σ = −π ∫ σ⁰ d(ρ²); for a sphere
+      −π R_s² ∫ σ⁰ sin 2θ dθ (Eq. 5). The pressure on the upstream half pushes the stone downstream,
+      the pressure on the downstream half pushes it upstream. Both cancel in the seated state. When
+      the upstream half has partly opened, the remainder resists the motion. Eq. 5 is printed
+      without the minus sign, by which the wall would assist the motion.
+
+    Attributes
+    ----------
+    contact_angle, downstream_angle : float
+        Angles θ in rad at which the seated contact begins and ends.
+    friction_coefficient : float
+        μ_f.
+    wall_sign : float
+        1 for the derived sign of F_σ, −1 for the printed one.
     """
 
     contact_angle: float
@@ -35,15 +48,15 @@ class Resistance:
     _axial: MonotoneIntegral
 
     def friction(self, alpha: Values) -> Values:
-        """F_f(α)/(π R_s²) in Pa, α in [α₀, π/2]."""
+        """Return the friction F_f(α)/(π R_s²) in Pa for α in [α₀, π/2]."""
         return 2.0 * self.friction_coefficient * self._beyond(self._shear, alpha)
 
     def wall(self, alpha: Values) -> Values:
-        """F_σ(α)/(π R_s²) in Pa, α in [α₀, π/2]."""
+        """Return the axial resultant F_σ(α)/(π R_s²) in Pa for α in [α₀, π/2]."""
         return -self.wall_sign * self._beyond(self._axial, alpha)
 
     def total(self, alpha: Values) -> Values:
-        """F_re(α)/(π R_s²) in Pa (Eq. 7)."""
+        """Return the resistance F_re(α)/(π R_s²) in Pa for α in [α₀, π/2] (Eq. 7)."""
         return self.friction(alpha) + self.wall(alpha)
 
     def _beyond(self, integral: MonotoneIntegral, alpha: Values) -> Values:
@@ -51,9 +64,14 @@ class Resistance:
 
 
 def resistance(contact: Contact, *, as_printed: bool = False) -> Resistance:
-    """Integrate the seated contact pressure into the resistance of every contact angle.
+    """Integrate the seated contact pressure; the result gives the resistance at any angle.
 
-    `as_printed` takes the sign of the axial wall pressure as Eq. 5 prints it.
+    Parameters
+    ----------
+    contact : Contact
+        The seated contact, pressures in Pa.
+    as_printed : bool
+        True to use the sign of Eq. 5 as it is printed.
     """
     theta, sigma, shape = contact.theta, contact.contact_pressure, contact.case.stone.shape
     (rho, _), (rho_slope, z_slope) = shape.meridian(theta), shape.slopes(theta)
@@ -68,8 +86,13 @@ def resistance(contact: Contact, *, as_printed: bool = False) -> Resistance:
 
 
 def drive(urine_pressure: Values, width: Values) -> Values:
-    """F_dr/(π R_s²) in Pa: the urine pressure acts on the disc of radius ρ_α (Eq. 3).
+    """Return the drive F_dr/(π R_s²) in Pa: the force of the urine on the opened disc (Eq. 3).
 
-    `width` is ρ_α/R_s, where the wall has opened to; sin α of a sphere.
+    Parameters
+    ----------
+    urine_pressure : float or array
+        P_u in Pa.
+    width : float or array
+        ρ_α/R_s at the angle α up to which the wall has opened; sin α for a sphere.
     """
     return urine_pressure * width**2

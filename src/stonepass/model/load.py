@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from stonepass.declaration import Kind, declared, set_inputs
+from stonepass.declaration import Kind, declared, described, set_inputs
 from stonepass.units import Pressure
 
 __all__ = ["CONFINING", "PRESTRETCH", "Load"]
@@ -67,6 +67,8 @@ class Load:
             confinement=confinement,
             prestretch=prestretch,
         )
+
+    __repr__ = described
 
     @property
     def hydrostatic(self) -> bool:

@@ -1,7 +1,8 @@
-"""The integral of a monotone cubic through points (Fritsch and Butland 1984).
+"""The integral of a monotone piecewise cubic interpolant.
 
-Written out here because `scipy.interpolate`, which has the same, imports most of SciPy, which takes
-as long as a frictionless case takes to solve.
+The interpolant is that of Fritsch and Butland (1984, SIAM Journal on Scientific and Statistical
+Computing 5, 300–304). It is implemented here because the import of `scipy.interpolate`, which
+contains it as `PchipInterpolator`, takes as long as the solution of a frictionless case.
 """
 
 from __future__ import annotations
@@ -22,34 +23,35 @@ Points = Float[np.ndarray, " points"]
 @array_dataclass
 @dataclass(frozen=True)
 class MonotoneIntegral:
-    """∫ from the first point to x, a quartic in x − x_k in each interval.
+    """The integral of the interpolant from the first point to x, a piecewise quartic.
 
     Attributes
     ----------
-    x : array
-        The points, rising.
-    coefficients : array
-        Coefficients of the powers 0 to 4 of x − x_k, in each interval.
+    x : array (points,)
+        The points x_k, increasing.
+    coefficients : array (5, intervals)
+        Coefficients of the powers 0 to 4 of x − x_k in each interval [x_k, x_k+1].
     """
 
     x: Points
     coefficients: Float[np.ndarray, "5 intervals"]
 
     def __call__(self, x: Values) -> Values:
-        """Return the integral up to `x`; beyond the points the last quartic goes on."""
+        """Return the integral up to `x`; outside the points the nearest quartic is continued."""
         k = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, len(self.x) - 2)
         h, c = np.asarray(x) - self.x[k], self.coefficients
         return c[0, k] + h * (c[1, k] + h * (c[2, k] + h * (c[3, k] + h * c[4, k])))
 
 
 def monotone_integral(x: Points, y: Points) -> MonotoneIntegral:
-    """Integrate the cubic through points that rises and falls only where they do.
+    """Integrate the piecewise cubic interpolant that is monotone wherever the data are.
 
     Parameters
     ----------
-    x : array, shape (points,)
-        Rising, at least three.
-    y : array, shape (points,)
+    x : array (points,)
+        At least three increasing numbers.
+    y : array (points,)
+        Values at `x`. The unit of the integral is the product of both units.
     """
     h = np.diff(x)
     slope = np.diff(y) / h
@@ -63,7 +65,11 @@ def monotone_integral(x: Points, y: Points) -> MonotoneIntegral:
 
 
 def _derivatives(h: Float[np.ndarray, " n"], slope: Float[np.ndarray, " n"]) -> Points:
-    """Derivatives at the points: weighted harmonic means of the slopes beside, 0 at a turn."""
+    """Return derivatives at the points.
+
+    At an interior point the derivative is a weighted harmonic mean of the slopes of the adjacent
+    intervals, or zero if these differ in sign.
+    """
     left, right = slope[:-1], slope[1:]
     one, two = 2.0 * h[1:] + h[:-1], h[1:] + 2.0 * h[:-1]
     turn = left * right <= 0.0
@@ -75,7 +81,7 @@ def _derivatives(h: Float[np.ndarray, " n"], slope: Float[np.ndarray, " n"]) -> 
 
 
 def _at_end(near: float, next_: float, slope: float, beyond: float) -> float:
-    """Derivative at an end: of the parabola through three points, as far as it is monotone."""
+    """Return the derivative of a parabola at its end, limited so that the cubic is monotone."""
     found = ((2.0 * near + next_) * slope - near * beyond) / (near + next_)
     if np.sign(found) != np.sign(slope):
         return 0.0

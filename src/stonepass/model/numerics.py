@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import LEVELS, Level
@@ -43,6 +43,8 @@ class Numerics:
         default=10.0,
         bounds=HALF_LENGTH,
     )
+
+    __repr__ = described
 
     def __post_init__(self) -> None:
         check_inputs(self)

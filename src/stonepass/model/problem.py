@@ -1,4 +1,4 @@
-"""The physical problem: a stone in a ureter under a load, whatever model answers it."""
+"""The physical problem: a stone in a ureter under a load, independent of the model."""
 
 from __future__ import annotations
 
@@ -24,6 +24,15 @@ EXAMPLES = {
 @dataclass(frozen=True)
 class Problem:
     """A stone in a ureter under a load.
+
+    Attributes
+    ----------
+    stone : Stone
+        Size, shape and coefficient of friction of the stone.
+    ureter : Ureter
+        Size and material of the ureter.
+    load : Load
+        Confining pressure and pre-stretch; none by default.
 
     Raises
     ------
@@ -56,7 +65,7 @@ class Problem:
 
     @property
     def size_ratio(self) -> float:
-        """ξ = R_s/R_a."""
+        """Size ratio ξ = R_s/R_a."""
         if self.stone.size_ratio is not None:
             return self.stone.size_ratio
         assert isinstance(self.stone.diameter, Length)
@@ -65,7 +74,7 @@ class Problem:
 
     @property
     def stone_diameter(self) -> Length | None:
-        """Diameter of the stone in m, where the ureter has lengths."""
+        """Diameter of the stone in m; None if neither stone nor ureter has a length."""
         inner = self.ureter.inner_diameter
         if self.stone.diameter is not None or inner is None:
             return self.stone.diameter
@@ -73,31 +82,42 @@ class Problem:
 
     @property
     def extent(self) -> float:
-        """Distance from the stone's widest place to its farther pole, at least R_s, in R_a."""
+        """Axial distance from the widest place to the farther pole, but at least R_s; in R_a."""
         return self.size_ratio * max(1.0, self.stone.shape.reach)
 
     @property
     def wall_ratio(self) -> float:
-        """η = R_b/R_a."""
+        """Wall ratio η = R_b/R_a."""
         return self.ureter.wall_ratio
 
     def with_friction(self: Kind, friction: float) -> Kind:
-        """Return the same problem with another friction coefficient."""
+        """Return the same problem with another coefficient of friction."""
         return replace(self, stone=replace(self.stone, friction=friction))
 
     def with_size_ratio(self: Kind, size_ratio: float) -> Kind:
-        """Return the same problem with another stone of the same friction and shape."""
+        """Return the same problem with a stone of another size but the same friction and shape."""
         stone = Stone(size_ratio=size_ratio, friction=self.stone.friction, shape=self.stone.shape)
         return replace(self, stone=stone)
 
 
 def require_kind(name: str, value: Any, kind: Any, example: str) -> None:
-    """Refuse an argument of another type, as where arguments were given in another order.
+    """Check the type of an argument, which is wrong e.g. if arguments are in the wrong order.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument in the error message.
+    value : object
+        The argument.
+    kind : type
+        The expected type.
+    example : str
+        Python code that creates an instance of `kind`, for the error message.
 
     Raises
     ------
     BadInput
-        It names the type that is expected, and `example` shows how one is written.
+        The argument is not an instance of `kind`.
     """
     if not isinstance(value, kind) or isinstance(value, type):
         raise BadInput(name, _described(value), _with_article(kind), f"write it like {example}")

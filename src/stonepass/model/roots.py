@@ -1,4 +1,4 @@
-"""The first root of a balance that may have several: scan, then refine."""
+"""Search for the first of possibly several roots: scan of the interval, then refinement."""
 
 from __future__ import annotations
 
@@ -15,14 +15,25 @@ SCAN_POINTS = 721
 
 
 def first_root(excess: Callable[[Values], Values], first: float, last: float) -> float | None:
-    """Root of `excess` in [first, last] nearest to `first`; `first` where it starts at or below 0.
+    """Find the root of a function that is nearest to one end of an interval.
 
-    None where it stays above 0. `last` may lie below `first`.
+    Parameters
+    ----------
+    excess : callable
+        Vectorised function whose root is sought. The search stops at its first value ≤ 0.
+    first, last : float
+        Ends of the interval. The search starts at `first`; `last` may be less than `first`.
+
+    Returns
+    -------
+    float or None
+        The root; `first` if the function is zero or negative there; None if the function is
+        positive at all `SCAN_POINTS` points of the scan.
 
     Raises
     ------
     FloatingPointError
-        Where `excess` is not finite.
+        A value of the function is not finite.
     """
     grid = np.linspace(first, last, SCAN_POINTS)
     values = np.asarray(excess(grid))

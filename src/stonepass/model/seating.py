@@ -1,4 +1,4 @@
-"""How the stone came to its place in the seated state."""
+"""The seating: the way in which the stone is brought into the wall in the seated state."""
 
 from __future__ import annotations
 
@@ -11,15 +11,18 @@ SEATINGS = ("pressed", "frictionless", "growing")
 
 @dataclass(frozen=True)
 class Seating:
-    """The way of the stone into the wall.
+    """The way in which the stone is brought into the wall.
+
+    See "Friction and its path" in docs/theory.md, section "Seated state".
 
     Attributes
     ----------
     kind : {"pressed", "frictionless", "growing"}
-        Its arc pressed radially into the wall as in the paper, without friction, or a sphere that
-        grows in place.
+        ``"pressed"``: the meridian of the stone is pressed radially into the wall, as in the paper.
+        ``"growing"``: the stone grows in place from the size of the lumen. ``"frictionless"``: the
+        wall slides without friction, so the way of the stone has no influence.
     friction : float
-        Coulomb coefficient on the way; 0 where the seating is frictionless.
+        Coulomb coefficient during the seating; 0 if the seating is frictionless.
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""The shape of a stone: a convex body of revolution, by its meridian over its radius R_s."""
+"""The shape of a stone: the meridian of a convex body of revolution, divided by its radius R_s."""
 
 from __future__ import annotations
 
@@ -14,35 +14,44 @@ from stonepass.fe.axisymmetric.profile import ROUND, Profile
 __all__ = ["ASPECT", "Shape"]
 
 ASPECT = (0.5, 2.0)
-ROUGH = 0.01  # deviation that an answer warns of
-WIDEST = 1e-9  # how nearly the outline is 1 and level at θ = π/2
+ROUGH = 0.01  # deviation above which an answer carries a warning, in R_s
+WIDEST = 1e-9  # tolerance of the conditions g = 1 and ρ′ = 0 at θ = π/2
 Angles = Float[np.ndarray, "*n"]
 FINE = np.linspace(0.0, np.pi, 721)
 
 
 @dataclass(frozen=True)
 class Shape:
-    """Half-width ρ over the axial coordinate z, both over R_s, widest (ρ = 1) at z = 0.
+    """The meridian of a stone: half-width ρ as a function of the axial coordinate z.
 
-    By the parametric angle θ from the upstream axis, with g(θ) = Σ outline[k] cos kθ:
+    Both coordinates are divided by R_s. z points downstream, and the stone is widest (ρ = 1) at
+    z = 0. The meridian is given by the parametric angle θ from the upstream axis, with
+    g(θ) = Σ outline[k] cos kθ:
 
-        ρ = sin θ/g(θ),    z = −aspect × cos θ/g(θ), z downstream.
+        ρ = sin θ/g(θ),    z = −aspect × cos θ/g(θ).
 
-    g = 1 is a spheroid, with aspect 1 a sphere, where θ is the angle at the centre.
+    If g = 1, the stone is a spheroid. If in addition aspect = 1, it is a sphere, and θ is the angle
+    at its centre. See "Stones that are not spheres" in docs/theory.md.
 
     Attributes
     ----------
     aspect : float
-        κ of the formula: of a spheroid its length over its diameter, and nearly so of a shape that
-        was put through points.
+        κ, the axial scale in the formula. For a spheroid it is the length divided by the diameter.
+        For a shape that was fitted to points it is close to that ratio.
     outline : tuple of float
-        Coefficients of g; g(π/2) = 1, g′(π/2) = 0, and g + g″ > 0 (convex). The length over the
-        diameter, (1/g(0) + 1/g(π)) κ/2, must be 0.5 to 2.
+        Coefficients of g, with g(π/2) = 1, g′(π/2) = 0, and g + g″ > 0 (convexity). The length
+        divided by the diameter, κ (1/g(0) + 1/g(π))/2, must be from 0.5 to 2.
     deviation : float
-        Largest distance from the points that the shape was put through, over R_s; along rays from
-        the widest place's centre, with z shrunk by κ.
+        Largest distance between the shape and the points to which it was fitted, divided by R_s. It
+        is measured along rays from the centre of the widest cross-section, after division of z by
+        κ. It is 0 for a shape that was not fitted.
     reference : str
-        The file it was read from; empty where it was not.
+        File from which the shape was read; empty if it was not read from a file.
+
+    Raises
+    ------
+    BadInput
+        A number is out of bounds, the stone is not widest at θ = π/2, or it is not convex.
 
     Examples
     --------
@@ -55,6 +64,12 @@ class Shape:
     outline: tuple[float, ...] = ROUND
     deviation: float = field(default=0.0, compare=False)
     reference: str = field(default="", compare=False)
+
+    def __repr__(self) -> str:
+        if self.spheroidal:
+            return f"Shape({self.aspect:g})"
+        source = f" of {self.reference}" if self.reference else ""
+        return f"<Shape{source}: length over diameter {self.length:.4g}>"
 
     def __post_init__(self) -> None:
         require(0.0 < self.aspect < np.inf, "aspect", self.aspect, "a number above zero")
@@ -77,51 +92,51 @@ class Shape:
 
     @property
     def symmetric(self) -> bool:
-        """Whether the halves up- and downstream of the widest place are mirror images."""
+        """True if the halves upstream and downstream of the widest place are mirror images."""
         return self._profile.symmetric
 
     @property
     def spheroidal(self) -> bool:
-        """Whether it is a spheroid."""
+        """True if the stone is a spheroid."""
         return self.outline == ROUND
 
     @property
     def spherical(self) -> bool:
-        """Whether it is a sphere, of which θ is the angle at the centre."""
+        """True if the stone is a sphere; then θ is the angle at its centre."""
         return self.spheroidal and self.aspect == 1.0
 
     @property
     def length(self) -> float:
-        """Length along the ureter over the diameter across it."""
+        """Length along the ureter divided by the diameter across it."""
         _, (upstream, downstream) = self.meridian(np.array([0.0, np.pi]))
         return float(downstream - upstream) / 2.0
 
     @property
     def reach(self) -> float:
-        """Distance from the widest place to the farther pole, over R_s."""
+        """Axial distance from the widest place to the farther pole, divided by R_s."""
         _, poles = self.meridian(np.array([0.0, np.pi]))
         return float(np.max(np.abs(poles)))
 
     def warnings(self) -> list[Caution]:
-        """A caution where the shape is only nearly that of its points."""
+        """Return a caution if the shape deviates noticeably from the points it was fitted to."""
         if self.deviation <= ROUGH:
             return []
         return [caution("shape_deviation", deviation=self.deviation)]
 
     def turned(self) -> Shape:
-        """The same stone the other way round."""
+        """Return the stone with its upstream and downstream ends exchanged."""
         return replace(self, outline=self._profile.turned().outline, reference="")
 
     def meridian(self, theta: Angles) -> tuple[Angles, Angles]:
-        """ρ/R_s and z/R_s at θ in rad."""
+        """Return ρ/R_s and z/R_s at the angles θ in rad."""
         return self._profile.meridian(theta)
 
     def slopes(self, theta: Angles) -> tuple[Angles, Angles]:
-        """dρ/dθ and dz/dθ over R_s at θ in rad."""
+        """Return dρ/dθ and dz/dθ, divided by R_s, at the angles θ in rad."""
         return self._profile.slopes(theta)
 
     def width(self, theta: Angles) -> Angles:
-        """ρ/R_s at θ in rad; sin θ of a sphere."""
+        """Return ρ/R_s at the angles θ in rad; it is sin θ for a sphere."""
         return self.meridian(theta)[0]
 
     @property
@@ -130,7 +145,7 @@ class Shape:
 
 
 def _dent(outline: tuple[float, ...]) -> float | None:
-    """θ in rad where g + g″ ≤ 0 is lowest; None where the shape is convex."""
+    """Return the θ in rad at which g + g″ is smallest if it is not positive there, else None."""
     k = np.arange(len(outline))
     curvature = np.cos(FINE[:, None] * k) @ (np.array(outline) * (1.0 - k**2))
     lowest = int(np.argmin(curvature))

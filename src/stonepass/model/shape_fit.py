@@ -1,4 +1,8 @@
-"""A stone's shape from points of its meridian: a short series through them, convex and smooth."""
+"""Fit of a convex, smooth shape to points of the meridian of a stone.
+
+The shape is the cosine series g of `model.shape`. A *symmetric* fit is restricted to stones whose
+halves are mirror images. See "Stones that are not spheres" in docs/theory.md.
+"""
 
 from __future__ import annotations
 
@@ -17,13 +21,15 @@ __all__ = ["shape_through"]
 
 FEWEST_POINTS, MOST_POINTS = 9, 2000
 MOST_TERMS = 24
-NOTHING = 1e-12  # last terms of a series that say nothing
-EXACT = 1e-7  # of the radius: nearer to the points no series need come
-CLEARLY = 2.0  # a lopsided or a held shape must be nearer by this factor to be taken
-GRID, LEAST = np.linspace(0.0, np.pi, 721), 1e-3  # where g + g″ is held, and above what
-SAME = 1.2  # fewer terms are taken where they come as near but for this factor
-# As shares of the radius: a series farther from its points is refused, mirror images nearer to each
-# other are one shape, and a point nearer to the axis lies on it.
+NOTHING = 1e-12  # the last terms of a series are dropped if they are smaller than this
+EXACT = 1e-7  # deviation, in radii, below which no further terms are added
+# An asymmetric or a constrained fit is chosen only if its deviation is smaller by this factor.
+CLEARLY = 2.0
+# Angles at which the constrained fit requires g + g″ to be at least `LEAST`.
+GRID, LEAST = np.linspace(0.0, np.pi, 721), 1e-3
+SAME = 1.2  # the fit with the fewest terms within this factor of the least deviation is chosen
+# As fractions of the radius: largest deviation of an accepted fit, deviation below which a
+# symmetric fit is accepted at once, and largest ρ of a point that counts as lying on the axis.
 FARTHEST, MIRRORED, ON_AXIS = 0.05, 1e-3, 1e-4
 
 Outline = Float[np.ndarray, " coefficients"]
@@ -36,21 +42,23 @@ def shape_through(
     rho: Float[np.ndarray, "..."],
     place: Callable[[int, str], str] | None = None,
 ) -> Shape:
-    """Put a smooth convex shape through points of a meridian, in any one unit of length.
+    """Fit a smooth convex shape to points of a meridian.
 
     Parameters
     ----------
-    z, rho : arrays
-        Axial coordinate, downstream, and half-width of at least 9 points in order from the
-        upstream pole to the downstream one; both poles on the axis, ρ = 0.
+    z, rho : arrays (points,)
+        Axial coordinate (positive downstream) and half-width of 9 to 2000 points, in any one unit
+        of length. The points are ordered from the upstream to the downstream pole; both poles are
+        given and lie on the axis, ρ = 0.
     place : callable, optional
-        Names a number in a refusal by its index and column, e.g. as a row of a file.
+        ``place(index, column)`` returns the name of a number in an error message, for example its
+        row in a file.
 
     Raises
     ------
     BadInput
-        Where the points are no meridian, or no smooth convex shape comes within 5 % of the
-        radius of all of them.
+        The points are not a meridian from pole to pole, or no smooth convex shape comes within 5 %
+        of the radius of all of them.
     """
     return _through(*_meridian(z, rho, place or (lambda k, name: f"point {k + 1}, {name}")))
 
@@ -60,7 +68,7 @@ def _through(z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"])
     found = mirrored
     if mirrored is None or mirrored.deviation > MIRRORED:
         found = _fit(z, rho, symmetric=False)
-        # Noise makes no stone lopsided: only where that brings it much nearer to its points.
+        # Noise must not make a stone asymmetric, so the deviation must decrease considerably.
         nearer = np.inf if found is None else found.deviation
         if mirrored is not None and mirrored.deviation <= CLEARLY * nearer:
             found = mirrored
@@ -79,7 +87,7 @@ def _meridian(
     rho: Float[np.ndarray, "..."],
     place: Callable[[int, str], str],
 ) -> Points:
-    """Refuse what is no meridian from pole to pole; `place` says where a number stands."""
+    """Check that the points are a meridian from pole to pole; return them as arrays of floats."""
     z, rho = np.asarray(z, dtype=float), np.asarray(rho, dtype=float)
     name = "shape of the stone"
     require(z.ndim == 1 and z.shape == rho.shape, name, f"{z.shape} and {rho.shape}", "two columns")
@@ -108,10 +116,12 @@ def _meridian(
 def _fit(
     z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"], *, symmetric: bool
 ) -> Shape | None:
-    """The convex shape nearest to the points, with few terms; None where there is none.
+    """Fit a convex shape with few terms; return None if none is found.
 
-    Least squares of the distance along rays, each point counted by the angle that it stands for;
-    where that is far off or has dents, as with flat sides, the largest distance under convexity.
+    First, series of increasing length are fitted by least squares of the distance along rays, with
+    each point weighted by the angle between its neighbours. If none of these is convex and close to
+    the points, as for stones with flat sides, a long series is fitted that minimises the largest
+    distance under the constraint of convexity.
     """
     middle = float(z[0] + z[-1]) / 2.0
 
@@ -130,7 +140,7 @@ def _fit(
     best = min((shape.deviation for shape in found), default=np.inf)
     if best > MIRRORED:
         held = nearest(MOST_TERMS, _held_convex, min(8, len(z) // 2))
-        # It follows noise, so only where it comes much nearer.
+        # A long series follows noise, so its deviation must be considerably smaller.
         if held is not None and CLEARLY * held.deviation < best:
             found.append(held)
     if not found:
@@ -142,7 +152,10 @@ def _fit(
 def _widest(
     z: Float[np.ndarray, " points"], rho: Float[np.ndarray, " points"], terms: int
 ) -> float:
-    """Where the series nearest to the points is widest; between the neighbours of their largest."""
+    """Return the z at which the least-squares series is widest.
+
+    It is sought between the neighbours of the widest point.
+    """
     at, free = int(np.argmax(rho)), np.eye(terms + 1)
 
     def slope(origin: float) -> float:
@@ -162,9 +175,9 @@ def _nearest(
     basis: Float[np.ndarray, "unknowns coefficients"],
     find: Callable[..., Outline | None],
 ) -> Shape | None:
-    """The shape whose g `find` gives; None where it is none, as with a dent."""
+    """Return the shape whose g the function `find` fits; None if it is not admissible."""
     radius, widest = float(rho.max()), 1.0
-    for _ in range(3):  # the widest place may lie between two points
+    for _ in range(3):  # the radius is corrected, since the widest place may lie between two points
         radius = radius / widest
         size, tau = _polar(z, rho, origin, radius)
         found = find(size, tau, basis)
@@ -189,7 +202,10 @@ def _polar(
     origin: float,
     radius: float,
 ) -> Points:
-    """Distance from the origin over the radius, and angle τ, with z shrunk as of a spheroid."""
+    """Return polar coordinates about `origin`: distance divided by the radius, and angle τ.
+
+    z is scaled first so that the length of the stone equals its diameter.
+    """
     s = (z - origin) * 2.0 * radius / float(z[-1] - z[0])
     return np.hypot(rho, s) / radius, np.arctan2(rho, -s)
 
@@ -199,7 +215,7 @@ def _series(
     tau: Float[np.ndarray, " points"],
     basis: Float[np.ndarray, "unknowns coefficients"],
 ) -> Float[np.ndarray, " coefficients"]:
-    """The g in the span of the basis that makes size × g(τ) nearest to 1."""
+    """Fit g in the span of the basis so that size × g(τ) is closest to 1, by least squares."""
     weight = size * np.sqrt(np.abs(np.gradient(tau)))
     rows = basis @ chebyshev.chebvander(np.cos(tau), basis.shape[1] - 1).T * size * weight
     solved: Float[np.ndarray, " unknowns"] = np.linalg.lstsq(rows.T, weight, rcond=None)[0]
@@ -211,11 +227,13 @@ def _held_convex(
     tau: Float[np.ndarray, " points"],
     basis: Float[np.ndarray, "unknowns coefficients"],
 ) -> Outline | None:
-    """The g with g + g″ above zero whose largest distance from the points is least.
+    """Fit a convex g whose largest distance from the points along rays is smallest.
 
-    By linear programming, the distance along rays one more unknown; None where it fails.
+    This is a linear programme with the distance as an additional unknown. The result is None if it
+    fails.
     """
-    from scipy.optimize import linprog  # takes long to load, and most points need no such search
+    # Imported here because it takes long to load and is rarely needed.
+    from scipy.optimize import linprog
 
     k = np.arange(basis.shape[1])
     curvature = np.cos(GRID[:, None] * k) @ (basis * (1.0 - k**2)).T
@@ -228,9 +246,10 @@ def _held_convex(
 
 
 def _basis(terms: int, symmetric: bool) -> Float[np.ndarray, "unknowns coefficients"]:
-    """Series in cos kτ that are widest at τ = π/2: rows of Chebyshev coefficients.
+    """Return basis functions of g with g′(π/2) = 0, as rows of Chebyshev coefficients.
 
-    cos kτ for even k; for odd k it has the slope −k sin(kπ/2) there, which cos τ takes away.
+    For even k the basis function is cos kτ. For odd k the derivative of cos kτ at π/2 is
+    −k sin(kπ/2); a multiple of cos τ is added to make it zero. A symmetric basis has even k only.
     """
     rows = []
     for k in range(terms + 1):

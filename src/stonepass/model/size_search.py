@@ -1,8 +1,8 @@
-"""Search for the size whose critical pressure is a limit, on one mesh or from a coarser one.
+"""Search for the size ratio at which the critical pressure equals a given limit.
 
-The functions here take the critical pressure as a function of the size, which may have no value at
-some sizes, and know nothing of stones. Each evaluation is a finite-element solve, so they are made
-for few of them.
+The functions in this module search for a root of a general function that may have no value at some
+points. In the application x is the size ratio, and the function is the critical pressure, which
+needs a finite-element solve for each value. The methods are therefore chosen to need few values.
 """
 
 from __future__ import annotations
@@ -14,20 +14,28 @@ from stonepass.fe.core.roots import bracketed_root
 
 __all__ = ["NoValue", "Root", "TooSmall", "local_slope", "root_in_range", "secant_root"]
 
-SLOPE_BASE = 1e-4  # points nearer than this say too little of the slope
-CLOSE = 1e-3  # a step of this length is probably the last one
-SECANTS = 5  # steps from the root of a coarser function
-FARTHEST = 0.03  # largest step of those
-SMALLER = (0.75, 0.5, 0.35, 0.25)  # of the range, tried where its upper end has no value
-LARGER = 3  # points tried between one below the target and one without a value
+SLOPE_BASE = 1e-4  # smallest distance of two points from which a slope is computed
+CLOSE = 1e-3  # a secant step shorter than this is probably the last one
+SECANTS = 5  # largest number of secant steps
+FARTHEST = 0.03  # largest length of a secant step
+# Fractions of the range that are tried as its upper end if the function has no value at the end.
+SMALLER = (0.75, 0.5, 0.35, 0.25)
+LARGER = 3  # number of bisections between a point below the target and a point without a value
 
-# The function minus its target; None where it has no value.
+# Returns the function minus its target, or None where the function has no value.
 Excess = Callable[[float], float | None]
 
 
 @dataclass(frozen=True)
 class Root:
-    """A root, and the slope of the function there where two points tell it."""
+    """A root of a function.
+
+    Attributes
+    ----------
+    x : float
+    slope : float or None
+        Derivative of the function at x; None if it could not be estimated.
+    """
 
     x: float
     slope: float | None
@@ -35,20 +43,20 @@ class Root:
 
 @dataclass(frozen=True)
 class NoValue:
-    """The search ended at a point at which the function has no value."""
+    """Result of a search that ended at the point `x`, at which the function has no value."""
 
     x: float
 
 
 @dataclass(frozen=True)
 class TooSmall:
-    """The function stays below its target up to the upper end of the range, at `x`."""
+    """Result of a search in which the function is below its target up to the upper end `x`."""
 
     x: float
 
 
 class _Lost(Exception):
-    """Ends a root finder at a point without a value."""
+    """Raised to leave a root finder at a point at which the function has no value."""
 
     def __init__(self, x: float) -> None:
         super().__init__(x)
@@ -65,29 +73,36 @@ def root_in_range(
     *,
     may_lie_below: bool = False,
 ) -> float | NoValue | TooSmall | None:
-    """Find the root of a rising function between the end `low`, where it is known, and `high`.
+    """Find the root of an increasing function whose value at the lower end of the range is known.
 
     Parameters
     ----------
     excess : callable
-        The function minus its target.
+        ``excess(x)`` returns the function minus its target, or None if it has no value.
     low, high : float
         Ends of the range.
     low_excess : float
-        The excess at `low`, below zero.
+        The excess at `low`, negative.
     near_low : float
-        Below it the function is not evaluated: it is taken as linear from `low` to there.
+        Smallest point at which the function is evaluated. Between `low` and `near_low` it is
+        interpolated linearly.
     tolerance : float
-        Absolute tolerance of the root, and relative to `low_excess` of the excess: an excess that
-        is smaller counts as zero.
+        Absolute tolerance of the root. An excess counts as zero if it is smaller than
+        `tolerance` × |`low_excess`|.
     may_lie_below : bool
-        Whether the root may lie below `near_low`, so that this is looked at first.
+        True if the root may lie below `near_low`. The function is then evaluated at `near_low`
+        first, and the result is None if its excess is positive there.
 
     Returns
     -------
-    float, NoValue, TooSmall or None
-        The root; or where the search met a point without a value; or the point up to which the
-        function stays below its target; or None where the root lies below `near_low`.
+    float
+        The root.
+    NoValue
+        The search met a point at which the function has no value.
+    TooSmall
+        The function is below its target up to the upper end of the range.
+    None
+        The root lies below `near_low`.
     """
     found = _upper_end(excess, low, high)
     if isinstance(found, NoValue):
@@ -132,25 +147,27 @@ def secant_root(
     high: float,
     tolerance: float,
 ) -> Root | None:
-    """Find a root by secants from that of a coarser function.
+    """Find the point at which a function has a target value, by secants from a first guess.
 
     Parameters
     ----------
     value : callable
-        The function; its second argument says whether the point is probably the root.
+        ``value(x, last)`` returns the function, or None if it has no value; `last` is true if x is
+        probably the result.
     target : float
-        The value at the root.
+        The wanted value of the function.
     start : Root
-        The root of the coarser function, and its slope.
+        First guess and slope, from a coarser approximation of the function.
     low, high : float
-        Ends of the range, the lower one excluded.
+        Ends of the range; the lower end is excluded.
     tolerance : float
-        Absolute tolerance of the root, and relative to `target` of the value.
+        The search ends if the value differs from the target by less than `tolerance` × the larger
+        of target and slope.
 
     Returns
     -------
     Root or None
-        None where secants do not lead to a root within the range.
+        None if the secants leave the range, meet a point without a value, or do not converge.
     """
     if start.slope is None:
         return None
@@ -174,7 +191,20 @@ def secant_root(
 
 
 def local_slope(known: Mapping[float, float], x: float) -> float | None:
-    """Slope at a known point, by the nearest other one that is not too near."""
+    """Return the slope at a known point, by the nearest other point at a sufficient distance.
+
+    Parameters
+    ----------
+    known : mapping of float to float
+        Known values of the function.
+    x : float
+        The point.
+
+    Returns
+    -------
+    float or None
+        None if the value at `x` is not known, or no other point is at a sufficient distance.
+    """
     for other in sorted(known, key=lambda each: abs(each - x)):
         if abs(other - x) > SLOPE_BASE and x in known:
             return (known[other] - known[x]) / (other - x)
@@ -182,10 +212,12 @@ def local_slope(known: Mapping[float, float], x: float) -> float | None:
 
 
 def _upper_end(excess: Excess, low: float, high: float) -> tuple[float, float] | NoValue:
-    """The largest point that has a value, and its excess.
+    """Return an upper end of the search, and the excess there.
 
-    Where the upper end of the range has none, smaller points are tried, then larger ones up to what
-    has none; they serve as the upper end if their value is above the target.
+    This is `high` if the function has a value there. Otherwise smaller points are tried until one
+    has a value. If that value is below the target, points between it and the smallest point without
+    a value are tried. A point whose value reaches the target is the upper end; if there is none,
+    the result is `NoValue`.
     """
     first = excess(high)
     if first is not None:

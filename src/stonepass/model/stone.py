@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from stonepass.declaration import Kind, declared, set_inputs
+from stonepass.declaration import Kind, declared, described, set_inputs
 from stonepass.errors import BadInput, Misplaced, require
 from stonepass.model.shape import ASPECT, Shape
 from stonepass.units import Length
@@ -104,3 +104,7 @@ class Stone:
         if shape is None:
             object.__setattr__(self, "shape", Shape(1.0 if aspect is None else float(aspect)))
         object.__setattr__(self, "aspect", self.shape.aspect)
+
+    def __repr__(self) -> str:
+        implied = {"shape"} if self.shape.spheroidal else {"aspect"}
+        return described(self, *implied, *({"aspect"} if self.shape.spherical else ()))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from stonepass.declaration import Kind, declared, set_inputs
+from stonepass.declaration import Kind, declared, described, set_inputs
 from stonepass.errors import BadInput, Misplaced, require
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.protocol import Material, names_a_file
@@ -122,6 +122,10 @@ class Ureter:
         object.__setattr__(self, "material", _material(self.material))
         if self.inner_diameter is not None:
             self._complete(self.inner_diameter, wall_ratio)
+
+    def __repr__(self) -> str:
+        implied = () if self.outer_diameter is None else ("wall_ratio",)
+        return described(self, "wall_thickness", *implied)
 
     def _complete(self, inner: Length, wall_ratio: float | None) -> None:
         """Derive the lengths that were not given, and refuse those that contradict each other."""

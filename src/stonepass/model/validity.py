@@ -1,4 +1,4 @@
-"""Cautions where a question goes beyond what material or model are known for."""
+"""Cautions about cases outside the range in which the material or the model was validated."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["ring_buckling", "soft_law", "strain_range"]
 
 
 def strain_range(case: Problem) -> list[Caution]:
-    """Cautions where stone or load stretch the wall beyond the material's strain range."""
+    """Return cautions if stone or load deform the wall beyond the material's strain range."""
     material = case.ureter.material
     low, high = material.strain_range
     known = {"material": material.name, "low": low, "high": high}
@@ -27,7 +27,7 @@ def strain_range(case: Problem) -> list[Caution]:
 
 
 def soft_law(material: Material) -> list[Caution]:
-    """A caution where a wall is so soft that its constants are probably in another unit."""
+    """Return a caution if the wall is so soft that its constants probably have another unit."""
     shear = rest_moduli(material.law)[1]
     if shear >= SOFTEST_WALL:
         return []
@@ -35,10 +35,11 @@ def soft_law(material: Material) -> list[Caution]:
 
 
 def ring_buckling(case: Problem) -> list[Caution]:
-    """A caution where the confining pressure alone would fold the tube into two lobes.
+    """Return a caution if the confining pressure alone would make the tube collapse.
 
-    The ring buckles under an outside pressure of w″(1) h³/(4 R_m³) (Lévy; plane strain, wall
-    thickness h, mean radius R_m), which no axisymmetric model sees.
+    A ring in plane strain with thickness h and mean radius R_m buckles into two lobes under an
+    outside pressure of w″(1) h³/(4 R_m³) (Lévy 1884). This mode is not axisymmetric, so the models
+    of this package cannot detect it. See "Stability" in docs/theory.md.
     """
     eta, pressure = case.wall_ratio, case.load.confining_pressure
     slenderness = (eta - 1.0) / ((eta + 1.0) / 2.0)

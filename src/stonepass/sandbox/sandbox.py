@@ -129,11 +129,11 @@ def parse_in_child(
     try:
         answer = _Answer.model_validate_json(first)
     except (ValidationError, RecursionError) as problem:
-        raise BadInput(what, name, f"{allowed} (its reader made no sense)") from problem
+        raise BadInput(what, name, f"{allowed} (its reader sent invalid data)") from problem
     if answer.refused is not None:
         raise BadInput(*answer.refused)
     if answer.header is None:
-        raise BadInput(what, name, f"{allowed} (its reader made no sense)")
+        raise BadInput(what, name, f"{allowed} (its reader sent invalid data)")
     return answer.header, body
 
 

@@ -1,4 +1,4 @@
-"""Whoever answers many cases at a time: fits and response surfaces ask this interface."""
+"""The interface to solvers of many cases, which fits and response surfaces use."""
 
 from __future__ import annotations
 
@@ -11,28 +11,56 @@ from typing import Protocol, runtime_checkable
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.studies.jobs import PressureJob, Progress, run_jobs
+from stonepass.studies.progress import reported
 
 __all__ = ["CaseSolver", "JobSolver"]
 
 
 @runtime_checkable
 class CaseSolver(Protocol):
-    """A source of critical pressures."""
+    """A solver of the critical pressures of many cases."""
 
     def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
-        """Return the answer of every case; without `error` its estimate may be left out."""
+        """Return the answer of every case, in the order of the cases.
+
+        Parameters
+        ----------
+        cases : sequence of Case
+            Cases to be solved.
+        error : bool
+            Whether the discretisation error is estimated too, which needs a second solve per case.
+        """
 
 
 @dataclass(frozen=True)
 class JobSolver:
-    """Answers cases by jobs; see `studies.jobs.iterate_jobs` for the attributes."""
+    """A case solver that runs jobs.
+
+    Attributes
+    ----------
+    executor : concurrent.futures.Executor, optional
+        Where the work runs, e.g. that of `process_pool`; by default in this process.
+    cache_folder : Path, optional
+        Folder of the solution cache; by default every state is solved.
+    progress : bool or callable
+        True shows a bar in a terminal and in a notebook; a function is called with (done, all).
+    """
 
     executor: Executor | None = None
     cache_folder: Path | None = None
-    progress: Progress | None = None
+    progress: bool | Progress = False
 
     def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
-        """Return the answer of every case; equal cases are solved once."""
+        """Return the answer of every case, in the order of the cases; equal cases are solved once.
+
+        Parameters
+        ----------
+        cases : sequence of Case
+            Cases to be solved.
+        error : bool
+            Whether the discretisation error is estimated too.
+        """
         jobs = [PressureJob(case, error=error) for case in cases]
-        results = run_jobs(jobs, self.executor, self.cache_folder, self.progress)
+        with reported(self.progress, "cases") as told:
+            results = run_jobs(jobs, self.executor, self.cache_folder, told)
         return [results[job] for job in jobs]

@@ -1,4 +1,4 @@
-"""One stone by every closure: the paper's, a fitted series, energy, and the direct model."""
+"""Comparison of the critical pressures of one stone by different closures and the direct model."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ __all__ = [
     "seated_model",
 ]
 
-# Names at the door, and what they say.
+# Names of the closures on the command line and in records, and their descriptions.
 CLOSURES = {
     "derived": "Eq. 15, Eq. 5 with the derived sign",
     "printed": "Eq. 15, Eq. 5 as printed",
@@ -44,8 +44,9 @@ CLOSURES = {
     "energy": "energy: I(P) = D",
     "direct": "direct push-through",
 }
-SERIES_ORDER = 3
-NEAR = 0.03  # how far around the direct answer D is taken
+SERIES_ORDER = 3  # default order of the fitted series
+# Relative distance from the direct answer of the two pressures at which D is computed.
+NEAR = 0.03
 
 
 @array_dataclass
@@ -56,18 +57,24 @@ class ClosureComparison(Result):
     Attributes
     ----------
     case : Case
-        With the paper's model.
-    pressures : dict
-        Name of the closure (`CLOSURES`) to P_ucr in Pa; None where it has none.
+        The case with the paper's model.
+    pressures : dict of str to float or None
+        P_ucr in Pa by the name of the closure (`CLOSURES`); None if the closure has no answer.
     outcome : Outcome
-        Of the direct model.
+        Outcome of the direct model.
     message : str
+        This outcome as a sentence.
     warnings : tuple of Caution
-        Those of the paper's model and of the direct one, and why a closure has no pressure.
+        Warnings of the paper's model and of the direct model, and a caution for a closure without
+        an answer.
     series : Series or None
-        The fitted one.
+        The fitted series; None if it could not be fitted.
     opening_curve : OpeningCurve or None
-        α and r_a/R_a of the direct states it was fitted to.
+        Opening angles α and radii r_a/R_a of the direct states to which the series was fitted.
+
+    References
+    ----------
+    docs/closures.md; docs/theory.md, "Closure and critical state".
     """
 
     case: Case
@@ -91,7 +98,10 @@ class ClosureComparison(Result):
         )
 
     def error(self, name: str) -> float | None:
-        """P_ucr by the closure `name` over that of the direct model, less 1; None without one."""
+        """Return the relative error of P_ucr by the closure `name` against the direct model.
+
+        It is None if one of both pressures does not exist.
+        """
         found, direct = self.pressures[name], self.pressures["direct"]
         return None if found is None or not direct else found / direct - 1.0
 
@@ -103,29 +113,37 @@ def closures(
     *,
     wetted: bool = False,
 ) -> ClosureComparison:
-    """Answer one case by every closure.
+    """Compute the critical pressure of one case by every closure.
 
-    The seated contact pressure is that of the case's seating for the paper's closures and the
-    series; the loaded one for energy and direct.
+    The paper's closure and the fitted series use the contact pressure of the seated state. The
+    energy balance and the direct model use the contact pressure of the loaded states.
 
     Parameters
     ----------
     case : Case
-        Its model is the paper's, of which the seating and the far field are taken.
+        A case of the paper's model, whose seating and far field are used.
     order : int
-        Order of the fitted series, within `model.closure.ORDER`.
+        Order of the fitted series, 1 to 8.
     states : StateSolver
-        Where finite-element states come from.
+        Solver or cache of the finite-element states.
     wetted : bool
         Whether the direct model is wetted (see `PushThrough`).
+
+    Returns
+    -------
+    ClosureComparison
 
     Raises
     ------
     BadInput
-        For an order out of bounds, or a case of another model.
+        The order is out of bounds, or the model of the case is not the paper's.
+
+    References
+    ----------
+    Liu et al. 2022, Eqs 5, 13–15; docs/closures.md.
     """
     require(ORDER[0] <= order <= ORDER[1], "order", order, f"{ORDER[0]} to {ORDER[1]}")
-    # No errors are estimated: closures differ by more.
+    # Errors are not estimated, since the closures differ by more than the discretisation error.
     resolution = case.numerics.resolution
     seated = seated_model(case)
     paper = solve(replace(case, model=seated), resolution, states)
@@ -150,23 +168,24 @@ def closures(
     series = None if curve is None else series_through(case, curve, order)
     if curve is None or series is None:
         return found
-    # The loaded states are of the whole law, so the series is turned back by the whole law.
+    # The loaded states were solved with the ground matrix, so that the radii of the series must be
+    # converted to pressures with the ground matrix as well.
     fitted = Closure(far_field_law(case, ground=True), series.start, series)
     pressures["series"] = balance_pressure(contact, fitted)
     return replace(found, series=series, opening_curve=curve)
 
 
 def seated_model(case: Case) -> SeatedBalance:
-    """The paper's model with the seating and the far field of a case, and the closure of Eq. 15.
+    """Return the paper's model with the seating and far field of a case and the closure of Eq. 15.
 
     Raises
     ------
     BadInput
-        The case has another model.
+        The model of the case is not the paper's.
     """
     model = case.model
     if not isinstance(model, SeatedBalance):
-        raise BadInput("model", model.NAME, "'paper' where its seated state is compared")
+        raise BadInput("model", model.NAME, "'paper', whose seated state is compared")
     return SeatedBalance(
         model.seating, model.seating_friction, far_field_ground=model.far_field_ground
     )
@@ -174,7 +193,13 @@ def seated_model(case: Case) -> SeatedBalance:
 
 @dataclass(frozen=True)
 class ClosureJob:
-    """The comparison of the closures for one case."""
+    """The job that compares the closures for one case.
+
+    Attributes
+    ----------
+    case, order, wetted
+        Arguments of `closures`.
+    """
 
     case: Case
     order: int = SERIES_ORDER
@@ -188,7 +213,15 @@ class ClosureJob:
 
 @dataclass(frozen=True)
 class ClosureMap:
-    """The comparison of the closures for many cases; the outcome is a list in their order."""
+    """The study that compares the closures for many cases.
+
+    Attributes
+    ----------
+    cases : sequence of Case
+        Cases of the paper's model; the outcome is a list in their order.
+    order, wetted
+        Arguments of `closures`.
+    """
 
     cases: Sequence[Case]
     order: int = SERIES_ORDER
@@ -204,12 +237,16 @@ class ClosureMap:
 
 
 def _once(cautions: Sequence[Caution]) -> tuple[Caution, ...]:
-    """Each caution once; that no error is estimated is a choice of this comparison."""
+    """Return each caution once, without those that say that no error was estimated."""
     return tuple(dict.fromkeys(c for c in cautions if c.code != "error_not_estimated"))
 
 
 def _by_energy(direct: Answer, states: StateSolver, *, wetted: bool) -> float | None:
-    """The root of I(P) = D(P), D of two loaded states around the direct answer."""
+    """Return the pressure P in Pa with I(P) = D(P), or None if it cannot be computed.
+
+    I is the energy that the far field releases per unit advance of the stone, and D is the work of
+    friction per unit advance. D is interpolated between two loaded states near the direct answer.
+    """
     if direct.pressure is None or direct.pressure == 0.0:
         return direct.pressure
     near = [Pressure(direct.pressure * (1.0 + s * NEAR)) for s in (-1.0, 1.0)]

@@ -1,4 +1,4 @@
-"""Many cases of one material and method as columns, and their far field in one evaluation."""
+"""Arrays of the quantities that differ between many cases, and the far field of all of them."""
 
 from __future__ import annotations
 
@@ -23,17 +23,18 @@ __all__ = ["Conditions", "lumen_ratios", "transmural"]
 @array_dataclass
 @dataclass(frozen=True)
 class Conditions:
-    """What differs between many cases.
+    """The quantities that differ between n cases of one material, load and method.
 
     Attributes
     ----------
     size_ratio : array (n)
-        ξ.
+        Size ratio ξ = R_s/R_a.
     wall_ratio : array (n)
-        η.
+        Wall ratio η = R_b/R_a.
     friction : array (n)
+        Friction coefficient μ_f.
     load_factor : array (n)
-        Factor on the confining pressure of the case that they share.
+        Factor on the confining pressure of the common case.
     """
 
     size_ratio: Float[np.ndarray, " n"]
@@ -54,16 +55,26 @@ class Conditions:
 def transmural(
     case: Case, inner_ratio: Float[np.ndarray, " n"], wall_ratio: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, " n"]:
-    """Return the pressure in Pa across many walls, by the far field of the case's method.
+    """Compute the transmural pressure of many tubes by the far field.
 
     Parameters
     ----------
     case : Case
-        Material, pre-stretch and the far field of its model.
+        Its material, pre-stretch and model are used; the model decides whether the far field
+        includes the ground matrix.
     inner_ratio : array (n)
-        r_a/R_a.
+        Inner radius ratio r_a/R_a.
     wall_ratio : array (n)
-        η.
+        Wall ratio η.
+
+    Returns
+    -------
+    array (n)
+        Pressure inside minus outside in Pa.
+
+    References
+    ----------
+    Liu et al. 2022, Eq. 12; docs/theory.md, "Far field".
     """
     law = far_field_law(case, ground=case.model.far_field_ground)
     return np.asarray(inflation(inner_ratio, wall_ratio, law, case.load.prestretch))
@@ -72,16 +83,25 @@ def transmural(
 def lumen_ratios(
     case: Case, wall_ratio: Float[np.ndarray, " n"], load_factor: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, " n"]:
-    """Return r_a/R_a that the load leaves open in many walls; NaN where it closes them.
+    """Compute the lumen of many tubes under the load, without stone and urine pressure.
 
     Parameters
     ----------
     case : Case
-        Material and load.
+        Its material and load are used.
     wall_ratio : array (n)
-        η.
+        Wall ratio η.
     load_factor : array (n)
         Factor on the confining pressure of the case.
+
+    Returns
+    -------
+    array (n)
+        Inner radius ratio r_a/R_a; NaN if the load closes the lumen.
+
+    References
+    ----------
+    docs/theory.md, "Far field".
     """
     load, law = case.load, case.ureter.material.law
     if load.confining_pressure == 0.0 and load.prestretch == 1.0:

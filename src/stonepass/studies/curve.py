@@ -15,7 +15,6 @@ from stonepass.model.case import Case
 from stonepass.model.problem import require_kind
 from stonepass.result import Result
 from stonepass.studies.jobs import PressureJob, Progress, Results
-from stonepass.studies.progress import reported
 from stonepass.studies.study import run_study
 
 __all__ = ["CriticalCurve", "Curve", "critical_curve"]
@@ -137,5 +136,4 @@ def critical_curve(
     require_kind("case", case, Case, "Case(stone, ureter)")
     sizes = tuple(float(each) for each in size_ratios)
     require(len(sizes) > 0, "size_ratios", "empty", "at least one number")
-    with reported(progress, "size ratios") as told:
-        return run_study(Curve(case, sizes), executor, cache_folder, told)
+    return run_study(Curve(case, sizes), executor, cache_folder, progress)

@@ -1,8 +1,9 @@
-"""Where the work of a study runs: any `concurrent.futures.Executor`, and how work is sent to it.
+"""Executors of the work of a study, and the transfer of work to them.
 
-A command makes one executor (`process_pool`) and passes it to every study it runs. Its processes
-end with the process that started them, however that one ends: each holds the reading end of a pipe
-and ends when nobody holds the writing end any more.
+Studies accept any `concurrent.futures.Executor`. A command makes one executor (`process_pool`) and
+passes it to every study it runs. The processes of the pool end when the process that started them
+ends, even if it is killed: each of them waits at the reading end of a pipe whose writing end only
+the parent process holds open.
 """
 
 from __future__ import annotations
@@ -26,25 +27,25 @@ from stonepass.io.text_file import WRITING
 
 __all__ = ["CORES", "InProcessExecutor", "executor_for", "process_pool", "stream"]
 
-CORES = os.cpu_count() or 1
-BLOCK_SECONDS = 1.0  # a block of items stops after the item that ends beyond this time
-LARGEST_BLOCK = 256  # items
-IN_FLIGHT = 64  # blocks that were sent and have not returned
-GRACE = 1.0  # s that a process has to end by itself once the work is given up
+CORES = os.cpu_count() or 1  # number of processors
+BLOCK_SECONDS = 1.0  # time in s after which a block of items starts no further item
+LARGEST_BLOCK = 256  # largest number of items in a block
+IN_FLIGHT = 64  # largest number of blocks that were sent and have not returned
+GRACE = 1.0  # time in s that a process has to end by itself after the work was cancelled
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
-# Results of the first items of a block, the seconds they took, and the warnings they gave.
+# Results of the first items of a block, their duration in s, and the warnings they raised.
 _Block = tuple[list[Result], float, list[warnings.WarningMessage]]
 
 
 class InProcessExecutor(Executor):
-    """Runs each call in this process, at the time it is submitted."""
+    """An executor that runs each call in this process when it is submitted."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Call `fn` and return a future that is done."""
+        """Call `fn` and return a finished future."""
         future: Future[Any] = Future()
         try:
             future.set_result(fn(*args, **kwargs))
@@ -55,15 +56,16 @@ class InProcessExecutor(Executor):
 
 @contextmanager
 def process_pool(workers: int) -> Iterator[Executor]:
-    """Yield an executor that lives as long as the context.
+    """Yield an executor that exists as long as the context.
+
+    New processes are started with the method "spawn", so that a script must guard its entry point
+    with ``if __name__ == "__main__"``. The processes end within about a second if an exception
+    leaves the context, such as the one that Ctrl-C raises, or if this process is killed.
 
     Parameters
     ----------
     workers : int
-        Number of processes, at least 1; with 1 the work runs in this process. New processes are
-        started with the method "spawn", so that a script that asks for them must guard its entry
-        point with ``if __name__ == "__main__"``. They end within about a second when the context is
-        left by an exception, such as the one that Ctrl-C raises, or when this process is killed.
+        Number of processes, at least 1. With 1 the work runs in this process.
     """
     if workers == 1:
         yield InProcessExecutor()
@@ -85,29 +87,29 @@ def process_pool(workers: int) -> Iterator[Executor]:
 
 
 class _Worker(SpawnProcess):
-    """A process that Ctrl-C in a terminal does not reach: whoever started it decides."""
+    """A process that ignores Ctrl-C in a terminal; its parent process decides when it ends."""
 
     def start(self) -> None:
-        """Start it with SIGINT blocked, which a new process inherits."""
+        """Start the process with SIGINT blocked; a new process inherits the blocked signals."""
         with _interrupts_blocked():
             super().start()
 
 
 class _RecordingContext(SpawnContext):
-    """Starts processes and knows which, so that they can be ended."""
+    """A context that records the processes it starts, so that they can be ended."""
 
     def __init__(self) -> None:
         super().__init__()
         self.started: list[_Worker] = []
 
     def Process(self, *args: Any, **settings: Any) -> _Worker:  # type: ignore[override]
-        """Return a new process, not yet started."""
+        """Return a new process that has not been started."""
         process = _Worker(*args, **settings)
         self.started.append(process)
         return process
 
     def end_processes(self) -> None:
-        """Wait for the processes to end, and kill those that do not within the grace."""
+        """Wait up to `GRACE` seconds for the processes to end, and kill the others."""
         last = time.monotonic() + GRACE
         for process in self.started:
             process.join(max(0.0, last - time.monotonic()))
@@ -118,7 +120,7 @@ class _RecordingContext(SpawnContext):
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Hold back SIGINT in this thread; an interrupt that comes meanwhile is delivered after."""
+    """Block SIGINT in this thread; an interrupt during the context is delivered after it."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
@@ -129,18 +131,19 @@ def _interrupts_blocked() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-_noted: list[warnings.WarningMessage] = []  # warnings of this worker that were not sent home yet
+# Warnings in this worker process that have not been sent to the parent process yet.
+_noted: list[warnings.WarningMessage] = []
 
 
 def _begin_worker(parent: Connection) -> None:
-    """Prepare a process of the pool: it leaves Ctrl-C to its parent, and ends with it."""
+    """Prepare a process of the pool: it ignores Ctrl-C, and ends when its parent process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
     warnings.showwarning = _note
 
 
 def _end_with(parent: Connection) -> None:
-    """End this process once the other end of the pipe is closed, but not amid writing a file."""
+    """End this process once the other end of the pipe is closed, but not while it writes a file."""
     with suppress(EOFError, OSError):
         parent.recv_bytes()
     WRITING.acquire(timeout=GRACE)
@@ -155,22 +158,33 @@ def _note(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    # The text alone, since what else a library's warning holds may not travel.
+    # Only the text is kept, because a warning object of a library may not be picklable.
     plain = category.__module__ in ("builtins", CacheWarning.__module__)
     kind = category if plain else UserWarning
     _noted.append(warnings.WarningMessage(str(message), kind, filename, lineno))
 
 
 def executor_for(work: Any, executor: Executor | None) -> Executor:
-    """Return the executor, or one of this process for work that cannot be sent to another.
+    """Return the executor that can run some work.
 
-    A user's own function cannot be sent. Without an executor the work runs in this process too.
+    Parameters
+    ----------
+    work : object
+        The work. It can be sent to other processes if it can be pickled, which is impossible for a
+        user's own function.
+    executor : concurrent.futures.Executor or None
+        The preferred executor; None for this process.
+
+    Returns
+    -------
+    concurrent.futures.Executor
+        The given executor, or one of this process.
     """
     if executor is None or isinstance(executor, InProcessExecutor):
         return InProcessExecutor()
     try:
         pickle.dumps(work)
-    except Exception:  # a user's law may hold anything, and pickle raises many kinds
+    except Exception:  # a user's law may hold any object, and pickle raises many kinds of errors
         return InProcessExecutor()
     return executor
 
@@ -178,24 +192,25 @@ def executor_for(work: Any, executor: Executor | None) -> Executor:
 def stream(
     executor: Executor, work: Callable[[Item], Result], items: Sequence[Item]
 ) -> Iterator[tuple[int, Result]]:
-    """Apply `work` to every item and yield (index, result) in the order in which results arrive.
+    """Apply a function to every item and yield (index, result) in the order of completion.
 
-    Items are sent in blocks that take about `BLOCK_SECONDS`, so that short items do not pay for
-    the transport one by one. A block that takes longer returns early, and its remaining items are
-    sent again. At most `IN_FLIGHT` blocks are under way at a time, so that neither their futures
-    nor their results pile up.
+    Items are sent in blocks that take about 1 s, so that the cost of the transfer is small. A block
+    that takes longer returns early, and its remaining items are sent again. At most 64 blocks are
+    in progress at a time, which limits the memory.
 
     Parameters
     ----------
     executor : concurrent.futures.Executor
+        Where the function runs.
     work : callable
-        Takes one item. Results must not depend on which items share a block.
+        Function of one item. Its result must not depend on the other items of a block.
     items : sequence
+        Arguments of the function.
 
     Raises
     ------
     Exception
-        What `work` raises; blocks that have not begun are then cancelled.
+        An error of `work` is passed on; blocks that have not begun are then cancelled.
     """
     waiting = deque(enumerate(items))
     pending: dict[Future[_Block[Result]], list[tuple[int, Item]]] = {}
@@ -206,7 +221,7 @@ def stream(
                 block = [waiting.popleft() for _ in range(min(size, len(waiting)))]
                 future = executor.submit(_run_block, work, [item for _, item in block])
                 pending[future] = block
-                if future.done():  # it ran in this process; its results are passed on first
+                if future.done():  # it ran in this process; pass on its results first
                     break
             done, _ = wait(pending, return_when=FIRST_COMPLETED)
             for future in done:
@@ -224,14 +239,14 @@ def stream(
 
 
 def _block_size(count: int, seconds: float) -> int:
-    """Return how many items take `BLOCK_SECONDS` where `count` items took `seconds`."""
+    """Return how many items take 1 s if `count` items took `seconds`."""
     if seconds * LARGEST_BLOCK <= BLOCK_SECONDS * count:
         return LARGEST_BLOCK
     return max(1, int(BLOCK_SECONDS * count / seconds))
 
 
 def _run_block(work: Callable[[Item], Result], items: Sequence[Item]) -> _Block[Result]:
-    """Return the results of the first items, as many as the time allows."""
+    """Return the results of as many first items as the time for a block allows."""
     started = time.perf_counter()
     results = []
     for item in items:

@@ -1,6 +1,7 @@
-"""Jobs: the units of work of a study, each solved once, in any executor, with or without a cache.
+"""Jobs, the units of work of a study, and functions that run them.
 
-This module loads no finite elements: a scheduler may import it, make jobs and send them.
+A job can run in any executor, with or without a solution cache. This module does not load the
+finite elements, so that a scheduler can import it, make jobs and send them.
 """
 
 from __future__ import annotations
@@ -40,27 +41,28 @@ Found_co = TypeVar("Found_co", covariant=True)
 
 @runtime_checkable
 class Job(Protocol[Found_co]):
-    """A question that is answered in one piece.
+    """A unit of work that one process does.
 
-    A job is a value: it is hashable, equal jobs have the same result, and it can be pickled unless
-    it holds a user's own function. Its result can be pickled as well.
+    A job is hashable, and equal jobs have the same result. A job can be pickled unless it contains
+    a user's own function; its result can always be pickled.
     """
 
     def run(self, cache_folder: Path | None) -> Found_co:
-        """Return the result, with finite-element states remembered in a folder if there is one."""
+        """Return the result; `cache_folder` is the folder of the solution cache, or None."""
 
 
 @dataclass(frozen=True)
 class PressureJob:
-    """The critical pressure of a case.
+    """The job that computes the critical pressure of a case.
 
     Attributes
     ----------
     case : Case
+        The case to be solved.
     wall : bool
         Whether the answer keeps the stress field of its state.
     error : bool
-        Whether the error is estimated, which takes a second, coarser solve.
+        Whether the discretisation error is estimated, which needs a second, coarser solve.
     """
 
     case: Case
@@ -68,7 +70,7 @@ class PressureJob:
     error: bool = True
 
     def fuller(self) -> list[PressureJob]:
-        """Return the other jobs whose answer says all that this job's does; the least first."""
+        """Return the other jobs whose answers include the answer of this job, cheapest first."""
         others = (PressureJob(self.case, *more) for more in ((False, True), (True, True)))
         return [job for job in others if job.wall >= self.wall and job.error >= self.error
                 and job != self]  # fmt: skip
@@ -82,7 +84,15 @@ class PressureJob:
 
 @dataclass(frozen=True)
 class SizeJob:
-    """The critical size at the pressure `limit`; the size of the case's own stone is ignored."""
+    """The job that computes the critical size at a pressure limit.
+
+    Attributes
+    ----------
+    case : Case
+        The case; the size of its own stone is ignored.
+    limit : Pressure
+        Pressure limit in Pa, above 0.
+    """
 
     case: Case
     limit: Pressure
@@ -107,12 +117,18 @@ class SizeJob:
 
 @dataclass(frozen=True)
 class Results:
-    """Results by their jobs."""
+    """The results of jobs.
+
+    Attributes
+    ----------
+    by_job : mapping of Job to result
+        The result of each job.
+    """
 
     by_job: Mapping[Job[Any], Any]
 
     def __getitem__(self, job: Job[Found]) -> Found:
-        """Return the result of a job, or of one whose result says more."""
+        """Return the result of a job, or of another job whose result includes it."""
         return self.by_job[self._serving(job)]
 
     @property
@@ -126,15 +142,33 @@ class Results:
         return {job: each for job, each in self.by_job.items() if isinstance(job, SizeJob)}
 
     def answer(self, case: Case, *, wall: bool = False, error: bool = True) -> Answer:
-        """Return the critical pressure of a case; see `PressureJob`."""
+        """Return the answer of a `PressureJob` with these attributes.
+
+        Parameters
+        ----------
+        case : Case
+            The solved case.
+        wall : bool
+            Whether the answer must have its stress field.
+        error : bool
+            Whether the answer must have an error estimate.
+        """
         return self[PressureJob(case, wall, error)]
 
     def size(self, case: Case, limit: Pressure) -> SizeAnswer:
-        """Return the critical size of a case; see `SizeJob`."""
+        """Return the answer of a `SizeJob` with these attributes.
+
+        Parameters
+        ----------
+        case : Case
+            The solved case.
+        limit : Pressure
+            Pressure limit in Pa.
+        """
         return self[SizeJob(case, limit)]
 
     def of(self, jobs: Iterable[Job[Any]]) -> Results:
-        """Return the results of some jobs only."""
+        """Return the results of a part of the jobs."""
         serving = dict.fromkeys(map(self._serving, jobs))
         return Results({job: self.by_job[job] for job in serving})
 
@@ -153,14 +187,15 @@ def iterate_jobs(
     Parameters
     ----------
     jobs : iterable of Job
-        Equal jobs are run once, and a job is not run where another one's result says more.
+        Equal jobs are run once, and a job is left out if the result of another one includes its
+        result.
     executor : concurrent.futures.Executor, optional
-        By default, and for jobs that cannot be sent to another process (a user's own function),
-        the work runs in this process.
+        Where the jobs run. By default, and for jobs that cannot be pickled, they run in this
+        process.
     cache_folder : Path, optional
-        Folder of the solution cache; by default every state is solved.
+        Folder of the solution cache; by default there is no cache.
     progress : callable, optional
-        Is called with (done, all) after each job.
+        Function that is called with (done, all) after each job.
 
     Raises
     ------
@@ -170,9 +205,9 @@ def iterate_jobs(
     Warns
     -----
     CacheWarning
-        The cache folder cannot be written, or held a damaged result.
+        The cache folder cannot be written, or it contained a damaged result.
     """
-    # Other jobs take several solves each: they are started before the single ones.
+    # Jobs other than pressure jobs take several solves each, so that they are started first.
     queue = sorted(_once(jobs), key=lambda job: isinstance(job, PressureJob))
     results = stream(executor_for(queue, executor), partial(_run, cache_folder=cache_folder), queue)
     for done, (index, found) in enumerate(results, start=1):
@@ -187,16 +222,27 @@ def run_jobs(
     cache_folder: Path | None = None,
     progress: Progress | None = None,
 ) -> Results:
-    """Run every job once and return all results; for the parameters see `iterate_jobs`."""
+    """Run every job once and return all results.
+
+    Parameters
+    ----------
+    jobs, executor, cache_folder, progress
+        As for `iterate_jobs`.
+    """
     listed = list(jobs)
     found = dict(iterate_jobs(listed, executor, cache_folder, progress))
     return Results({job: found[job] for job in _once(listed)})
 
 
 def state_solver(cache_folder: Path | None, *, walls: bool = False) -> StateSolver:
-    """Return the solution cache in a folder; without a folder whoever solves each time.
+    """Return the solver of finite-element states that a job uses.
 
-    With `walls` the states keep their stress fields.
+    Parameters
+    ----------
+    cache_folder : Path or None
+        Folder of the solution cache; None for a solver without a cache.
+    walls : bool
+        Whether the states keep their stress fields.
     """
     if cache_folder is None:
         return UNCACHED
@@ -212,6 +258,6 @@ def _fuller(job: Job[Any]) -> Sequence[Job[Any]]:
 
 
 def _once(jobs: Iterable[Job[Found]]) -> list[Job[Found]]:
-    """Return each job once, without those whose answer another one includes."""
+    """Return each job once, without jobs whose answer is included in that of another job."""
     listed = dict.fromkeys(jobs)
     return [job for job in listed if not any(other in listed for other in _fuller(job))]

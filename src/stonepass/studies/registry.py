@@ -1,4 +1,4 @@
-"""Every study of this package by its name; the tests of the contract run over all of them."""
+"""The registered studies by name; the tests of the `Study` contract run over all of them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from stonepass.studies.study import Study
 
 __all__ = ["STUDIES"]
 
-# Each entry makes the smallest study about one case.
+# Each function makes a small study of one case.
 STUDIES: dict[str, Callable[[Case], Study[Any]]] = {
     "curve": lambda case: Curve(case, (case.size_ratio,)),
     "closures": lambda case: ClosureMap((case,)),

@@ -1,8 +1,10 @@
-"""Critical pressure as a smooth function of sizes, wall, friction and load, from some solves.
+"""Response surface: the critical pressure as an interpolant through some solved cases.
 
-ln(P_ucr/(μ P_s)) varies little: P_s is the pressure that holds a tube as wide as the stone, which
-vanishes at the lumen as P_ucr does, and near μ = 0 P_ucr grows with μ. Between the solves it is a
-cubic radial-basis interpolant over √(ξ/ξ_lumen − 1), ln(η − 1), √μ and the load.
+The interpolated quantity is ln(P_ucr/(μ P_s)), where P_s is the pressure that opens the tube to the
+width of the stone. It varies little, because P_ucr and P_s both vanish for a stone of the size of
+the lumen, and P_ucr is proportional to μ for small μ. The interpolant is a cubic radial-basis
+function of √(ξ/ξ_lumen − 1), ln(η − 1), √μ and the factor on the load (docs/assess.md, "What is
+done").
 """
 
 from __future__ import annotations
@@ -33,35 +35,43 @@ from stonepass.units import Pressure
 
 __all__ = ["OVERSIZE", "ResponseSurface", "response_surface"]
 
-OVERSIZE = (0.005, 0.8)  # of the lumen, over which the surface is built
-SMALLEST_FRICTION = 0.01
-SEED = 7  # of the design
-SCATTERED = {1: 8, 2: 16, 3: 32, 4: 64}  # points beside corners and centres of faces, by dimension
-TAILS = (0.002, 0.998)  # of walls, frictions and loads, between which the surface is built
-NARROW = 1e-9  # a range that counts as one value
-FEWEST = 10  # solves with an answer
-NEAR_END = 0.02  # of the closure's end, within which P_ucr may as well lie beyond it
-HALF_LENGTHS = 2.5  # half the tube's length, in radii of the largest stone
+OVERSIZE = (0.005, 0.8)  # smallest and largest solved oversize ξ/ξ_lumen − 1
+SMALLEST_FRICTION = 0.01  # smallest solved friction coefficient
+SEED = 7  # seed of the scattered points
+# Number of scattered points, in addition to corners and centres of faces, by dimension.
+SCATTERED = {1: 8, 2: 16, 3: 32, 4: 64}
+# Quantiles of wall ratio, friction and load factor between which the surface is built.
+TAILS = (0.002, 0.998)
+NARROW = 1e-9  # width below which a range counts as a single value
+FEWEST = 10  # smallest number of solved cases with an answer
+# Relative distance from the end of the closure within which P_ucr may lie on either side of it.
+NEAR_END = 0.02
+HALF_LENGTHS = 2.5  # half length of the tube, in radii of the largest stone
 
 
 @array_dataclass
 @dataclass(frozen=True)
 class ResponseSurface:
-    """What was solved, and the interpolant through it.
+    """The solved cases of a response surface, and the interpolant through them.
 
     Attributes
     ----------
     case : Case
-        Material, load, method and shape of all of it.
+        Material, load, model and shape of all cases.
     solved : Conditions
+        Size, wall, friction and load factor of the n cases with an answer.
     pressure : array (n)
-        P_ucr in Pa of what was solved; where the closure ended first, its end.
-    ended : array (n)
-        Where it did.
+        P_ucr of these cases in Pa, or the pressure at the end of the closure if P_ucr lies beyond.
+    ended : array (n) of bool
+        Whether the closure ended before the stone moved.
     lost : Conditions
-        What was tried and has no answer.
+        The cases without an answer.
     reason : str
-        What most of those say; empty where there are none.
+        The most frequent reason why a case has no answer; empty if all have one.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
 
     case: Case
@@ -73,20 +83,28 @@ class ResponseSurface:
 
     @property
     def tried(self) -> int:
-        """How many cases were solved, those without an answer included."""
+        """Number of cases with and without an answer."""
         return len(self.pressure) + len(self.lost.friction)
 
     @property
     def usable(self) -> bool:
-        """Whether enough of them have an answer for a surface."""
+        """Whether enough cases have an answer for an interpolant."""
         return len(self.pressure) >= FEWEST
 
     def __call__(self, asked: Conditions) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
-        """Return P_ucr in Pa, and where it is censored: where that is only a lower bound.
+        """Return P_ucr in Pa for n conditions, and which values are censored.
 
-        P_ucr is 0 for a stone that is no larger than the lumen. Above the sizes that were solved,
-        and where the paper's closure ends first, P_ucr is at least what is returned; where the load
-        closes the lumen, or the nearest case that was tried has no answer, no more than 0 is known.
+        A censored value is only a lower bound. Values are censored above the largest solved size
+        and where the paper's closure ends before the stone moves. They are censored with the lower
+        bound 0 if the load closes the lumen, or if the nearest case has no answer. P_ucr is 0 (not
+        censored) for a stone that is no larger than the lumen.
+
+        Returns
+        -------
+        pressure : array (n)
+            P_ucr or its lower bound in Pa.
+        censored : array (n) of bool
+            Whether the value is only a lower bound.
         """
         lumen = lumen_ratios(self.case, asked.wall_ratio, asked.load_factor)
         closed = ~np.isfinite(lumen)
@@ -98,10 +116,10 @@ class ResponseSurface:
         friction = np.maximum(asked.friction, SMALLEST_FRICTION)
         near = self._coordinates(replace(at, friction=friction))
         found = np.exp(self._interpolant(near)) * asked.friction * self._scale(at)
-        # Below the smallest size that was solved it falls in proportion to the oversize.
+        # Below the smallest solved size P_ucr is proportional to the oversize.
         found *= np.minimum(held / OVERSIZE[0], 1.0)
         censored = over > top
-        if self.ended.any():  # near the closure's end the surface cannot say on which side it is
+        if self.ended.any():  # near its end the surface cannot decide whether the closure has ended
             end = self._closure_end(at)
             censored |= found >= (1.0 - NEAR_END) * end
             found = np.minimum(found, end)
@@ -111,7 +129,10 @@ class ResponseSurface:
 
     @cached_property
     def errors(self) -> Float[np.ndarray, " n"]:
-        """Relative error at each solved case of the surface through all others."""
+        """Relative error at each solved case of the interpolant through all others, an array (n).
+
+        This is the leave-one-out cross-validation error.
+        """
         coordinates, values = self._coordinates(self.solved), self._values
         off = np.empty(len(values))
         for k in range(len(values)):
@@ -120,7 +141,7 @@ class ResponseSurface:
         return np.abs(np.expm1(off - values))
 
     def _lost(self, near: Float[np.ndarray, "n d"]) -> Bool[np.ndarray, " n"]:
-        """Where the nearest case that was tried has no answer."""
+        """Return whether the nearest case has no answer."""
         if len(self.lost.friction) == 0:
             return np.zeros(len(near), dtype=bool)
         with_answer, _ = KDTree(self._coordinates(self.solved)).query(near)
@@ -129,7 +150,7 @@ class ResponseSurface:
 
     @cached_property
     def _top(self) -> float:
-        """The largest oversize of the lumen that was solved."""
+        """The largest solved oversize ξ/ξ_lumen − 1."""
         lumen = lumen_ratios(self.case, self.solved.wall_ratio, self.solved.load_factor)
         return float((self.solved.size_ratio / lumen - 1.0).max())
 
@@ -138,13 +159,16 @@ class ResponseSurface:
         return np.log(self.pressure / (self.solved.friction * self._scale(self.solved)))
 
     def _scale(self, at: Conditions) -> Float[np.ndarray, " n"]:
-        """Pressure that holds a tube as wide as the stone, by the whole law as the lumen is."""
+        """Return the pressure P_s that opens the tube to the width of the stone.
+
+        It includes the ground matrix, like the lumen, so that it vanishes at the size of the lumen.
+        """
         law, load = self.case.ureter.material.law, self.case.load
         across = np.asarray(inflation(at.size_ratio, at.wall_ratio, law, load.prestretch))
         return across + self._outside(at)
 
     def _closure_end(self, at: Conditions) -> Float[np.ndarray, " n"]:
-        """The same by the far field of the method, where the paper's closure ends."""
+        """Return the pressure at the end of the paper's closure, by the far field of the model."""
         return transmural(self.case, at.size_ratio, at.wall_ratio) + self._outside(at)
 
     def _outside(self, at: Conditions) -> Float[np.ndarray, " n"]:
@@ -156,11 +180,11 @@ class ResponseSurface:
         return _interpolant(self._coordinates(self.solved), self._values)
 
     def _coordinates(self, at: Conditions) -> Float[np.ndarray, "n d"]:
-        """In units of the solved range and held to it; what does not vary is left out."""
+        """Return the varying coordinates, scaled to 0–1 over the solved range and clipped to it."""
         low, high = self._range
         varying = high - low > NARROW
         scaled = (_raw(self.case, at) - low)[:, varying] / (high - low)[varying]
-        return np.clip(np.nan_to_num(scaled), 0.0, 1.0)  # a closed lumen has no place here
+        return np.clip(np.nan_to_num(scaled), 0.0, 1.0)  # coordinates of a closed lumen are NaN
 
     @cached_property
     def _range(self) -> tuple[Float[np.ndarray, " d"], Float[np.ndarray, " d"]]:
@@ -169,12 +193,30 @@ class ResponseSurface:
 
 
 def response_surface(case: Case, over: Conditions, solver: CaseSolver) -> ResponseSurface:
-    """Solve enough of the cases that `over` spans for a surface over all of them.
+    """Solve cases that span the given conditions, and return the response surface through them.
 
-    Sizes are taken from the lumen up to `OVERSIZE` beyond it, whatever `over` has of them.
+    Parameters
+    ----------
+    case : Case
+        Material, load, model and shape of all cases.
+    over : Conditions
+        Walls, frictions and load factors that the surface shall cover. Their sizes are ignored: the
+        surface covers stones up to 1.8 times as wide as the lumen.
+    solver : CaseSolver
+        Solves about fifty cases, without error estimates.
+
+    Raises
+    ------
+    BadInput
+        The model does not use finite elements.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
     if not case.model.NEEDS_ELEMENTS:
-        raise BadInput("model", case.model.NAME, "one of finite elements, such as paper or direct")
+        raise BadInput("model", case.model.NAME, "a model with finite elements: 'paper' or 'direct'"
+                       )  # fmt: skip
     longest = HALF_LENGTHS * (1.0 + OVERSIZE[1]) * max(1.0, case.stone.shape.reach)
     half_length = max(case.numerics.half_length, longest)
     quick = replace(case, numerics=Numerics("fast", half_length))
@@ -228,7 +270,7 @@ def _raw(case: Case, at: Conditions) -> Float[np.ndarray, "n 4"]:
 
 
 def _design(case: Case, over: Conditions) -> Conditions:
-    """Corners, centres of faces and scattered points of the box round `over`."""
+    """Return corners, centres of faces and scattered points of the box that contains `over`."""
     friction = np.maximum(over.friction, SMALLEST_FRICTION)
     factor = np.ones(1)
     if case.load.confining_pressure > 0.0:

@@ -1,4 +1,4 @@
-"""Urine pressure rising on a held stone, and whether the contact pressure stays the seated one."""
+"""Study of a held stone under rising urine pressure, compared with the seated state."""
 
 from __future__ import annotations
 
@@ -26,27 +26,33 @@ from stonepass.units import Pressure
 
 __all__ = ["Rising", "RisingPressure", "contact_deviation", "raise_pressure"]
 
-STEPS = (2, 200)
-SAMPLES = 400
+STEPS = (2, 200)  # smallest and largest number of pressures
+SAMPLES = 400  # number of angles in the integrals over the contact
 
 
 @array_dataclass
 @dataclass(frozen=True, repr=False)
 class Rising(Result):
-    """States of one held stone under rising pressure.
+    """States of one held stone under rising urine pressure.
 
     Attributes
     ----------
     critical : Answer
-        Of the direct model: where the stone would move if it were let go.
+        Answer of the direct model, with the pressure at which a released stone would move.
     states : list of PushedState
-        With rising P_u, the first without; shorter than asked for where a state was not found.
+        States in the order of rising P_u, which begins with 0. The list ends before the first state
+        that could not be found.
     seated : SeatedState or None
-        What the paper puts in their place: the seated state of the case's seating.
-    deviation : array
-        Of the contact pressure of each state from that of the seated one (`contact_deviation`).
+        Seated state, which the paper uses instead of the loaded states; None if it was not found.
+    deviation : array (states)
+        Deviation of the contact pressure of each state from that of the seated state, dimensionless
+        (see `contact_deviation`).
     reason : str
-        Why there are fewer states than asked for; empty where there are not.
+        Reason why states are missing; empty if none are missing.
+
+    References
+    ----------
+    docs/closures.md; docs/theory.md, "The push-through, solved directly".
     """
 
     critical: Answer
@@ -63,9 +69,14 @@ class Rising(Result):
 
 @dataclass(frozen=True)
 class RisingPressure:
-    """A stone that is held while P_u rises, as a study of one job; see `raise_pressure`.
+    """The study of a held stone under rising urine pressure, with stress fields.
 
-    Its states keep their stress fields.
+    It is a single job, since each state is the starting point of the next one.
+
+    Attributes
+    ----------
+    case, top, steps, wetted
+        Arguments of `raise_pressure`.
     """
 
     case: Case
@@ -74,11 +85,11 @@ class RisingPressure:
     wetted: bool = False
 
     def jobs(self) -> list[RisingPressure]:
-        """Return the study itself: each state is the start of the next one, so it is one job."""
+        """Return the study itself, which is its only job."""
         return [self]
 
     def run(self, cache_folder: Path | None) -> Rising:
-        """Return the outcome of `raise_pressure`."""
+        """Return the result of `raise_pressure`."""
         states = state_solver(cache_folder, walls=True)
         return raise_pressure(self.case, self.top, self.steps, states, wetted=self.wetted)
 
@@ -95,32 +106,36 @@ def raise_pressure(
     *,
     wetted: bool = False,
 ) -> Rising:
-    """Hold the stone while P_u rises in equal steps from 0 to `top`.
+    """Compute the states of a held stone while P_u rises in equal steps from 0.
 
     Parameters
     ----------
     case : Case
-        Its model is the paper's, whose seating is compared; the states are those of the direct
-        model.
+        A case of the paper's model, whose seated state is compared with the loaded states of the
+        direct model.
     top : Pressure, optional
-        In Pa, above 0; by default P_ucr, or, where P_ucr is 0 (without friction) or not found, the
-        pressure that opens the tube to R_s.
+        Highest pressure in Pa, above 0. The default is P_ucr; if P_ucr is 0 (without friction) or
+        does not exist, it is the pressure that opens the tube to R_s.
     steps : int
-        Number of pressures, 0 included, 2 to 200.
+        Number of pressures including 0, from 2 to 200.
     states : StateSolver
-        Where finite-element states come from.
+        Solver or cache of the finite-element states.
     wetted : bool
         Whether the direct model is wetted (see `PushThrough`).
 
     Returns
     -------
     Rising
-        Without states for a loose stone.
+        It has no states for a loose stone.
 
     Raises
     ------
     BadInput
-        For `top` or `steps` out of bounds.
+        `top` or `steps` is out of bounds, or the model of the case is not the paper's.
+
+    References
+    ----------
+    docs/theory.md, "The push-through, solved directly"; docs/closures.md.
     """
     require(STEPS[0] <= steps <= STEPS[1], "steps", steps, f"{STEPS[0]} to {STEPS[1]}")
     if top is not None:
@@ -146,9 +161,26 @@ def raise_pressure(
 
 
 def contact_deviation(state: PushedState, seated: SeatedState) -> float:
-    """∫ |σ − σ⁰| dθ over ∫ σ⁰ dθ, where the loaded wall is closed: what the paper takes as 0.
+    """Return ∫ |σ − σ⁰| dθ/∫ σ⁰ dθ over the contact of the loaded state.
 
-    NaN where the seated stone touches nowhere there.
+    σ is the contact pressure of the loaded state and σ⁰ that of the seated state. The paper assumes
+    that both are equal, so that the result would be 0.
+
+    Parameters
+    ----------
+    state : PushedState
+        The loaded state.
+    seated : SeatedState
+        The seated state of the same stone.
+
+    Returns
+    -------
+    float
+        A dimensionless number; NaN if the seated state has no contact within these angles.
+
+    References
+    ----------
+    docs/closures.md.
     """
     theta = np.linspace(state.contact_angle, state.downstream_angle, SAMPLES)
     loaded, unloaded = state.pressure_at(theta), seated.pressure_at(theta)

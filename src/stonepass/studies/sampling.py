@@ -13,7 +13,8 @@ from stonepass.studies.uncertain_quantity import UncertainQuantity
 __all__ = ["Draws", "draw", "sobol_points"]
 
 Draws = Mapping[str, Float[np.ndarray, " n"]]
-MORE_DRAWS = (0, 2, 4, 6)  # powers of two over the samples asked for, tried one after the other
+# Binary logarithms of the factors on the number of draws that are tried one after the other.
+MORE_DRAWS = (0, 2, 4, 6)
 
 
 def draw(
@@ -22,25 +23,32 @@ def draw(
     seed: int,
     keep: Callable[[Draws, Float[np.ndarray, " n"]], Bool[np.ndarray, " n"]],
 ) -> tuple[Draws, Bool[np.ndarray, " n"]]:
-    """Draw independent quantities until `count` draws are kept.
+    """Draw samples of independent quantities until enough of them are accepted.
 
     Parameters
     ----------
     quantities : mapping of str to UncertainQuantity
+        The quantities by name.
     count : int
-        Number of draws wanted, at least 1.
+        Number of accepted samples that is wanted, at least 1.
     seed : int
-        Seed of the scrambling, 0 to 2³² − 1.
+        Seed of the scrambled Sobol sequence, 0 to 2³² − 1.
     keep : callable
-        Takes the draws and, for each, a number that is uniform between 0 and 1 and independent of
-        them; returns which draws are kept. With the number a draw can be kept with a probability.
+        Function that returns for each sample whether it is accepted. Its arguments are the samples
+        and an array (n) of independent random numbers, uniform between 0 and 1, with which it can
+        accept a sample with a given probability.
 
     Returns
     -------
     draws : mapping of str to array (n)
-        All draws; n is a power of two, at most 64 times `count` rounded up.
-    kept : array (n)
-        Which are kept; they may be fewer than `count`.
+        All samples, accepted or not. n is a power of two and at most 64 times `count` (rounded up
+        to a power of two).
+    kept : array (n) of bool
+        Whether each sample is accepted. Fewer than `count` may be accepted.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
     power = int(np.ceil(np.log2(count)))
     for more in MORE_DRAWS:
@@ -54,7 +62,22 @@ def draw(
 
 
 def sobol_points(dimensions: int, power: int, seed: int) -> Float[np.ndarray, "n d"]:
-    """Return 2^`power` points of the unit cube, none of them on its faces."""
+    """Return points of a scrambled Sobol sequence inside the unit cube.
+
+    Parameters
+    ----------
+    dimensions : int
+        Number d of coordinates of a point.
+    power : int
+        Binary logarithm of the number n of points.
+    seed : int
+        Seed of the scrambling, 0 to 2³² − 1.
+
+    Returns
+    -------
+    array (n, d)
+        Numbers between 0 and 1, both excluded.
+    """
     tiny = np.finfo(float).eps
     points = qmc.Sobol(dimensions, seed=seed).random_base2(power)
     return np.clip(points, tiny, 1.0 - tiny)

@@ -1,4 +1,4 @@
-"""Which uncertain input the spread of an outcome comes from: Sobol's total indices."""
+"""Sobol's total sensitivity indices of an outcome with respect to its uncertain inputs."""
 
 from __future__ import annotations
 
@@ -14,14 +14,26 @@ from stonepass.studies.uncertain_quantity import UncertainQuantity
 
 __all__ = ["SensitivityIndex", "rank_sensitivity"]
 
-SAMPLES = 1024
+SAMPLES = 1024  # number of samples of each input, a power of two
 
 
 @dataclass(frozen=True)
 class SensitivityIndex:
-    """Sobol's total index of an input: the fraction of the variance that it has a part in.
+    """Sobol's total index of an input.
 
-    Interactions count for each input that takes part, so that the sum may exceed 1.
+    The index is the fraction of the variance of the outcome that involves the input, alone or in
+    interactions. An interaction counts for each of its inputs, so that the sum may exceed 1.
+
+    Attributes
+    ----------
+    name : str
+        Name of the input.
+    total : float
+        Total index, 0 to 1.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
 
     name: str
@@ -34,25 +46,31 @@ def rank_sensitivity(
     known: Float[np.ndarray, " m"],
     seed: int,
 ) -> tuple[SensitivityIndex, ...]:
-    """Return the total index of every input for the rank of an outcome, the largest first.
+    """Compute the total sensitivity index of every input for the rank of an outcome.
 
-    The rank of an outcome is its place among known outcomes, from 0 to 1. Its variance cannot be
-    dominated by a tail, as that of the outcome itself can.
+    The rank of an outcome is the fraction of known outcomes below it. The variance of the rank,
+    unlike that of the outcome itself, cannot be dominated by a few extreme values.
 
     Parameters
     ----------
     outcome : callable
-        Takes draws of the quantities and returns one number for each.
+        Function that returns an array (n) of outcomes for n samples of the inputs.
     quantities : mapping of str to UncertainQuantity
         Independent inputs, none of them exact.
     known : array (m)
         Outcomes of other samples, which define the rank.
     seed : int
+        Seed of the samples.
 
     Returns
     -------
     tuple of SensitivityIndex
-        Each between 0 and 1; one input alone has 1; empty where the known outcomes are all equal.
+        Indices in descending order. A single input has the index 1. The tuple is empty if all known
+        outcomes are equal.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
     if len(quantities) < 2:
         return tuple(SensitivityIndex(name, 1.0) for name in quantities)

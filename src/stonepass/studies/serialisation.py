@@ -1,4 +1,4 @@
-"""Results as plain JSON and arrays, and back: no pickle, no type that is not named here."""
+"""Conversion of results to JSON and arrays and back, without pickle, for listed types only."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ TYPES = {
 
 
 def serialise(value: Any) -> tuple[Any, dict[str, Any]]:
-    """Take a result apart: a JSON document that names arrays, and the arrays.
+    """Convert a result to a JSON document and the arrays that the document refers to by name.
 
-    A case is left out: who asks for a result has it.
+    The case of the result is left out, since the caller of `deserialise` provides it.
     """
     arrays: dict[str, Any] = {}
 
     def plain(part: Any) -> Any:
-        """One part as JSON, its arrays put aside."""
+        """Convert one part to JSON and collect its arrays."""
         if part is None or isinstance(part, str | bool | int):
             return part
         if isinstance(part, np.bool_):
@@ -64,7 +64,17 @@ def serialise(value: Any) -> tuple[Any, dict[str, Any]]:
 
 
 def deserialise(document: Any, arrays: dict[str, Any], case: Problem) -> Any:
-    """Put a result together again, as that of `case`."""
+    """Make a result from a JSON document and its arrays.
+
+    Parameters
+    ----------
+    document : JSON value
+        The document that `serialise` returned.
+    arrays : dict of str to array
+        The arrays by name.
+    case : Problem
+        The case that the result belongs to.
+    """
     if not isinstance(document, dict):
         return document
     if "array" in document:

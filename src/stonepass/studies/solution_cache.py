@@ -1,9 +1,11 @@
-"""Finite-element results on disk, by what they depend on: the case and the solver's own source.
+"""Cache of finite-element results on disk.
 
-One file for one result: SHA-256 of what follows, then a zip of JSON and arrays (NumPy's, without
-pickle). A file whose digest is wrong is set aside in ``corrupt/`` and its result solved again.
-Files are written beside their place and moved there in one step, so processes may share a folder.
-A folder that cannot be written costs the memory and not the answer: `CacheWarning` says so.
+The key of a result is a digest of the case and of the source code of the solver. Each result is one
+file: a SHA-256 digest, followed by an archive of JSON and NumPy arrays without pickle. A file whose
+digest does not match is moved to the folder ``corrupt``, and its result is solved again. A file is
+written under another name and then renamed in one step, so that several processes can share a
+folder. If the folder cannot be written, the result is returned but not stored, with a
+`CacheWarning`.
 """
 
 from __future__ import annotations
@@ -37,32 +39,32 @@ from stonepass.units import Pressure
 
 __all__ = ["SolutionCache", "default_folder", "describe_law"]
 
-DIGEST = hashlib.sha256().digest_size
-CORRUPT = "corrupt"
-SOURCES = "sources"
-LAWS = "stonepass.materials"  # laws defined elsewhere have source that the key does not cover
+DIGEST = hashlib.sha256().digest_size  # bytes
+CORRUPT = "corrupt"  # folder of damaged files
+SOURCES = "sources"  # folder of the digests of the source code
+LAWS = "stonepass.materials"  # package whose source code is part of the key
 
 
 def default_folder() -> Path:
-    """The user's cache folder for this software; ``STONEPASS_CACHE`` names another."""
+    """Return the user's cache folder, or the folder in the environment variable STONEPASS_CACHE."""
     named = os.environ.get("STONEPASS_CACHE")
     return Path(named) if named else Path(platformdirs.user_cache_dir("stonepass"))
 
 
 @dataclass(frozen=True)
 class SolutionCache:
-    """A state solver (`model.states.state_solver.StateSolver`) that remembers states on disk.
+    """A `StateSolver` that stores finite-element states on disk.
 
-    Results depend on ratios alone, so cases of another size share theirs, as do those that differ
-    only in closure, sign or far field. A law that is a Python function, or is defined outside this
-    package, is solved afresh every time.
+    States depend on ratios only, so that cases which differ in size share them, as do cases which
+    differ in the closure, the sign of Eq. 5 or the far field. States are not stored if the law is a
+    Python function or is defined outside this package.
 
     Attributes
     ----------
     folder : Path
-        Made on demand; processes may share it.
+        Folder of the cache, which is made if necessary. Several processes may share it.
     walls : bool
-        Whether states are kept with their stress fields.
+        Whether states are stored with their stress fields.
     """
 
     folder: Path
@@ -75,7 +77,7 @@ class SolutionCache:
         numerics: Numerics,
         resolution: Resolution | None = None,
     ) -> SeatedState | NoSeat:
-        """See `StateSolver.seat`."""
+        """Return the seated state; for the parameters see `StateSolver.seat`."""
         asked = {"seating": seating.kind, "friction": seating.friction}
         return self._remembered(
             "seat",
@@ -94,7 +96,7 @@ class SolutionCache:
         wetted: bool,
         leak: bool,
     ) -> list[Critical | NoPush]:
-        """See `StateSolver.push`."""
+        """Return the critical states; for the parameters see `StateSolver.push`."""
         asked = {
             "friction": case.stone.friction,
             "wetted": wetted,
@@ -117,7 +119,10 @@ class SolutionCache:
         *,
         wetted: bool,
     ) -> list[PushedState | NoPush]:
-        """See `StateSolver.hold`; cases of another size share states of equal pressure."""
+        """Return states of a held stone; for the parameters see `StateSolver.hold`.
+
+        Cases that differ in size share states of equal pressure.
+        """
         asked = {
             "friction": case.stone.friction,
             "wetted": wetted,
@@ -132,13 +137,13 @@ class SolutionCache:
         return list(self._remembered("hold", case, numerics, asked, solve))
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
-        """See `StateSolver.opening_curve`."""
+        """Return the opening curve; for the parameters see `StateSolver.opening_curve`."""
         return self._remembered(
             "opening_curve", case, numerics, {}, lambda: UNCACHED.opening_curve(case, numerics)
         )
 
     def _slim(self, found: Any) -> Any:
-        """Return a state without its stress field, unless it is to be kept."""
+        """Return a state without its stress field, unless stress fields are stored."""
         if self.walls:
             return found
         if hasattr(found, "wall"):
@@ -172,7 +177,7 @@ class SolutionCache:
         except OSError as problem:
             sentence = (
                 f"the cache folder '{self.folder}' could not be written "
-                f"({problem.strerror or problem}), so that what was solved is not remembered"
+                f"({problem.strerror or problem}), so that this result is not stored"
             )
             warnings.warn(CacheNotWritten(sentence), stacklevel=2)
         return found
@@ -185,9 +190,9 @@ def _mesh(numerics: Numerics, resolution: Resolution | None) -> dict[str, Any]:
 
 
 def _document(what: str, case: Problem, numerics: Numerics, asked: dict[str, Any]) -> str | None:
-    """Return as JSON all that a result depends on, apart from the solver.
+    """Return a JSON text of everything that a result depends on, except the solver.
 
-    None where the law cannot be written down.
+    None is returned if the law cannot be described.
     """
     try:
         document = {
@@ -209,17 +214,17 @@ def _document(what: str, case: Problem, numerics: Numerics, asked: dict[str, Any
 
 
 def describe_law(law: Any) -> Any:
-    """Return the type and the constants of a law as JSON, for laws inside laws too.
+    """Return the type and the constants of a law as a JSON value, also for nested laws.
 
     Parameters
     ----------
     law : dataclass of `stonepass.materials`
-        Its constants are its fields.
+        The law; its constants are its fields.
 
     Raises
     ------
     TypeError
-        For a part that is neither such a law nor a number, text, or sequence of them.
+        A constant is not a law, a number, a text, or a sequence of these.
     """
     if law is None or isinstance(law, bool | int | float | str):
         return law
@@ -227,13 +232,13 @@ def describe_law(law: Any) -> Any:
         return [describe_law(each) for each in law]
     kind = type(law)
     if not is_dataclass(kind) or not f"{kind.__module__}.".startswith(f"{LAWS}."):
-        raise TypeError(f"a {kind.__name__} cannot be written down")
+        raise TypeError(f"a {kind.__name__} cannot be described")
     constants = {each.name: describe_law(getattr(law, each.name)) for each in fields(kind)}
     return {"type": f"{kind.__module__}.{kind.__qualname__}", "constants": constants}
 
 
 def _write(path: Path, document: Any, arrays: dict[str, Any]) -> None:
-    """Write one result; OSError where that fails."""
+    """Write one result; an OSError is raised if that fails."""
     packed = io.BytesIO()
     text = np.frombuffer(json.dumps(document).encode(), np.uint8)
     np.savez_compressed(packed, document=text, **arrays)
@@ -243,7 +248,10 @@ def _write(path: Path, document: Any, arrays: dict[str, Any]) -> None:
 
 
 def _read(path: Path, corrupt: Path) -> tuple[Any, dict[str, Any]] | None:
-    """Document and arrays of a file; None where there is none, or a corrupt one, then set aside."""
+    """Return the document and the arrays of a file.
+
+    None is returned if the file does not exist or is damaged; a damaged file is moved to `corrupt`.
+    """
     try:
         raw = path.read_bytes()
     except OSError:
@@ -254,14 +262,14 @@ def _read(path: Path, corrupt: Path) -> tuple[Any, dict[str, Any]] | None:
             with np.load(io.BytesIO(payload), allow_pickle=False) as parts:
                 arrays = {name: parts[name] for name in parts.files}
             return json.loads(arrays.pop("document").tobytes()), arrays
-        except (ValueError, KeyError, zipfile.BadZipFile):  # of another writer
+        except (ValueError, KeyError, zipfile.BadZipFile):  # another program wrote the file
             pass
-    sentence = f"a damaged result was set aside in '{corrupt}' and solved again"
+    sentence = f"a damaged result was moved to '{corrupt}' and is solved again"
     warnings.warn(CacheWarning(sentence), stacklevel=2)
     try:
         corrupt.mkdir(parents=True, exist_ok=True)
-        if path.read_bytes() == raw:  # else another process has mended it meanwhile
+        if path.read_bytes() == raw:  # otherwise another process has replaced it by a valid file
             path.replace(corrupt / path.name)
-    except OSError:  # gone, or a folder that cannot be written: solved again all the same
+    except OSError:  # the file no longer exists, or the folder cannot be written
         pass
     return None

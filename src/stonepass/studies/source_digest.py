@@ -1,4 +1,4 @@
-"""A digest of the code that a result depends on; it ignores docstrings and comments."""
+"""A digest of the source code that a result depends on, without docstrings and comments."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from stonepass.io.text_file import replace_file
 
 __all__ = ["code_digest", "solver_digest"]
 
-NUMBERS = 1  # raised by hand when numbers change for a reason that is not in the code below
+# Version that a developer raises if results change for a reason outside the source code below.
+NUMBERS = 1
 PACKAGE = Path(__file__).parents[1]
 SOURCES = ("fe", "materials", "model", "units.py", "studies/serialisation.py")
 LIBRARIES = ("ngsolve", "numpy", "scipy", "autograd")
@@ -21,16 +22,17 @@ LIBRARIES = ("ngsolve", "numpy", "scipy", "autograd")
 
 @lru_cache(maxsize=8)
 def solver_digest(memory: Path) -> str:
-    """Return a digest of all that the numbers of a result depend on, apart from its case.
+    """Return a digest of everything that a result depends on, except its case.
 
-    It covers the version `NUMBERS`, the versions of the numerical libraries, and the code of the
-    solver with all its sub-packages. Parsing the code takes about half a second, so its digest is
-    kept in the folder `memory`, under a digest of the files as they are.
+    It covers the version `NUMBERS`, the versions of the numerical libraries, and the source code of
+    the solver. Parsing the code takes about half a second; therefore the digest of the parsed code
+    is stored in a file whose name is a digest of the unparsed files.
 
     Parameters
     ----------
     memory : Path
-        Folder, made on demand; where it cannot be written the code is parsed every time.
+        Folder of these files. It is made if necessary; if it cannot be written, the code is parsed
+        every time.
     """
     files = list(_files())
     versions = [str(NUMBERS), *(f"{name} {metadata.version(name)}" for name in LIBRARIES)]
@@ -44,12 +46,12 @@ def solver_digest(memory: Path) -> str:
 
 
 def code_digest(files: Iterable[tuple[bytes, bytes]]) -> str:
-    """Return a digest of names and Python sources that ignores docstrings, comments and layout.
+    """Return a digest of Python files that ignores docstrings, comments and layout.
 
     Parameters
     ----------
     files : iterable of (bytes, bytes)
-        Name and source of each file.
+        Name and source code of each file.
 
     Examples
     --------
@@ -92,5 +94,5 @@ def _remember(path: Path, code: str) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         replace_file(path, code.encode("ascii"))
-    except OSError:  # the digest is computed again the next time
+    except OSError:  # without the file the digest is computed again the next time
         pass

@@ -1,6 +1,7 @@
-"""The contract of a study: which jobs it needs, and what it makes of their results.
+"""The contract of a study: the jobs that it needs, and the reduction of their results.
 
-A new study is a frozen dataclass in a file of its own, and one line in `studies.registry`.
+A new study needs a frozen dataclass in a file of its own, and one line in `studies.registry`
+(docs/developing.md, "A study").
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from stonepass.studies.executor import executor_for
 from stonepass.studies.jobs import Job, Progress, Results, run_jobs
+from stonepass.studies.progress import reported
 
 __all__ = ["Study", "run_studies", "run_study"]
 
@@ -21,14 +23,14 @@ Outcome_co = TypeVar("Outcome_co", covariant=True)
 
 @runtime_checkable
 class Study(Protocol[Outcome_co]):
-    """Many cases and what is made of them.
+    """A calculation that needs the results of many jobs.
 
-    A study solves nothing itself: it names jobs, which run in any order and anywhere, and reduces
-    their results. Its outcome depends on the results alone, not on where they were computed.
+    A study solves nothing itself. It lists the jobs, which may run anywhere and in any order, and
+    computes its outcome from their results alone.
 
     Examples
     --------
-    The largest of some stones that is not stuck:
+    This study finds the largest of some stones that is not stuck:
 
     >>> from dataclasses import dataclass
     >>> import stonepass as sp
@@ -54,26 +56,28 @@ class Study(Protocol[Outcome_co]):
         """Return the jobs that the study needs, in the same order each time."""
 
     def reduce(self, results: Results) -> Outcome_co:
-        """Return the outcome from the results, which contain those of all jobs."""
+        """Return the outcome; `results` contains the results of all jobs of the study."""
 
 
 def run_study(
     study: Study[Outcome],
     executor: Executor | None = None,
     cache_folder: Path | None = None,
-    progress: Progress | None = None,
+    progress: bool | Progress = False,
 ) -> Outcome:
     """Run the jobs of a study and return its outcome.
 
     Parameters
     ----------
     study : Study
+        The study to be run.
     executor : concurrent.futures.Executor, optional
-        By default the work runs in this process.
+        Where the jobs run; by default in this process.
     cache_folder : Path, optional
         Folder of the solution cache; by default every state is solved.
-    progress : callable, optional
-        Is called with (done, all) after each job.
+    progress : bool or callable
+        True shows a bar in a terminal and in a notebook; a function is called with (done, all)
+        after each job.
 
     Raises
     ------
@@ -83,9 +87,10 @@ def run_study(
     Warns
     -----
     CacheWarning
-        The cache folder cannot be written, or held a damaged result.
+        The cache folder cannot be written, or it contained a damaged result.
     """
-    return study.reduce(run_jobs(study.jobs(), executor, cache_folder, progress))
+    with reported(progress, "jobs") as told:
+        return study.reduce(run_jobs(study.jobs(), executor, cache_folder, told))
 
 
 def run_studies(
@@ -94,9 +99,16 @@ def run_studies(
     cache_folder: Path | None = None,
     progress: Progress | None = None,
 ) -> list[Outcome]:
-    """Run several studies together: jobs that they share run once, and reductions run in parallel.
+    """Run several studies together and return their outcomes in the same order.
 
-    For the parameters see `run_study`.
+    Jobs that several studies need run once, and the reductions run in parallel.
+
+    Parameters
+    ----------
+    studies : sequence of Study
+        The studies to be run.
+    executor, cache_folder, progress
+        As for `run_study`.
     """
     jobs = [list(study.jobs()) for study in studies]
     results = run_jobs((job for each in jobs for job in each), executor, cache_folder, progress)

@@ -1,4 +1,4 @@
-"""Numbers that are known only so well: ``"5 mm ± 1 mm"`` and ``"0.05 to 0.5"``."""
+"""Quantities with an uncertainty, such as ``"5 mm ± 1 mm"`` and ``"0.05 to 0.5"``."""
 
 from __future__ import annotations
 
@@ -20,24 +20,32 @@ _PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
 _UNIT = re.compile(r"[A-Za-zµμ%°][^\s]*$")
 EXAMPLE = {True: "'5 mm ± 1 mm' or '3 mm to 4 mm'", False: "'0.3 ± 0.1' or '0.05 to 0.5'"}
-LONGEST = 100  # characters
-FARTHEST = 6.0  # standard deviations
+LONGEST = 100  # largest number of characters of a text
+FARTHEST = 6.0  # largest distance from the mean in standard deviations
 
 
 @dataclass(frozen=True)
 class UncertainQuantity:
-    """A number and how well it is known.
+    """A quantity with its uncertainty, in SI units.
+
+    A range is uniformly distributed. A value with a standard deviation has a truncated normal
+    distribution, or a lognormal distribution if the quantity is a factor.
 
     Attributes
     ----------
     value : float
-        The measured value; the middle of a range.
+        Measured value, or the middle of a range.
     sd : float or None
-        Standard deviation of its error; 0 for an exact number, None for a range.
+        Standard deviation of the measuring error; 0 for an exact value, None for a range.
     low, high : float
-        What is possible: the range itself, or bounds that cut the distribution off.
+        Ends of the range, or bounds at which the distribution is truncated.
     factor : bool
-        Whether it multiplies: then it is lognormal with `value` as its median, else normal.
+        Whether the quantity is a factor, such as a relative stiffness. Its distribution is then
+        lognormal with the median `value`.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
 
     value: float
@@ -48,12 +56,12 @@ class UncertainQuantity:
 
     @property
     def exact(self) -> bool:
-        """Whether nothing about it is uncertain."""
+        """Whether the quantity has no uncertainty."""
         return self.sd == 0.0 or self.low == self.high
 
     @property
     def distribution(self) -> Any:
-        """As a frozen distribution of `scipy.stats`; not for an exact number."""
+        """Distribution as a frozen distribution of `scipy.stats`; not for an exact value."""
         if self.sd is None:
             return uniform(self.low, self.high - self.low)
         if self.factor:
@@ -63,13 +71,21 @@ class UncertainQuantity:
         return truncnorm(first, last, loc=self.value, scale=self.sd)
 
     def quantiles(self, fractions: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        """Return the numbers below which the given fractions, between 0 and 1, of it lie."""
+        """Return the quantiles (n) of the distribution for fractions (n) between 0 and 1."""
         if self.exact:
             return np.full(len(fractions), self.value)
         return np.clip(self.distribution.ppf(fractions), self.low, self.high)
 
     def describe(self, scale: float = 1.0, unit: str = "") -> str:
-        """Return it in words, divided by `scale`: ``5 ± 1 mm``, ``0.05 to 0.5``."""
+        """Return the quantity as text, e.g. ``5 ± 1 mm`` or ``0.05 to 0.5``.
+
+        Parameters
+        ----------
+        scale : float
+            Size of the unit of the text in SI units, e.g. 1e-3 for mm.
+        unit : str
+            Unit of the text; empty for a dimensionless quantity.
+        """
         tail = f" {unit}" if unit else ""
         if self.exact:
             return f"{self.value / scale:.4g}{tail}"
@@ -79,12 +95,25 @@ class UncertainQuantity:
 
 
 def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> UncertainQuantity:
-    """Read a length with its uncertainty; ``±`` is one standard deviation.
+    """Read a length with its uncertainty; ``±`` means one standard deviation.
+
+    Parameters
+    ----------
+    text : str
+        A text such as ``"5 mm ± 1 mm"`` or ``"3 mm to 4 mm"``.
+    argument : str
+        Name of the quantity in messages.
+    bounds : (float, float)
+        Smallest and largest length in m.
 
     Raises
     ------
     BadInput
-        Without an uncertainty or a unit, or out of `bounds` (m).
+        The text has no uncertainty or no unit, or the length is out of bounds.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
     return _read(text, argument, bounds, lambda part: float(length(part, argument)), lengths=True)
 
@@ -92,9 +121,27 @@ def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Un
 def measured_number(
     text: str, argument: str, bounds: tuple[float, float], *, factor: bool = False
 ) -> UncertainQuantity:
-    """Read a number without unit and its uncertainty; ``±`` is one standard deviation.
+    """Read a dimensionless number with its uncertainty; ``±`` means one standard deviation.
 
-    With `factor` it is one that multiplies, such as a stiffness (see `UncertainQuantity`).
+    Parameters
+    ----------
+    text : str
+        A text such as ``"0.3 ± 0.1"`` or ``"0.05 to 0.5"``.
+    argument : str
+        Name of the quantity in messages.
+    bounds : (float, float)
+        Smallest and largest number.
+    factor : bool
+        Whether the number is a factor with a lognormal distribution (see `UncertainQuantity`).
+
+    Raises
+    ------
+    BadInput
+        The text has no uncertainty, or the number is out of bounds.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
 
     def number(part: str) -> float:
@@ -115,7 +162,7 @@ def _read(
     *,
     lengths: bool,
 ) -> UncertainQuantity:
-    if len(text) > LONGEST:  # the patterns take long over long ones
+    if len(text) > LONGEST:  # matching the patterns to a long text takes too long
         raise _unreadable(argument, text, lengths=lengths)
     stripped = text.strip()
     spread, span = _PLUS_MINUS.fullmatch(stripped), _RANGE.fullmatch(stripped)
@@ -127,7 +174,8 @@ def _read(
     if lengths and unit is not None and _UNIT.search(parts[0]) is None:
         parts[0] += f" {unit[0]}"  # 5 ± 1 mm
     if spread and parts[1].endswith("%"):
-        raise BadInput(argument, text, "an uncertainty in its own unit", EXAMPLE[lengths])
+        raise BadInput(argument, text, "a value with an absolute uncertainty, not in per cent",
+                       f"write it like {EXAMPLE[lengths]}")  # fmt: skip
     first, second = (read(part) for part in parts)
     low, high = bounds
     shown = [format_length(bound) if lengths else f"{bound:g}" for bound in bounds]
@@ -142,5 +190,5 @@ def _read(
 
 def _unreadable(argument: str, text: str, *, lengths: bool) -> BadInput:
     what = "a length with its uncertainty" if lengths else "a number with its uncertainty"
-    remedy = f"write it like {EXAMPLE[lengths]}; '± 0' where it is exact"
+    remedy = f"write it like {EXAMPLE[lengths]}; an exact value has the uncertainty '± 0'"
     return BadInput(argument, text, what, remedy)

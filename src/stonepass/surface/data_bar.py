@@ -1,8 +1,9 @@
-"""Data bars: the rows of text and scale that a microscope draws under or over a micrograph.
+"""Detection of data bars, the rows with text and a scale that a microscope adds to a micrograph.
 
-A row of a bar has one grey, the bar's background, at half of its pixels or more, or three greys,
-the backgrounds of its cells, at nearly all; frame and writing take the rest. A row of a surface has
-not, unless the picture has next to no contrast.
+In a row of a data bar at least half of the pixels have one grey level, the background of the bar,
+or nearly all pixels have one of three grey levels, the backgrounds of its cells. The frame and the
+letters take the other pixels. The grey levels of a row of the surface vary more, unless the picture
+has almost no contrast.
 """
 
 from __future__ import annotations
@@ -13,28 +14,33 @@ from stonepass.array_types import Bool, Float, Num
 
 __all__ = ["drawn_rows", "find_bar"]
 
-LIKE = 64  # a grey counts as the background's within this fraction of the picture's greys,
-LIKE_MOST = 2  # and two at most: what JPEG makes of one grey
-BINS = 256  # greys that are told apart
-GREYS = 3  # backgrounds of the cells of a bar
-DRAWN = (0.5, 0.85)  # of a row, with its commonest grey and with the three commonest: as in a bar
-SURFACE = (0.3, 0.5)  # the same of the rows beside a bar, at most
-ROWS_DRAWN = 0.75  # of the rows of a bar, at least: large letters hide the background of some
-THINNEST, HIGHEST = 6, 0.4  # rows; of the picture
-BESIDE = 8  # least number of rows looked at beside a bar
-EDGE = slice(2, 6)  # of them, where the surface must have begun; JPEG smears two rows
+# Grey levels nearer to each other than 1/LIKE of the range of the picture, and at most LIKE_MOST
+# levels, count as one background: JPEG compression spreads one level over so many.
+LIKE = 64
+LIKE_MOST = 2
+BINS = 256  # number of grey levels that are distinguished
+GREYS = 3  # largest number of backgrounds of the cells of a bar
+# Least fractions of the pixels of a row of a bar that have its commonest grey level, or one of its
+# three commonest levels. A row that reaches one of them is called drawn.
+DRAWN = (0.5, 0.85)
+SURFACE = (0.3, 0.5)  # largest values of these fractions in the rows next to a bar
+ROWS_DRAWN = 0.75  # least fraction of drawn rows in a bar; large letters hide some backgrounds
+THINNEST = 6  # smallest height of a bar in rows
+HIGHEST = 0.4  # largest height of a bar as a fraction of the picture
+BESIDE = 8  # least number of rows next to a bar that are examined
+EDGE = slice(2, 6)  # rows next to a bar that must be surface; JPEG blurs the first two
 
 
 def drawn_rows(values: Num[np.ndarray, "rows columns"]) -> Bool[np.ndarray, " rows"]:
-    """Whether each row of grey values is made of few greys, as those of a bar are."""
+    """Return for each row whether one or three grey levels dominate it, as in a data bar."""
     return _drawn(_shares(values, int(values.min()), int(values.max())))
 
 
 def find_bar(values: Num[np.ndarray, "rows columns"]) -> tuple[int, int]:
-    """Numbers of rows at the top and at the bottom of a grey picture that are a data bar.
+    """Return the heights of the data bars at the top and at the bottom of a grey picture.
 
-    A bar is found where it begins sharply: rows that are drawn beside rows that are not. At most
-    40 % of the picture are taken for a bar.
+    A bar needs a sharp edge: drawn rows, which few grey levels dominate, next to rows of the
+    surface. Each bar is at most 40 % of the picture high. A height of 0 means that there is no bar.
     """
     low, high = int(values.min()), int(values.max())
     most = int(HIGHEST * len(values))
@@ -47,7 +53,7 @@ def find_bar(values: Num[np.ndarray, "rows columns"]) -> tuple[int, int]:
 def _shares(
     values: Num[np.ndarray, "rows columns"], low: int, high: int
 ) -> Float[np.ndarray, "rows 2"]:
-    """Fractions of each row that have its commonest grey, and its three commonest."""
+    """Return the fractions of each row with its commonest grey level and its three commonest."""
     shift = max((high - low).bit_length() - (BINS - 1).bit_length(), 0)
     near = 0 if shift else min(LIKE_MOST, (high - low) // LIKE)
     shares = np.zeros((len(values), 2))
@@ -68,7 +74,7 @@ def _drawn(shares: Float[np.ndarray, "rows 2"]) -> Bool[np.ndarray, " rows"]:
 
 
 def _rows_of_bar(shares: Float[np.ndarray, "rows 2"]) -> int:
-    """Height of the bar at the first of these rows; 0 where there is none."""
+    """Return the height of the bar that begins at the first row; 0 if there is none."""
     drawn = _drawn(shares)
     for rows in range(len(shares) - BESIDE, THINNEST - 1, -1):
         begins_here = drawn[rows - 1] and not drawn[rows]

@@ -1,4 +1,4 @@
-"""A decoded picture of one or more channels, or of a palette, and the one channel of grey in it."""
+"""A decoded picture with one or more channels or a palette, and its grey channel."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from stonepass.surface.surface_image import Area
 
 __all__ = ["Decoded"]
 
-COLOURED = 2  # grey levels of 255 by which channels may differ in a grey picture
-ROWS = 512  # compared at a time
+COLOURED = 2  # largest difference of the channels of a grey pixel, in levels of 255
+ROWS = 512  # number of rows that are processed at a time, to limit the memory
 
 
 @dataclass(frozen=True, eq=False)
 class Decoded:
-    """Samples of a picture as the file has them.
+    """The samples of a picture as they are stored in the file.
 
     Attributes
     ----------
     values : array (rows, columns) or (rows, columns, samples)
-        Unsigned numbers of 8 or 16 bits: grey, grey and alpha, colours, or colours and alpha; or
-        places in the palette.
+        Unsigned integers of 8 or 16 bits. The samples of a pixel are grey, grey and alpha, red,
+        green and blue, or these and alpha. With a palette the values are indices into it.
     palette : array (entries, 3) or None
-        Colours, 8 bit.
+        Red, green and blue of each entry, 0 to 255; None without a palette.
     """
 
     values: Num[np.ndarray, "rows columns *samples"]
@@ -33,18 +33,21 @@ class Decoded:
 
     @property
     def has_alpha(self) -> bool:
-        """Whether the last channel says how opaque a pixel is."""
+        """Whether the last channel is alpha, the opacity of the pixel."""
         return self.values.ndim == 3 and self.values.shape[2] in (2, 4)
 
     def grey(self) -> Num[np.ndarray, "rows columns"]:
-        """The first channel, in native byte order; an equal one for each colour counts as one."""
+        """Return the first channel in native byte order.
+
+        In a grey picture that was saved in colour all three colour channels are equal.
+        """
         if self.palette is not None:
             return self._look_up(np.ascontiguousarray(self.palette[:, 0]))
         values = self.values if self.values.ndim == 2 else self.values[..., 0]
         return np.ascontiguousarray(values, values.dtype.newbyteorder("="))
 
     def coloured(self, area: Area) -> tuple[int, int] | None:
-        """Column and row of the first pixel of an area that is not grey; None where all are."""
+        """Return column and row of the first coloured pixel of an area; None if all are grey."""
         for start in range(area.top, area.bottom, ROWS):
             rows = slice(start, min(start + ROWS, area.bottom))
             spots = self._is_coloured(self.values[rows, area.left : area.right])
@@ -55,14 +58,14 @@ class Decoded:
 
     def _look_up(self, entries: Num[np.ndarray, " entries"]) -> Num[np.ndarray, "rows columns"]:
         found = np.zeros(self.values.shape[:2], entries.dtype)
-        for start in range(0, len(found), ROWS):  # indices take eight bytes each
+        for start in range(0, len(found), ROWS):  # NumPy converts the indices to eight bytes each
             found[start : start + ROWS] = entries[self.values[start : start + ROWS]]
         return found
 
     def _is_coloured(
         self, values: Num[np.ndarray, "rows columns *samples"]
     ) -> Bool[np.ndarray, "rows columns"] | None:
-        """Whether each pixel is coloured; None where none can be."""
+        """Return for each pixel whether it is coloured; None for a picture without colours."""
         if self.palette is not None:
             return (np.ptp(self.palette.astype(int), axis=1) > COLOURED)[values]
         if values.ndim == 2 or values.shape[2] < 3:

@@ -1,4 +1,4 @@
-"""The name of a file in a sentence: short enough to leave room for what is wrong with it."""
+"""Names of files and texts of libraries, shortened for use in messages."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from pathlib import Path
 
 __all__ = ["said_of", "short_name"]
 
-LONGEST = 40  # characters of a name
-SAID = 160  # characters of what a library says
+LONGEST = 40  # largest number of characters of a file name in a message
+SAID = 160  # largest number of characters of the message of a library
 
 
 def short_name(path: Path) -> str:
@@ -18,7 +18,15 @@ def short_name(path: Path) -> str:
 
 
 def said_of(path: Path, problem: BaseException) -> str:
-    """Return in one line what a library says of a file, which it need not name."""
+    """Return the error message of a library in one line, without the name of the file.
+
+    Parameters
+    ----------
+    path : Path
+        The file; its path and name are replaced by "the file".
+    problem : BaseException
+        The error that the library raised.
+    """
     said = " ".join(f"{type(problem).__name__}: {problem}".split())
     for name in (str(path), path.name):
         said = said.replace(repr(name), "the file").replace(name, "the file")

@@ -1,8 +1,10 @@
-"""The friction coefficient from the slopes of a stone's surface (paper, section 2.3 and Eq. 18).
+"""The friction coefficient from the slopes of a stone's surface (Liu et al. 2022, section 2.3).
 
-Grey values become heights by scaling their range to the known height range; the profiles of several
-paths are averaged; the mean profile has a baseline, whose largest slope is k₀, and the deviation
-from it a richer baseline, whose largest slope is k₁; μ_f = tan(arctan k₀ + arctan k₁) (Popov 2017).
+Grey levels are converted to heights by scaling their range to the known height range. The profiles
+along several paths are averaged. A baseline is fitted to the mean profile; its largest slope is k₀.
+A second baseline of higher order is fitted to the deviation of the mean profile from the first; its
+largest slope is k₁. The friction coefficient is μ_f = tan(arctan k₀ + arctan k₁) (Eq. 18). The
+method, its accuracy and its limits are described in docs/friction.md.
 """
 
 from __future__ import annotations
@@ -44,25 +46,35 @@ __all__ = [
     "surface_friction",
 ]
 
-CRYSTAL_DIAGONAL = sqrt(3.0)  # height range over the edge of a cubic crystal (section 2.3)
-RELIEF = (1e-9, 1e-2)  # m
-ORDER = (1, 200)
-RICHER = 2  # order of the deviation's baseline over that of the first
-WIDEST = 2.0  # shortest waves: the widest margin that may be asked for
-SAMPLES = 4  # least number of samples for each term of a baseline
-FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # of the first order, both together
-MARGINS = (0.0, 0.25, MARGIN, 1.0)  # shortest waves, for the spread
-LARGEST = 2.0  # μ_f that a case takes
-DRIFT = 0.01  # of the height range over the area, from which levelling is tried
-TELL_TILT = 0.02  # slope of the plane over μ_f, from which a tilt is told of
+# Height range of a cubic crystal that stands on a corner, divided by its edge: its space diagonal.
+CRYSTAL_DIAGONAL = sqrt(3.0)
+RELIEF = (1e-9, 1e-2)  # smallest and largest height range in m
+ORDER = (1, 200)  # smallest and largest order of a baseline
+RICHER = 2  # default ratio of the orders of the second and the first baseline
+WIDEST = 2.0  # widest margin that may be given, in units of the shortest wavelength
+SAMPLES = 4  # least number of samples per term of a baseline
+FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # factors on both orders, for the spread
+MARGINS = (0.0, 0.25, MARGIN, 1.0)  # margins in shortest wavelengths, for the spread
+LARGEST = 2.0  # largest friction coefficient that a case accepts
+DRIFT = 0.01  # change of the plane over the area, over the height range, below which it is ignored
+TELL_TILT = 0.02  # slope of the plane over μ_f above which a warning is given
 
 
 @dataclass(frozen=True)
 class Roughness:
-    """Roughness of the single profiles less their mean lines, averaged over the paths.
+    """Roughness of the profiles after subtraction of their mean lines, averaged over the paths.
 
-    `Ra` and `Rq` are in m; `RdeltaQ` is the root mean square of dz/dx, seven-point differences. No
-    filter sets waviness apart, so these are Pa, Pq and PΔq of ISO 21920.
+    Waviness is not filtered out, so that these are the parameters of the primary profile of
+    ISO 21920 (named Pa, Pq and PΔq there).
+
+    Attributes
+    ----------
+    Ra : float
+        Arithmetic mean of the absolute heights in m.
+    Rq : float
+        Root mean square of the heights in m.
+    RdeltaQ : float
+        Root mean square of the slope dz/dx by seven-point differences, dimensionless.
     """
 
     Ra: float
@@ -72,18 +84,25 @@ class Roughness:
 
 @dataclass(frozen=True)
 class Spread:
-    """How μ_f moves with what was chosen.
+    """Friction coefficients μ_f for other choices of paths, orders, grey scaling and margins.
+
+    A value is NaN if μ_f does not exist for a choice.
 
     Attributes
     ----------
     paths : tuple of float
-        μ_f without one path, for each; empty for a single path.
+        μ_f without the k-th path, for each k; empty for a single path.
     orders : tuple of (int, float)
-        Order of the first baseline and μ_f, the second one as much richer.
+        Order of the first baseline, and μ_f. The order of the second baseline changes in
+        proportion.
     height_range : tuple of (str, float)
-        How grey is scaled to the height range, and μ_f; empty for heights.
+        Way in which grey levels are scaled to the height range, and μ_f; empty for height maps.
     margins : tuple of (float, float)
-        Margin at the ends of the paths in shortest waves, and μ_f.
+        Margin at the ends of the paths in units of the shortest wavelength, and μ_f.
+
+    References
+    ----------
+    docs/friction.md, "What is done".
     """
 
     paths: tuple[float, ...]
@@ -93,13 +112,11 @@ class Spread:
 
     @property
     def sd(self) -> float | None:
-        """Standard deviation of μ_f: jackknife over paths, orders and scalings, put together.
+        """Combined standard deviation of μ_f; None if μ_f does not exist for one of the choices.
 
-        Margins do not count: with none at all the ends of the paths are looked at, where a slope
-        is several times less certain.
-
-
-        None where μ_f does not exist for one of the choices.
+        It is the root of the sum of squares of three parts: the jackknife standard error over the
+        paths, and the standard deviations over the orders and over the grey scalings. The margins
+        are left out, because slopes at the very ends of the paths are several times less accurate.
         """
         parts = [_sd([mu for _, mu in self.orders]), _sd([mu for _, mu in self.height_range])]
         count = len(self.paths)
@@ -112,29 +129,43 @@ class Spread:
 @array_dataclass
 @dataclass(frozen=True, repr=False)
 class SurfaceFriction(Result):
-    """The friction coefficient of a surface, and all that it was computed from.
+    """The friction coefficient of a surface with the data and intermediate results behind it.
 
     Attributes
     ----------
     picture : SurfaceImage
+        Micrograph or height map.
     friction : float
-        μ_f (Eq. 18).
-    baseline, deviation_baseline : Baseline
-        Of the mean profile, and of what is left of it; their largest slopes are k₀ and k₁.
+        Friction coefficient μ_f.
+    baseline : Baseline
+        Baseline of the mean profile; its largest slope is k₀.
+    deviation_baseline : Baseline
+        Baseline of the deviation from the first one; its largest slope is k₁.
     height_range : float or None
-        In m; None for a height map.
-    distance, profiles, mean : array
-        Distance from the start of the paths in m, heights along each, and their mean.
+        Height range of the grey levels in m; None for a height map.
+    paths : tuple of StraightPath
+        Paths in pixels.
+    distance : array (n)
+        Distance from the start of the paths in m.
+    profiles : array (paths, n)
+        Heights along each path in m.
     roughness : Roughness
+        Roughness of the profiles.
     spread : Spread
+        Friction coefficients for other choices.
     tilt : float
-        Angle in rad between the least-squares plane of the surface and the picture's.
+        Angle in rad between the least-squares plane of the surface and the plane of the picture.
     levelled : bool
-        Whether that plane was subtracted.
+        Whether the least-squares plane was subtracted.
     friction_levelled : float or None
-        μ_f with the plane subtracted; None where it was not tried, because the plane changes by
-        less than 1 % of the height range over the area, or has no answer.
+        μ_f with the plane subtracted. It is None if the plane changes by less than 1 % of the
+        height range over the area, or if μ_f does not exist with the plane subtracted.
     warnings : tuple of Caution
+        Warnings about the picture, the paths and the result.
+
+    References
+    ----------
+    Liu et al. 2022, Eq. 18; docs/friction.md, "What is done".
     """
 
     picture: SurfaceImage
@@ -162,32 +193,41 @@ class SurfaceFriction(Result):
 
     @property
     def mean(self) -> Float[np.ndarray, " n"]:
-        """The mean profile in m."""
+        """Mean profile in m, an array (n)."""
         return self.profiles.mean(axis=0)
 
     @property
     def deviation(self) -> Float[np.ndarray, " n"]:
-        """The mean profile less its baseline, in m."""
+        """Mean profile minus its baseline in m, an array (n)."""
         return self.mean - self.baseline.at(self.distance)
 
     @property
     def k0(self) -> float:
-        """Largest slope of the baseline."""
+        """Largest slope k₀ of the baseline of the mean profile."""
         return self.baseline.steepest
 
     @property
     def k1(self) -> float:
-        """Largest slope of the deviation's baseline."""
+        """Largest slope k₁ of the baseline of the deviation."""
         return self.deviation_baseline.steepest
 
 
 def friction_of_slopes(k0: float, k1: float) -> float:
-    """μ_f = tan(arctan k₀ + arctan k₁) (Eq. 18).
+    """Compute μ_f = tan(arctan k₀ + arctan k₁) = (k₀ + k₁)/(1 − k₀ k₁).
+
+    Parameters
+    ----------
+    k0, k1 : float
+        Largest slopes of the two baselines, dimensionless, at least 0, with k₀ k₁ < 1.
 
     Raises
     ------
     BadInput
-        Where k₀ k₁ ≥ 1: the two slopes together are upright or overhang.
+        A slope is negative, or k₀ k₁ ≥ 1, so that the sum of both angles is 90° or more.
+
+    References
+    ----------
+    Liu et al. 2022, Eq. 18; docs/friction.md, "What is done".
     """
     require(k0 >= 0.0 and k1 >= 0.0, "slopes", f"{k0:g} and {k1:g}", "not negative")
     if k0 * k1 >= 1.0:
@@ -198,7 +238,7 @@ def friction_of_slopes(k0: float, k1: float) -> float:
 
 @dataclass(frozen=True)
 class _Choices:
-    """Orders of both baselines, and the margin at the ends of the paths in shortest waves."""
+    """Orders of both baselines, and the margin in units of their shortest wavelengths."""
 
     first: int
     second: int
@@ -207,7 +247,7 @@ class _Choices:
 
 @dataclass(frozen=True, eq=False)
 class _Surface:
-    """Profiles as they are sampled, and as heights; how grey becomes height, by each scaling."""
+    """Sampled profiles, the same profiles as heights in m, and the range of each grey scaling."""
 
     sampled: Float[np.ndarray, "paths n"]
     heights: Float[np.ndarray, "paths n"]
@@ -223,36 +263,46 @@ def surface_friction(
     level: bool = False,
     margin: float = MARGIN,
 ) -> SurfaceFriction:
-    """Find the friction coefficient of a surface from its picture.
+    """Compute the friction coefficient of a surface from a micrograph or height map.
 
     Parameters
     ----------
     picture : SurfaceImage
-        With a pixel size.
-    height_range : str or Length
-        Height from the darkest to the brightest grey, both of means over 5 × 5 pixels, 1 nm to
-        10 mm; the paper takes √3 edges of its cubic crystals. Left out for a height map.
+        Grey levels or heights; its pixel size must be known.
+    height_range : str or Length, optional
+        Height of the brightest grey level above the darkest, 1 nm to 10 mm, in m or as text with a
+        unit. Both levels are extremes of means over 5 × 5 pixels. The paper takes √3 times the
+        edge of its cubic crystals. It is required for grey levels and refused for heights.
     paths : int or sequence of StraightPath
-        A number of horizontal paths, evenly spaced; or the paths themselves. In a height map gaps
-        of up to a quarter of the deviation's shortest wave are bridged, and a row with longer ones
-        is replaced by the nearest row without.
+        Number of evenly spaced horizontal paths, 1 to 100, or the paths themselves. In a height map
+        gaps are bridged up to a quarter of the shortest wavelength of the second baseline; a row
+        with longer gaps is replaced by the nearest row without them.
     baseline_order : int
-        N of the mean profile's baseline: it follows waves down to 2L/N. 1 to 200.
+        Order N of the first baseline, 1 to 200. It follows waves of the length 2L/N and longer.
     deviation_order : int, optional
-        That of the deviation's baseline, larger; twice as large by default. In the same basis
-        a least-squares residual has no baseline, so its slope would be zero.
+        Order of the second baseline, larger than the first; by default twice the first. With equal
+        orders the second baseline would be zero, since a least-squares residual is orthogonal to
+        its basis.
     level : bool
-        Whether the least-squares plane of the area is subtracted first, which takes out the tilt of
-        a specimen on its stage. Without it a tilt that matters is told of.
+        Whether the least-squares plane of the area is subtracted first, which removes the tilt of
+        the specimen. Without it a warning is given if the tilt influences the result.
     margin : float
-        How far from the ends of the paths the steepest slopes are looked for, in shortest waves of
-        each baseline, 0 to 2; a quarter of the path at most.
+        Margin at the ends of the paths in which slopes are not evaluated, in units of the shortest
+        wavelength of each baseline, 0 to 2. The margin is a quarter of the path at most.
+
+    Returns
+    -------
+    SurfaceFriction
 
     Raises
     ------
     BadInput
-        A flat or saturated picture, a height range that is missing or too much, paths too short
-        for the baselines or with gaps too long, or slopes with k₀ k₁ ≥ 1.
+        The picture is flat or saturated, the height range is missing or superfluous, the paths are
+        too short for the baselines or have too long gaps, or k₀ k₁ ≥ 1.
+
+    References
+    ----------
+    Liu et al. 2022, section 2.3 and Eq. 18; docs/friction.md, "What is done".
     """
     scale = _height_range(picture, height_range)
     choices = _choices(baseline_order, deviation_order, margin)
@@ -285,7 +335,7 @@ def surface_friction(
 
 
 def _warnings(found: SurfaceFriction) -> list[Caution]:
-    """Return the cautions about a result."""
+    """Return the warnings about a result."""
     told, spread, levelled = [], found.spread, found.friction_levelled
     if len(found.paths) == 1:
         told.append(caution("single_path"))
@@ -306,7 +356,7 @@ def _warnings(found: SurfaceFriction) -> list[Caution]:
 def _surface(
     picture: SurfaceImage, sampled: Profiles, scale: float | None, plane: Plane | None
 ) -> _Surface:
-    """Profiles as heights, less a plane where one is given."""
+    """Convert the profiles to heights, after subtraction of the plane if one is given."""
     values = sampled.values
     if plane is not None:
         values = values - plane.at(sampled.columns, sampled.rows)
@@ -316,7 +366,7 @@ def _surface(
 
 
 def _tilt(picture: SurfaceImage, plane: Plane, scale: float | None, surface: _Surface) -> float:
-    """Angle of the surface's plane in rad."""
+    """Return the angle in rad between the plane of the surface and that of the picture."""
     assert picture.pixel is not None
     if scale is None:
         return plane.tilt(picture.pixel, 1.0)
@@ -327,7 +377,7 @@ def _tilt(picture: SurfaceImage, plane: Plane, scale: float | None, surface: _Su
 def _friction_levelled(
     picture: SurfaceImage, sampled: Profiles, scale: float | None, plane: Plane, choices: _Choices
 ) -> float | None:
-    """μ_f less the plane; None where that changes next to nothing, or has no answer."""
+    """Return μ_f with the plane subtracted; None if the plane is flat or μ_f does not exist."""
     values = sampled.values
     drift = np.ptp(plane.at(sampled.columns, sampled.rows))
     if drift < DRIFT * np.ptp(values):
@@ -352,14 +402,15 @@ def _check_samples(samples: int, choices: _Choices) -> None:
 def _chosen(
     picture: SurfaceImage, paths: Any, longest_gap: float
 ) -> tuple[list[StraightPath], list[Caution]]:
-    """The paths; whether some of the evenly spaced ones were moved."""
+    """Return the paths, and a caution if evenly spaced ones were moved because of gaps."""
     if isinstance(paths, Integral) and not isinstance(paths, bool):
         chosen = evenly_spaced(picture, int(paths), longest_gap)
         moved = rows_moved(picture.area, chosen)
         return chosen, [caution("paths_moved", moved=moved, paths=len(chosen))] if moved else []
     listed = list(paths) if isinstance(paths, Iterable) else [paths]
     for each in listed:
-        require(isinstance(each, StraightPath), "paths", each, "a whole number, or paths")
+        require(isinstance(each, StraightPath), "paths", each,
+                "a whole number, or a sequence of StraightPath")  # fmt: skip
     return listed, []
 
 
@@ -391,12 +442,12 @@ def _choices(first: int, second: int | None, margin: float) -> _Choices:
         allowed = f"a whole number from {low} to {high}"
         require(whole and low <= order <= high, f"order of the {name}", order, allowed)
         found.append(int(order))
-    why = "in the same basis the deviation has no slope"
+    why = "with equal orders the baseline of the deviation would be zero"
     require(found[1] > found[0], "order of the deviation's baseline", found[1],
-            f"larger than that of the first, {found[0]}", why)  # fmt: skip
+            f"larger than the order of the first baseline, {found[0]}", why)  # fmt: skip
     number = isinstance(margin, Real) and not isinstance(margin, bool)
     within = number and 0.0 <= margin <= WIDEST
-    require(within, "margin", margin, f"a number from 0 to {WIDEST:g}, in shortest waves")
+    require(within, "margin", margin, f"from 0 to {WIDEST:g} (shortest wavelengths)")
     return _Choices(found[0], found[1], float(margin))
 
 
@@ -420,7 +471,7 @@ def _spread(
     count = len(heights)
 
     def friction(profile: Float[np.ndarray, " n"], other: _Choices = choices) -> float:
-        """μ_f by other choices; NaN where it does not exist."""
+        """Return μ_f for other choices; NaN if it does not exist."""
         try:
             return _fit(distance, profile, other)[2]
         except BadInput:
@@ -442,13 +493,13 @@ def _spread(
 
 
 def _at_margin(first: Baseline, rest: Baseline, margin: float) -> float:
-    """μ_f with another margin; NaN where it does not exist."""
+    """Return μ_f with another margin; NaN if it does not exist."""
     steep = [replace(each, margin=margin).steepest for each in (first, rest)]
     return friction_of_slopes(*steep) if steep[0] * steep[1] < 1.0 else np.nan
 
 
 def _most(samples: int) -> int:
-    """The largest order of a baseline that so many samples bear."""
+    """Return the largest order of a baseline that can be fitted to so many samples."""
     return samples // SAMPLES - POWERS
 
 
@@ -457,7 +508,10 @@ def _roughness(
     heights: Float[np.ndarray, "paths n"],
     known: Bool[np.ndarray, "paths n"],
 ) -> Roughness:
-    """Roughness where heights are known; slopes where those of all seven samples are."""
+    """Compute the roughness from measured heights only.
+
+    `known` is False where a gap was bridged. A slope counts if its seven samples are all measured.
+    """
     powers = np.column_stack([np.ones_like(distance), distance / distance[-1]])
     lines = powers @ np.linalg.lstsq(powers, heights.T, rcond=None)[0]
     levelled = heights - lines.T
@@ -465,7 +519,7 @@ def _roughness(
     weights = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / (60.0 * step)
     slopes = np.array([np.correlate(row, weights, "valid") for row in levelled])
     all_known = np.array([np.correlate(row, np.ones(7), "valid") > 6.5 for row in known * 1.0])
-    if not all_known.any(axis=1).all():  # gaps so many that bridged ones are all there is
+    if not all_known.any(axis=1).all():  # a path without seven measured samples in a row
         all_known[:] = True
     return Roughness(
         float(

@@ -1,8 +1,9 @@
-"""Gaps in a height map: which of them a profile may bridge, and where the map's border lies.
+"""Gaps in height maps: which gaps may be bridged by straight lines, and where the border lies.
 
-Optical instruments return no height where too little light comes back, so most of their maps have
-gaps. A straight line over a gap of length g misses a wave of length λ by at most (πg/λ)²/2 of its
-amplitude; gaps of up to a quarter of the shortest wave that a baseline follows are bridged.
+An optical instrument returns no height where too little light comes back, so that most of its maps
+have gaps. A straight line across a gap of length g differs from a wave of length λ by at most
+(πg/λ)²/2 of the amplitude. Gaps are bridged up to a quarter of the shortest wavelength that a
+baseline follows.
 """
 
 from __future__ import annotations
@@ -14,19 +15,35 @@ from stonepass.surface.surface_image import Area
 
 __all__ = ["BRIDGED", "bridge", "bridgeable", "gap_length", "known_area"]
 
-BRIDGED = 0.25  # of the shortest wave of the deviation's baseline: the longest gap that is bridged
-MISSING = 0.25  # of a profile: the largest fraction without heights that is bridged
-SPARSE = 0.25  # of an edge of a map: with more than this missing it belongs to the border
+# Longest gap that is bridged, over the shortest wavelength of the baseline of the deviation.
+BRIDGED = 0.25
+MISSING = 0.25  # largest fraction of a profile without heights that is bridged
+SPARSE = 0.25  # an edge of a map belongs to the border if a larger fraction of it is missing
 
 
 def gap_length(known: Bool[np.ndarray, " n"]) -> int:
-    """Number of samples in the longest run without a height."""
+    """Return the number of samples in the longest gap; `known` is False in gaps."""
     ends = np.flatnonzero(np.concatenate([[True], known, [True]]))
     return int(np.diff(ends).max()) - 1
 
 
 def bridgeable(known: Bool[np.ndarray, " n"], longest: float) -> bool:
-    """Whether a profile has heights at both ends and gaps of at most `longest` samples between."""
+    """Return whether the gaps of a profile may be bridged.
+
+    This is so if both ends have a height, no gap is longer than `longest`, and at most a quarter of
+    the profile is missing.
+
+    Parameters
+    ----------
+    known : array (n) of bool
+        Whether each sample of the profile has a height.
+    longest : float
+        Length of the longest gap that may be bridged, in samples.
+
+    References
+    ----------
+    docs/friction.md, "What it reads".
+    """
     return bool(
         known[0]
         and known[-1]
@@ -38,21 +55,36 @@ def bridgeable(known: Bool[np.ndarray, " n"], longest: float) -> bool:
 def bridge(
     values: Float[np.ndarray, " n"], known: Bool[np.ndarray, " n"]
 ) -> Float[np.ndarray, " n"]:
-    """Return a profile whose gaps are straight lines between the heights beside them."""
+    """Return a profile whose gaps are filled by straight lines between the heights next to them.
+
+    Parameters
+    ----------
+    values : array (n)
+        Heights in m; the values in gaps are ignored.
+    known : array (n) of bool
+        Whether each sample has a height.
+    """
     places = np.arange(len(values))
     return np.interp(places, places[known], values[known])
 
 
 def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | None:
-    """Return the part of an area that is left without the border where heights are missing.
+    """Return the part of an area inside the border in which many heights are missing.
 
-    The edge with the largest missing fraction is taken away until no edge misses more than a
-    quarter of its heights.
+    The row or column at the edge with the largest fraction of missing heights is removed, until at
+    most a quarter of each edge is missing.
+
+    Parameters
+    ----------
+    values : array (rows, columns)
+        Heights in m; NaN where one is missing.
+    area : Area
+        The area in pixels.
 
     Returns
     -------
-    area : Area or None
-        None where fewer than 2 × 2 pixels are left.
+    Area or None
+        None if fewer than 2 × 2 pixels are left.
     """
     known = np.isfinite(values)
     left, top, right, bottom = area.left, area.top, area.right, area.bottom

@@ -1,7 +1,7 @@
-"""From grey values to heights: checks of a picture's greys, and which of them are black and white.
+"""Conversion of grey levels to heights, and checks of the grey levels of a picture.
 
-The darkest grey is taken as the lowest place and the brightest as the highest; between them lies
-the known height range.
+The darkest grey level is taken as the lowest point of the surface and the brightest as the highest
+point. Heights are linear in the grey level between them, over the known height range.
 """
 
 from __future__ import annotations
@@ -17,28 +17,42 @@ from stonepass.surface.surface_image import SurfaceImage
 
 __all__ = ["SCALINGS", "Greys", "check_surface", "grey_ranges", "to_heights"]
 
-ROWS = 512  # looked at together
-LEVELS = 16  # least number of grey levels of a picture that is not flat
-SATURATED = 0.25  # of the pixels at the ends of the greys, at which heights are cut off
-TELL_SATURATED = 0.1  # more than the tops and bottoms of a smooth surface take
-GAP = 0.1  # of the greys, empty beside the brightest or darkest: what writing leaves
-DRAWN_ROWS = 0.01  # of the rows, mainly of one grey: a bar, or a part that is missing
-SMOOTHED = 5  # pixels along each side, over which grey is averaged before its range is taken
-PERCENTILES = (0.1, 99.9)
-SCALINGS = ("smoothed range", "range", "percentiles")
+ROWS = 512  # number of rows that are processed at a time, to limit the memory
+LEVELS = 16  # least difference of the darkest and brightest grey level
+# Largest fraction of pixels with the darkest or brightest level. Above it the picture is refused.
+SATURATED = 0.25
+# Fraction of such pixels above which a warning is given; a smooth surface has fewer.
+TELL_SATURATED = 0.1
+# Gap of unused levels below the brightest or above the darkest level, over the range of levels,
+# above which letters or a scale bar are suspected.
+GAP = 0.1
+DRAWN_ROWS = 0.01  # fraction of rows with few grey levels above which a data bar is suspected
+SMOOTHED = 5  # side in pixels of the square over which grey levels are averaged for their range
+PERCENTILES = (0.1, 99.9)  # percentiles of the grey levels that bound their range
+SCALINGS = ("smoothed range", "range", "percentiles")  # three ways to find the range
 
-# Greys of height nought and of the whole height range.
+# Grey levels of the lowest and of the highest point of the surface.
 Greys = tuple[float, float]
 
 
 def check_surface(picture: SurfaceImage) -> list[Caution]:
-    """Refuse a picture that is flat or cut off; warn of what looks like no surface.
+    """Refuse a picture without relief or with saturated grey levels, and warn of other signs.
+
+    Parameters
+    ----------
+    picture : SurfaceImage
+        Grey levels or heights.
+
+    Returns
+    -------
+    list of Caution
+        Warnings about saturated pixels, isolated grey levels and rows that look like a data bar.
 
     Raises
     ------
     BadInput
-        A height map without heights or flat; fewer than 16 grey levels; more than a quarter of the
-        pixels at the darkest and brightest grey.
+        A height map has no heights or is flat, a picture has fewer than 16 grey levels, or at least
+        a quarter of its pixels have the darkest or brightest level.
     """
     values = picture.surface
     if picture.has_heights:
@@ -46,7 +60,7 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
         require(highest > lowest, "height map", "flat or empty", "of a rough surface")
         return []
     counts = np.zeros(picture.full_scale + 1, int)
-    for start in range(0, len(values), ROWS):  # each number becomes eight bytes here
+    for start in range(0, len(values), ROWS):  # bincount converts each value to eight bytes
         counts += np.bincount(values[start : start + ROWS].ravel(), minlength=len(counts))
     greys = np.flatnonzero(counts)
     low, high = int(greys[0]), int(greys[-1])
@@ -69,17 +83,27 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
 
 
 def grey_ranges(picture: SurfaceImage, plane: Plane | None = None) -> list[tuple[str, Greys]]:
-    """Greys of height nought and of the whole height range, by each of `SCALINGS`.
+    """Return the grey levels of the lowest and the highest point, in each of three ways.
 
-    Single pixels reach further than the surface does, by their noise; their mean over a few does so
-    less.
+    Noise makes the range of single pixels wider than that of the surface, so that the first way
+    takes the range of means over 5 × 5 pixels. The others are the range of single pixels and the
+    range between two percentiles.
 
     Parameters
     ----------
     picture : SurfaceImage
         A grey picture.
     plane : Plane, optional
-        Subtracted from the greys first.
+        Plane in grey levels that is subtracted first.
+
+    Returns
+    -------
+    list of (str, (float, float))
+        Name of the way (`SCALINGS`), and the two grey levels.
+
+    References
+    ----------
+    docs/friction.md, "What is done".
     """
     from scipy.ndimage import uniform_filter
 
@@ -97,7 +121,7 @@ def grey_ranges(picture: SurfaceImage, plane: Plane | None = None) -> list[tuple
 
 
 def _less(picture: SurfaceImage, plane: Plane) -> Float[np.ndarray, "rows columns"]:
-    """The numbers of the area less those of a plane."""
+    """Return the grey levels of the area minus those of a plane."""
     area = picture.area
     columns = np.arange(area.left, area.right)
     found = picture.surface.astype(np.float32)
@@ -109,12 +133,30 @@ def _less(picture: SurfaceImage, plane: Plane) -> Float[np.ndarray, "rows column
 def to_heights(
     values: Float[np.ndarray, "paths n"], height_range: float | None, greys: Greys
 ) -> Float[np.ndarray, "paths n"]:
-    """Scale grey values to heights in m; heights (no height range) stay as they are.
+    """Convert grey levels to heights.
+
+    Parameters
+    ----------
+    values : array (paths, n)
+        Grey levels, or heights in m.
+    height_range : float or None
+        Height of the highest point above the lowest in m; None if the values are heights already.
+    greys : (float, float)
+        Grey levels of the lowest and of the highest point.
+
+    Returns
+    -------
+    array (paths, n)
+        Heights in m.
 
     Raises
     ------
     BadInput
-        Black and white are one grey.
+        Both grey levels are equal.
+
+    References
+    ----------
+    docs/friction.md, "What is done".
     """
     if height_range is None:
         return values

@@ -1,9 +1,10 @@
-"""Variants of height-map files that SurfaceTopography does not take, made into those it does.
+"""Conversion of height-map files that the library SurfaceTopography does not read as they are.
 
-X3P files (ISO 25178-72) by R's x3ptools write the revision with a dash and may hold their parts in
-a folder; Windows programs write paths with backslashes. Digital Surf files may be compressed: after
-the header follow the number of streams, the raw and the packed length of each, and the zlib streams
-(all unsigned, 32 bits, little-endian).
+X3P files (ISO 25178-72) are zip archives. The R package x3ptools writes the revision with a dash
+and may put the members of the archive into a folder; Windows programs write paths with backslashes.
+Digital Surf files may be compressed. After their header follow the number of zlib streams, the
+unpacked and packed length of each stream (all as unsigned 32-bit little-endian integers), and the
+streams.
 """
 
 from __future__ import annotations
@@ -22,24 +23,24 @@ from stonepass.surface.limits import DECODED, check_unpacked
 __all__ = ["mended_sur", "mended_x3p"]
 
 MAIN = "main.xml"
-REVISION = b"ISO5436 - 2000"  # what SurfaceTopography takes
+REVISION = b"ISO5436 - 2000"  # the spelling that SurfaceTopography accepts
 REVISIONS = re.compile(
     rb"(<Revision>)\s*ISO\s*5436\s*(?:-|\xe2\x80[\x90-\x95]|\x96|\xad)\s*2000\s*(<)"
 )
 LINKS = re.compile(rb"<(PointDataLink|ValidPointsLink)>([^<]{0,500})<")
 PLAIN, PACKED = b"DIGITAL SURF", b"DSCOMPRESSED"
 HEADER = 512  # bytes before the comment of a Digital Surf file
-SIZES = 334  # where the lengths of the comment and of the private zone stand, two bytes each
-STREAMS = 64  # at most
+SIZES = 334  # offset of the lengths of the comment and of the private zone, two bytes each
+STREAMS = 64  # largest number of streams that is accepted
 
 
 def mended_x3p(path: Path) -> BytesIO | None:
-    """Return an X3P file with its parts where they belong; None where they are.
+    """Return a converted copy of an X3P file, or None if the file needs no conversion.
 
     Raises
     ------
     BadInput
-        Parts that are too large together.
+        The members of the archive are larger than 90 MB in total.
     """
     if not zipfile.is_zipfile(path):
         return None
@@ -67,13 +68,13 @@ def mended_x3p(path: Path) -> BytesIO | None:
 
 
 def _folder(names: list[str]) -> str | None:
-    """The folder, with its slash, of the uppermost table of contents; None where there is none."""
+    """Return the least nested folder, with its slash, that contains main.xml; None without one."""
     found = [name[: -len(MAIN)] for name in names if f"/{name}".lower().endswith(f"/{MAIN}")]
     return min(found, key=lambda folder: folder.count("/"), default=None)
 
 
 def _mended_main(main: bytes) -> bytes:
-    """The table of contents with the revision and the links as SurfaceTopography takes them."""
+    """Return main.xml with the revision and the links in the form that SurfaceTopography reads."""
     main = REVISIONS.sub(rb"\g<1>" + REVISION + rb"\g<2>", main)
     return LINKS.sub(
         lambda link: b"<%s>%s<" % (link.group(1), link.group(2).strip().replace(b"\\", b"/")), main
@@ -81,12 +82,12 @@ def _mended_main(main: bytes) -> bytes:
 
 
 def mended_sur(path: Path) -> BytesIO | None:
-    """Return a Digital Surf file without compression; None where it has none.
+    """Return an uncompressed copy of a Digital Surf file, or None if the file is not compressed.
 
     Raises
     ------
     BadInput
-        Streams that are too large or damaged.
+        The file has more than 64 streams, or they are larger than 90 MB in total.
     """
     with path.open("rb") as file:
         head = file.read(HEADER)

@@ -1,4 +1,4 @@
-"""Height maps of surface instruments to surface images, by SurfaceTopography."""
+"""Reader of the height maps of surface instruments, based on the library SurfaceTopography."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from stonepass.surface.surface_image import Area, SurfaceImage
 
 __all__ = ["HEIGHT_MAPS", "read_height_map"]
 
-# Ending of the name to the reader of SurfaceTopography.
+# Reader of SurfaceTopography for each file name extension.
 HEIGHT_MAPS = {
     ".al3d": "al3d", ".bcr": "bcr", ".bcrf": "bcr", ".datx": "datx", ".ezd": "ezd", ".frt": "frt",
     ".gwy": "gwy", ".ibw": "ibw", ".jpk": "jpk", ".lext": "lext", ".mdt": "mdt", ".mnt": "mnt",
@@ -27,14 +27,28 @@ HEIGHT_MAPS = {
     ".vk3": "vk", ".vk4": "vk", ".vk6": "vk", ".vk7": "vk", ".x3p": "x3p", ".zmg": "zmg",
     ".zon": "zon",
 }  # fmt: skip
-# What is mended before it is read: a stream, or None where the file is as the reader wants it.
+# Conversions before reading: each returns a converted copy, or None if the file needs none.
 MENDED = {".sur": mended_sur, ".x3p": mended_x3p}
 READ, EXTRA = "read this file", "imaging"
-SHOWN = 5  # channels named in a refusal
+SHOWN = 5  # largest number of channels named in an error message
 
 
 def read_height_map(path: Path, area: Area | None) -> SurfaceImage:
-    """Read the default channel of a file, or the first other one that is a map of heights."""
+    """Read the default channel of a file, or else its first channel that is a map of heights.
+
+    Parameters
+    ----------
+    path : Path
+        File with one of the extensions in `HEIGHT_MAPS`.
+    area : Area or None
+        The part that belongs to the surface, in pixels; None for the whole map.
+
+    Raises
+    ------
+    BadInput
+        The file has no map of heights or no unit of length, it is larger than 20 million points, or
+        SurfaceTopography is not installed.
+    """
     reading = library("SurfaceTopography.IO", READ, EXTRA)
     ending = path.suffix.lower()
     stream: BytesIO | None = MENDED[ending](path) if ending in MENDED else None
@@ -48,8 +62,8 @@ def read_height_map(path: Path, area: Area | None) -> SurfaceImage:
         topography = reader.topography(channel_index=index)
         sizes, metre = topography.physical_sizes, _metre(topography.unit)
         if metre is None:
-            shown = f"{short_name(path)} without a unit"
-            raise BadInput("image", shown, "a map with a unit of length")
+            shown = f"{short_name(path)} without a unit of length"
+            raise BadInput("image", shown, "a height map with a unit of length")
         values = _values(topography.heights(), metre)
     pixel = (float(sizes[0]) * metre / columns, float(sizes[1]) * metre / rows)
     whole = Area(0, 0, columns, rows)
@@ -57,11 +71,11 @@ def read_height_map(path: Path, area: Area | None) -> SurfaceImage:
 
 
 def _channel_of_heights(path: Path, channels: list[Any], default: int) -> int:
-    """Index of the channel to read."""
+    """Return the index of the channel to read."""
     order = sorted(range(len(channels)), key=lambda index: (index != default, index))
     maps = [index for index in order if len(channels[index].nb_grid_pts) == 2]
     if channels and not maps:
-        raise BadInput("image", f"{short_name(path)}, a line", "a map of heights")
+        raise BadInput("image", f"{short_name(path)} with a single line", "a map of heights")
     for index in maps:
         if channels[index].unit is None or _metre(channels[index].unit) is not None:
             return index
@@ -73,7 +87,7 @@ def _channel_of_heights(path: Path, channels: list[Any], default: int) -> int:
 
 
 def _metre(unit: Any) -> float | None:
-    """Return the length of one unit in m; None where it is no unit of length."""
+    """Return one unit in m; None if it is not a unit of length."""
     conversion = library("SurfaceTopography.Support.UnitConversion", READ, EXTRA)
     if not isinstance(unit, str) or not conversion.is_length_unit(unit):
         return None
@@ -81,7 +95,10 @@ def _metre(unit: Any) -> float | None:
 
 
 def _values(heights: Any, metre: float) -> Float[np.ndarray, "rows columns"]:
-    """Heights (columns, rows) as rows in m; NaN where one is missing. One copy is made."""
+    """Return heights (rows, columns) in m; NaN where one is missing.
+
+    The library's array is (columns, rows). It is copied only once, to limit the memory.
+    """
     values = np.array(np.ma.getdata(heights).T, dtype=float, order="C")
     mask = np.ma.getmask(heights)
     if mask is not np.ma.nomask:

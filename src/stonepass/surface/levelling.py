@@ -1,4 +1,4 @@
-"""The least-squares plane of a surface: the tilt of a specimen, or of the greys of a picture."""
+"""The least-squares plane of a surface, which describes the tilt of the specimen."""
 
 from __future__ import annotations
 
@@ -12,12 +12,24 @@ from stonepass.surface.surface_image import SurfaceImage
 
 __all__ = ["Plane", "fit_plane"]
 
-ROWS = 512  # looked at together
+ROWS = 512  # number of rows that are processed at a time, to limit the memory
 
 
 @dataclass(frozen=True)
 class Plane:
-    """offset + across · column + down · row, in the numbers of a picture: grey values, or m."""
+    """The plane offset + across · column + down · row over the pixels of a picture.
+
+    Attributes
+    ----------
+    offset : float
+        Value at the centre of pixel (0, 0): a grey level, or a height in m.
+    across, down : float
+        Change of the value per column and per row.
+
+    References
+    ----------
+    docs/friction.md, "What is done".
+    """
 
     offset: float
     across: float
@@ -26,16 +38,30 @@ class Plane:
     def at(
         self, columns: Num[np.ndarray, "*places"], rows: Num[np.ndarray, "*places"] | float
     ) -> Float[np.ndarray, "*places"]:
-        """Numbers of the plane at places of the picture in pixels."""
+        """Return the values of the plane, grey levels or heights in m.
+
+        Parameters
+        ----------
+        columns, rows : array or float
+            Coordinates in pixels that broadcast against each other.
+        """
         return self.offset + self.across * columns + self.down * rows
 
     def tilt(self, pixel: tuple[float, float], scale: float) -> float:
-        """Angle in rad between the plane and the picture's, with `scale` m for each number."""
+        """Return the angle in rad between this plane and the plane of the picture.
+
+        Parameters
+        ----------
+        pixel : (float, float)
+            Width and height of a pixel in m.
+        scale : float
+            Height in m per unit of the values: m per grey level, or 1 for heights.
+        """
         return math.atan(scale * math.hypot(self.across / pixel[0], self.down / pixel[1]))
 
 
 def fit_plane(picture: SurfaceImage) -> Plane:
-    """Fit a plane to the picture's area by least squares; places without a height do not count."""
+    """Fit a plane to the area of a picture by least squares; missing heights are left out."""
     area = picture.area
     middle = 0.5 * (area.left + area.right - 1), 0.5 * (area.top + area.bottom - 1)
     squares, products = np.zeros((3, 3)), np.zeros(3)

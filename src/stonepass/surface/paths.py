@@ -1,4 +1,4 @@
-"""Straight paths over a picture, and the profiles along them."""
+"""Straight paths across a picture, and the profiles along them."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from stonepass.surface.surface_image import Area, SurfaceImage
 
 __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path", "rows_moved"]
 
-COUNT = (1, 100)
-UNEVEN = 0.01  # of the shortest length, by which paths may differ in silence
-SNAP = 1e-9  # pixels: places nearer to the centre of a pixel than this have its number alone
+COUNT = (1, 100)  # smallest and largest number of paths
+UNEVEN = 0.01  # relative difference of the lengths of paths above which a warning is given
+SNAP = 1e-9  # points nearer to the centre of a pixel, in pixels, take the value of this pixel alone
 MICRO = 1e6  # µm per m
 
 
@@ -27,7 +27,13 @@ MICRO = 1e6  # µm per m
 class StraightPath:
     """A straight line from (x0, y0) to (x1, y1) in pixels.
 
-    x counts columns to the right and y rows downwards; (0, 0) is the centre of the first pixel.
+    Attributes
+    ----------
+    x0, x1 : float
+        Columns of the start and the end, counted to the right in pixels.
+    y0, y1 : float
+        Rows of the start and the end, counted downwards in pixels. (0, 0) is the centre of the
+        first pixel.
     """
 
     x0: float
@@ -36,11 +42,11 @@ class StraightPath:
     y1: float
 
     def length(self, pixel: tuple[float, float]) -> float:
-        """Length in m."""
+        """Return the length in m; `pixel` is the width and the height of a pixel in m."""
         return math.hypot((self.x1 - self.x0) * pixel[0], (self.y1 - self.y0) * pixel[1])
 
     def part(self, begin: float, end: float) -> StraightPath:
-        """Return the part between two fractions of the path."""
+        """Return the part of the path between two fractions of its length, 0 to 1."""
         x, y = self.x1 - self.x0, self.y1 - self.y0
         return StraightPath(
             self.x0 + begin * x, self.y0 + begin * y, self.x0 + end * x, self.y0 + end * y
@@ -50,19 +56,24 @@ class StraightPath:
 @array_dataclass
 @dataclass(frozen=True)
 class Profiles:
-    """Numbers along paths, each from its start, at the same distances.
+    """Values of a picture along several paths, at n equal distances from their starts.
 
     Attributes
     ----------
     distance : array (n)
-        From the start of each path, in m.
+        Distance from the start of a path in m.
     values : array (paths, n)
-        Grey values or heights.
+        Grey levels, or heights in m.
     columns, rows : array (paths, n)
-        Where in the picture they were taken, in pixels.
-    known : array (paths, n)
-        Whether the number is the picture's own; False where a gap between heights was bridged.
+        Coordinates of the samples in the picture, in pixels.
+    known : array (paths, n) of bool
+        False where a gap in a height map was bridged, otherwise True.
     warnings : tuple of Caution
+        Warnings about paths of different lengths and about bridged gaps.
+
+    References
+    ----------
+    docs/friction.md, "What is done".
     """
 
     distance: Float[np.ndarray, " n"]
@@ -74,7 +85,13 @@ class Profiles:
 
 
 def read_path(text: str) -> StraightPath:
-    """Read ``x0,y0,x1,y1``."""
+    """Read a path from a text such as ``10,40,500,40``: x0, y0, x1, y1 in pixels.
+
+    Raises
+    ------
+    BadInput
+        The text is not four numbers.
+    """
     parts = text.split(",")
     try:
         numbers = [float(part) for part in parts]
@@ -88,24 +105,29 @@ def read_path(text: str) -> StraightPath:
 def evenly_spaced(
     picture: SurfaceImage, count: int, longest_gap: float = 0.0
 ) -> list[StraightPath]:
-    """Horizontal paths across the whole area, along rows evenly spaced.
+    """Return evenly spaced horizontal paths across the whole area of a picture.
 
-    In a height map with gaps, a row that cannot be bridged (see `profiles_along`) is replaced by
-    the nearest row that can, and each row is used once.
+    In a height map a row whose gaps cannot be bridged (see `profiles_along`) is replaced by the
+    nearest row whose gaps can. Each row is used once.
 
     Parameters
     ----------
     picture : SurfaceImage
+        Grey levels or heights.
     count : int
-        1 to 100, and at most the number of rows.
+        Number of paths, 1 to 100 and at most the number of rows.
     longest_gap : float
-        As in `profiles_along`.
+        Longest gap that is bridged, as a fraction of the length of the path.
 
     Raises
     ------
     BadInput
-        Another count, or a height map with too few rows that can be bridged; the sentence names the
-        area that leaves its border out, where that helps.
+        The count is out of bounds, or a height map has too few rows whose gaps can be bridged. If
+        an area without the border of the map would help, the message names it.
+
+    References
+    ----------
+    docs/friction.md, "What is done".
     """
     low, high = COUNT
     area = picture.area
@@ -122,7 +144,15 @@ def evenly_spaced(
 
 
 def rows_moved(area: Area, paths: Sequence[StraightPath]) -> int:
-    """Number of paths of `evenly_spaced` that are not on their own rows, because of gaps."""
+    """Return how many paths of `evenly_spaced` were moved to other rows because of gaps.
+
+    Parameters
+    ----------
+    area : Area
+        Area that the paths cross, in pixels.
+    paths : sequence of StraightPath
+        The paths that `evenly_spaced` returned for it.
+    """
     rows = _even_rows(area, len(paths))
     return sum(path.y0 != row for path, row in zip(paths, rows, strict=True))
 
@@ -135,7 +165,7 @@ def _even_rows(area: Area, count: int) -> list[int]:
 def _complete_rows(
     picture: SurfaceImage, area: Area, wanted: Sequence[int], longest_gap: float
 ) -> list[int] | None:
-    """The nearest rows to those wanted that can be bridged; None where there are too few."""
+    """Return for each wanted row the nearest row with bridgeable gaps; None without enough rows."""
     part = picture.values[:, area.left : area.right]
     longest = longest_gap * (area.right - area.left)
     good: dict[int, bool] = {}
@@ -153,7 +183,7 @@ def _complete_rows(
 
 
 def _too_many_gaps(picture: SurfaceImage, count: int, longest_gap: float) -> BadInput:
-    """The refusal of a map whose rows cannot be bridged, and the area that helps."""
+    """Return the error for a height map with too many gaps; it suggests a smaller area."""
     missing = float(np.mean(~np.isfinite(picture.surface)))
     width = picture.area.right - picture.area.left
     allowed = (
@@ -170,38 +200,44 @@ def _too_many_gaps(picture: SurfaceImage, count: int, longest_gap: float) -> Bad
     )
     if part is not None and helps:
         remedy = f"leave out the border, where heights are missing, with {part.option}"
-    shown = f"without a height at {missing:.1%} of its places"
+    shown = f"without a height at {missing:.1%} of its points"
     return BadInput("height map", shown, allowed, remedy)
 
 
 def profiles_along(
     picture: SurfaceImage, paths: Sequence[StraightPath], longest_gap: float = 0.0
 ) -> Profiles:
-    """Sample a picture along paths, bilinearly, about a pixel apart.
+    """Sample a picture along paths by bilinear interpolation, about one sample per pixel.
 
-    Paths longer than the shortest one are cut to its length, so that they can be averaged. Gaps
-    between heights are bridged by straight lines, with a warning.
+    Paths longer than the shortest one are cut to its length, so that the profiles can be averaged.
+    Gaps in a height map are bridged by straight lines, with a warning.
 
     Parameters
     ----------
     picture : SurfaceImage
+        Grey levels or heights; its pixel size must be known.
     paths : sequence of StraightPath
-        1 to 100.
+        1 to 100 paths in pixels.
     longest_gap : float
-        Length of the longest gap that is bridged over the length of the path; none by default.
+        Longest gap that is bridged, as a fraction of the length of the path. By default no gap is
+        bridged.
 
     Raises
     ------
     BadInput
-        No pixel size; no path; one that leaves the picture's area, is shorter than two pixels, has
-        no height at an end, or meets a gap that is longer.
+        The pixel size is unknown, or a path leaves the area of the picture, is shorter than two
+        pixels, has no height at one of its ends, or crosses a gap that is too long.
+
+    References
+    ----------
+    docs/friction.md, "What is done".
     """
     pixel = picture.pixel
     if pixel is None:
-        remedy = picture.pixel_hint or "the file does not say it"
+        remedy = picture.pixel_hint or "the file does not contain it"
         raise BadInput("pixel size", "missing", "given as --pixel", remedy)
     low, high = COUNT
-    require(low <= len(paths) <= high, "paths", len(paths), f"{low} to {high} of them")
+    require(low <= len(paths) <= high, "number of paths", len(paths), f"from {low} to {high}")
     for path in paths:
         _check(picture, path)
     lengths = np.array([path.length(pixel) for path in paths])
@@ -230,9 +266,9 @@ def _bilinear(
     columns: Float[np.ndarray, "paths n"],
     rows: Float[np.ndarray, "paths n"],
 ) -> Float[np.ndarray, "paths n"]:
-    """Interpolate between the four pixels around a place.
+    """Interpolate between the four pixels around each point.
 
-    A pixel whose weight is zero does not count, so that a missing height spoils no neighbour.
+    Pixels with the weight zero are left out, so that a missing height (NaN) there has no effect.
     """
     found = np.zeros(columns.shape)
     left, right, to_right = _neighbours(columns, values.shape[1])
@@ -247,7 +283,7 @@ def _bilinear(
 def _neighbours(
     places: Float[np.ndarray, "paths n"], count: int
 ) -> tuple[Num[np.ndarray, "paths n"], Num[np.ndarray, "paths n"], Float[np.ndarray, "paths n"]]:
-    """The pixels before and after each place, and the weight of the one after it."""
+    """Return the pixels before and after each point, and the weight of the pixel after it."""
     nearest = np.round(places)
     places = np.where(np.abs(places - nearest) < SNAP, nearest, places)
     before = np.clip(np.floor(places), 0, count - 1).astype(int)
@@ -262,11 +298,11 @@ def _check_gaps(path: StraightPath, known: Bool[np.ndarray, " n"], longest_gap: 
     where = np.flatnonzero(known)
     if len(where) > 2 and not (known[0] and known[-1]):
         part = _shown(path.part(where[0] / steps, where[-1] / steps))
-        raise BadInput("path", _shown(path), "clear of places without a height at its ends",
+        raise BadInput("path", _shown(path), "one with measured heights at both ends",
                        f"shorten it to {part}")  # fmt: skip
     longest = int(longest_gap * len(known))
-    more = f" over more than {longest} pixels" if longest else ""
-    raise BadInput("path", _shown(path), f"clear of places without a height{more}",
+    more = f" longer than {longest} pixels" if longest else ""
+    raise BadInput("path", _shown(path), f"one without gaps{more} in the height map",
                    "choose other paths")  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""Micrographs: TIFF, PNG and JPEG files to surface images."""
+"""Reader of micrographs in TIFF, PNG and JPEG files."""
 
 from __future__ import annotations
 
@@ -31,16 +31,29 @@ __all__ = ["JPEG", "PNG", "TIFF", "read_plain", "read_tiff"]
 TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 PNG, JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
 ORIENTATION = 274  # tag of TIFF and EXIF
-SUBFILE, OLD_SUBFILE = 254, 255  # tags that say what a page is
-REDUCED, MASK, OLD_REDUCED = 1, 4, 2  # bits of the one, value of the other
-RESOLUTION = (282, 283)  # tags: pixels per unit, across and down
-PAGES = 200  # looked at
-PLAIN = (1, 8, 32946)  # compressions of TIFF that need no codec: none, and deflate
+SUBFILE, OLD_SUBFILE = 254, 255  # tags with the kind of a page: NewSubfileType and SubfileType
+REDUCED, MASK, OLD_REDUCED = 1, 4, 2  # two bits of NewSubfileType, and a value of SubfileType
+RESOLUTION = (282, 283)  # tags with the pixels per unit, across and down
+PAGES = 200  # largest number of pages that are examined
+PLAIN = (1, 8, 32946)  # TIFF compressions that tifffile decodes without a codec: none, and deflate
 WHITE_IS_ZERO, PALETTE = 0, 3  # photometric interpretations
 
 
 def read_tiff(path: Path, area: Area | None) -> SurfaceImage:
-    """Read a TIFF file: its largest page that is no reduced image and no mask."""
+    """Read the largest page of a TIFF file that is not marked as a reduced image or a mask.
+
+    Parameters
+    ----------
+    path : Path
+        A TIFF file with 8 or 16 bits per sample.
+    area : Area or None
+        The part that belongs to the surface, in pixels; None for the picture without its data bar.
+
+    Raises
+    ------
+    BadInput
+        The picture is too large, in colour, turned, or of another number of bits.
+    """
     with tifffile.TiffFile(path) as file:
         index, notes = _page(file)
         page: Any = file.pages[index]
@@ -55,14 +68,14 @@ def read_tiff(path: Path, area: Area | None) -> SurfaceImage:
     if decoded.palette is None and values.dtype.itemsize * 8 != bits:
         shown = f"{short_name(path)}, whose {bits} bits are read as {values.dtype.itemsize * 8}"
         raise BadInput("image", shown, "saved without compression, as grey")
-    # Pillow turns 8 bits round, and leaves 16 as they are.
+    # If white is zero, Pillow inverts pictures of 8 bits, but not those of 16 bits.
     if kind == WHITE_IS_ZERO and (plain or bits == 16):
         decoded = Decoded(np.iinfo(values.dtype).max - values)
     return _picture(path, decoded, scan, notes, area)
 
 
 def _page(file: Any) -> tuple[int, list[str]]:
-    """Index of the page to take, and what is said of it."""
+    """Return the index of the page to read, and notes about the choice."""
     count = len(file.pages)
     if count == 1:
         return 0, []
@@ -71,12 +84,12 @@ def _page(file: Any) -> tuple[int, list[str]]:
     sizes = {index: pages[index].imagewidth * pages[index].imagelength for index in whole or [0]}
     taken = max(sizes, key=lambda index: sizes[index])  # the first among equals
     if taken == 0:
-        return 0, ["the first of several pages is taken"]
-    return taken, [f"page {taken + 1} of {count} is taken, the largest that is no reduced image"]
+        return 0, ["the first of several pages is read"]
+    return taken, [f"page {taken + 1} of {count} is read, the largest that is no reduced image"]
 
 
 def _is_reduced(page: Any) -> bool:
-    """Whether a page is a thumbnail or a mask of another one."""
+    """Return whether a page is marked as a reduced image or a mask."""
     new, old = (page.tags.get(code) for code in (SUBFILE, OLD_SUBFILE))
     value = 0 if new is None else int(new.value)
     return bool(value & (REDUCED | MASK)) or (old is not None and int(old.value) == OLD_REDUCED)
@@ -86,7 +99,7 @@ def _check_samples(path: Path, page: Any) -> None:
     bits, unsigned = page.bitspersample, int(page.sampleformat or 1) == 1
     if bits not in (8, 16) or not unsigned:
         shown = f"{short_name(path)} of {bits}{'' if unsigned else ' signed or floating'} bits"
-        raise BadInput("image", shown, "of 8 or 16 bits a sample")
+        raise BadInput("image", shown, "of 8 or 16 bits per sample, unsigned")
     shape = (page.imagelength, page.imagewidth, page.samplesperpixel)
     check_size(short_name(path), shape, bits // 8)
 
@@ -101,7 +114,7 @@ def _decoded_by_tifffile(page: Any) -> Decoded:
 
 
 def _scan_of_tiff(file: Any, page: Any, path: Path) -> Scan:
-    """Return the scan that the tags describe, or else a text file beside the picture."""
+    """Return the scan that the tags describe, or else a text file next to the picture."""
     if file.sem_metadata:
         return zeiss_scan(file.sem_metadata)
     if file.fei_metadata:
@@ -125,15 +138,28 @@ def _scan_of_tiff(file: Any, page: Any, path: Path) -> Scan:
 
 def _check_upright(path: Path, orientation: Any) -> None:
     if orientation not in (0, 1):
-        shown = f"{short_name(path)}, stored turned or mirrored (orientation {orientation})"
-        raise BadInput("image", shown, "stored upright", "turn it and save it again")
+        shown = f"{short_name(path)}, rotated or mirrored (orientation {orientation})"
+        raise BadInput("image", shown, "stored upright", "rotate it and save it again")
 
 
 def read_plain(path: Path, area: Area | None) -> SurfaceImage:
-    """Read a PNG or JPEG file."""
+    """Read a PNG or JPEG file.
+
+    Parameters
+    ----------
+    path : Path
+        A PNG file of 8 or 16 bits, or a JPEG file.
+    area : Area or None
+        The part that belongs to the surface, in pixels; None for the picture without its data bar.
+
+    Raises
+    ------
+    BadInput
+        The picture is too large, in colour, turned, or of 16 bits with several channels.
+    """
     with path.open("rb") as file:
         head = file.read(26)
-    # Pillow cuts 16 bits of colour or with alpha to 8.
+    # Pillow reduces 16 bits per sample to 8 if there are several channels.
     if head.startswith(PNG) and len(head) == 26 and head[24] == 16 and head[25] != 0:
         shown = f"{short_name(path)} of 16 bits in colour or with alpha"
         raise BadInput("image", shown, "grey")
@@ -141,7 +167,7 @@ def read_plain(path: Path, area: Area | None) -> SurfaceImage:
 
 
 def _decoded(path: Path, page: int = 0) -> Decoded:
-    """Decode with Pillow."""
+    """Decode a picture with Pillow."""
     from PIL import Image
 
     try:
@@ -163,29 +189,29 @@ def _decoded(path: Path, page: int = 0) -> Decoded:
         if image.mode != "P":
             return Decoded(_unsigned(path, values))
         palette = np.array(image.getpalette("RGB") or [], np.uint8).reshape(-1, 3)
-        # Entries that the file leaves out are black.
+        # Palette entries that are missing in the file are black.
         return Decoded(values, np.vstack([palette, np.zeros((256 - len(palette), 3), np.uint8)]))
 
 
 def _unsigned(
     path: Path, values: Num[np.ndarray, "rows columns *samples"]
 ) -> Num[np.ndarray, "rows columns *samples"]:
-    """Numbers of 8 or 16 bits without a sign."""
+    """Return the values as unsigned integers of 8 or 16 bits."""
     if values.dtype.kind == "u" and values.dtype.itemsize <= 2:
         return values
     low, high = (int(values.min()), int(values.max())) if values.size else (0, 0)
     if values.dtype.kind != "i" or low < 0 or high > 65535:
         shown = f"{short_name(path)} of type {values.dtype}"
-        raise BadInput("image", shown, "of 8 or 16 bits a sample")
+        raise BadInput("image", shown, "of 8 or 16 bits per sample, unsigned")
     return values.astype(np.uint16)
 
 
 def _picture(
     path: Path, decoded: Decoded, scan: Scan, notes: list[str], asked: Area | None
 ) -> SurfaceImage:
-    """The surface image: its grey, its pixel, and which part of it is surface."""
+    """Make the surface image from the grey channel, the pixel size and the area of the surface."""
     if decoded.has_alpha:
-        notes.append("the last channel, alpha, is left out")
+        notes.append("the last channel, alpha, is ignored")
     grey = decoded.grey()
     rows, columns = grey.shape
     whole = Area(0, 0, columns, rows)
@@ -196,7 +222,7 @@ def _picture(
         raise BadInput("image", f"{short_name(path)} in colour", "grey", remedy)
     pixel, why = scan.pixel_for(columns)
     if why:
-        notes.append(f"no pixel size is taken from the file: {why}")
+        notes.append(f"the pixel size in the file is not used: {why}")
     return SurfaceImage(
         grey,
         pixel,
@@ -210,14 +236,14 @@ def _picture(
 
 
 def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]) -> Area:
-    """The picture without its data bar: as the file says, or as it looks."""
+    """Return the area without the data bar, which the file declares or `find_bar` detects."""
     rows, columns = grey.shape
     bar = scan.rows_of_bar(columns, rows)
     if 0 < bar < rows - SIDE[0]:
-        notes.append(f"the lowest {bar} rows are the data bar and left out")
+        notes.append(f"the lowest {bar} rows are the data bar and are left out")
         return Area(0, 0, columns, rows - bar)
     top, bottom = find_bar(grey)
-    # A margin at the sides: a figure cut from a page, or a panel beside the picture.
+    # A margin or a panel at the sides is found as a data bar of the transposed picture.
     left, right = find_bar(np.ascontiguousarray(grey[top : rows - bottom].T))
     counts = {"uppermost {} rows": top, "lowest {} rows": bottom, "first {} columns": left,
               "last {} columns": right}  # fmt: skip
@@ -225,6 +251,6 @@ def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]
         if count:
             notes.append(
                 f"the {where.format(count)} look like a data bar or a margin and are left out; "
-                "--area takes any part"
+                "--area selects any part"
             )
     return Area(left, top, columns - right, rows - bottom)

@@ -1,12 +1,13 @@
-"""The size of a pixel, as microscopes and microscopists' software write it into their files.
+"""Readers of the pixel size that microscopes and image software write into their files.
 
-Zeiss keeps two sizes: *Image Pixel Size* is of the picture as stored; *Pixel Size* is of the screen
-and the same only where the picture is 1024 pixels wide. FEI gives *PixelWidth* and *PixelHeight* of
-the scan, TESCAN *PixelSizeX* and *PixelSizeY*. ImageJ writes a unit and pixels per unit, OME-TIFF
-*PhysicalSizeX*. JEOL and Hitachi write a text file beside the picture: the length of the micron
-bar, in pixels and in µm, or *PixelSize* in nm.
+Zeiss writes two sizes: *Image Pixel Size* applies to the stored picture, *Pixel Size* to the
+screen. Both agree only for a picture that is 1024 pixels wide. FEI writes *PixelWidth* and
+*PixelHeight* of the scan, TESCAN *PixelSizeX* and *PixelSizeY*. ImageJ writes a unit and the pixels
+per unit, OME-TIFF *PhysicalSizeX*. JEOL and Hitachi write a text file next to the picture, with the
+length of the micron bar in pixels and in µm, or with *PixelSize* in nm.
 
-The resolution that every TIFF, PNG or JPEG may carry is of print, and is never taken.
+Any TIFF, PNG or JPEG file may also contain a resolution for printing. It is never used, since it
+does not describe the specimen.
 """
 
 from __future__ import annotations
@@ -33,15 +34,15 @@ __all__ = [
 ]
 
 TESCAN_TAG = 50431
-SCREEN_WIDTH = 1024  # pixels, of the Zeiss screen
+SCREEN_WIDTH = 1024  # width of the Zeiss screen in pixels
 NANO, MICRO = 1e-9, 1e-6  # m
 MICROMETRES = ("um", "micron", "microns", "micrometer", "micrometre", "\\u00b5m", "\\u03bcm")
-PRINT_UNITS = ("inch", "inches", "in", "cm")  # what ImageJ makes of a resolution for print
+PRINT_UNITS = ("inch", "inches", "in", "cm")  # units that ImageJ derives from a print resolution
 
 
 def zeiss_scan(tags: Mapping[str, Any]) -> Scan:
-    """Read the tags that tifffile gives as ``sem_metadata``."""
-    stored = tags.get("dp_image_store")  # the resolution that the picture was stored with
+    """Read the scan from the Zeiss tags, which tifffile returns as ``sem_metadata``."""
+    stored = tags.get("dp_image_store")  # size of the stored picture, e.g. "1024 * 768"
     width = None
     if isinstance(stored, tuple) and len(stored) >= 2:
         found = re.match(r"\s*(\d{1,6})\s*\*", str(stored[1]))
@@ -56,28 +57,41 @@ def zeiss_scan(tags: Mapping[str, Any]) -> Scan:
 
 
 def fei_scan(tags: Mapping[str, Any]) -> Scan:
-    """Read the tags that tifffile gives as ``fei_metadata``."""
+    """Read the scan from the FEI tags, which tifffile returns as ``fei_metadata``."""
     scan, image = (tags.get(name) for name in ("Scan", "Image"))
     scan, image = (part if isinstance(part, Mapping) else {} for part in (scan, image))
     pixel = _pair(scan.get("PixelWidth"), scan.get("PixelHeight"))
     columns, rows = (_count(image.get(name)) for name in ("ResolutionX", "ResolutionY"))
-    if columns is None or rows is None:  # whether it was resized is not known
+    if columns is None or rows is None:  # it is unknown whether the picture was resized
         return Scan("FEI tag")
     return Scan("FEI tag", pixel, columns, rows)
 
 
 def tescan_scan(text: str, source: str = "TESCAN tag") -> Scan:
-    """Read the lines ``PixelSizeX=…``, ``PixelSizeY=…`` and ``ImageStripSize=…``."""
+    """Read the scan from a TESCAN text.
+
+    Parameters
+    ----------
+    text : str
+        Text with the lines ``PixelSizeX=…``, ``PixelSizeY=…`` (in m) and ``ImageStripSize=…`` (the
+        height of the data bar in pixels).
+    source : str
+        Where the text comes from, for messages.
+    """
     names = ("PixelSizeX", "PixelSizeY", "ImageStripSize", "ViewFieldsCountX")
     found = _assignments(text, names)
-    if found.get("ViewFieldsCountX", "1") != "1":  # pictures of several detectors, side by side
+    if found.get("ViewFieldsCountX", "1") != "1":  # images of several detectors side by side
         return Scan(source)
     pixel = _pair(found.get("PixelSizeX"), found.get("PixelSizeY"))
     return Scan(source, pixel, bar=_count(found.get("ImageStripSize")) or 0)
 
 
 def jeol_scan(text: str) -> Scan:
-    """Read the lines ``$CM_FULL_SIZE``, ``$$SM_MICRON_BAR`` and ``$$SM_MICRON_MARKER``."""
+    """Read the scan from a JEOL text file.
+
+    It has the lines ``$CM_FULL_SIZE`` (size in pixels), ``$$SM_MICRON_BAR`` (length of the bar in
+    pixels) and ``$$SM_MICRON_MARKER`` (length of the bar with a unit).
+    """
     source = "JEOL text file"
     found = dict(re.findall(r"^[ \t]*\$+([A-Z_]{1,40})[ \t]+([^\r\n]{1,80})", text, re.M))
     size = re.match(r"(\d{1,6})[ \t,x]+(\d{1,6})\s*$", found.get("CM_FULL_SIZE", ""))
@@ -90,7 +104,11 @@ def jeol_scan(text: str) -> Scan:
 
 
 def hitachi_scan(text: str) -> Scan:
-    """Read the lines ``PixelSize=…`` (nm) and ``DataSize=…x…`` below ``[SemImageFile]``."""
+    """Read the scan from a Hitachi text file.
+
+    It has the lines ``PixelSize=…`` (in nm) and ``DataSize=…x…`` (in pixels) below
+    ``[SemImageFile]``.
+    """
     found = _assignments(text, ("PixelSize",))
     size = re.search(r"^[ \t]*DataSize[ \t]*=[ \t]*(\d{1,6})[ \t]*[x*][ \t]*\d", text, re.M)
     nanometres = _positive(found.get("PixelSize"))
@@ -99,14 +117,15 @@ def hitachi_scan(text: str) -> Scan:
 
 
 def imagej_scan(tags: Mapping[str, Any], per_unit: tuple[Any, Any]) -> Scan:
-    """Read the unit of ImageJ's description and the pixels per unit of the resolution tags.
+    """Read the scan from a TIFF file of ImageJ.
 
     Parameters
     ----------
     tags : mapping
-        The metadata that tifffile gives as ``imagej_metadata``.
+        The metadata that tifffile returns as ``imagej_metadata``; ``unit`` is the unit of length.
     per_unit : tuple
-        Values of *XResolution* and *YResolution*, each a number or a fraction of two integers.
+        Pixels per unit across and down, from the tags *XResolution* and *YResolution*. Each is a
+        number or a fraction of two integers.
     """
     source = "ImageJ description"
     unit = str(tags.get("unit", "")).strip().lower().replace("µ", "u").replace("μ", "u")
@@ -114,7 +133,7 @@ def imagej_scan(tags: Mapping[str, Any], per_unit: tuple[Any, Any]) -> Scan:
     if across is None or unit in ("", "pixel", "pixels"):
         return Scan(source)
     if unit in PRINT_UNITS:
-        return Scan(source, doubt=f"the {source} gives the size of a pixel in {unit}, as for print")
+        return Scan(source, doubt=f"the {source} gives it in {unit}, a unit of print resolutions")
     metre = MICRO if unit in MICROMETRES else _metres(f"1 {unit}")
     if metre is None:
         return Scan(source)
@@ -122,7 +141,7 @@ def imagej_scan(tags: Mapping[str, Any], per_unit: tuple[Any, Any]) -> Scan:
 
 
 def ome_scan(text: str) -> Scan:
-    """Read *PhysicalSizeX* and *PhysicalSizeY* of the first *Pixels* element of OME-XML."""
+    """Read the scan from *PhysicalSizeX* and *PhysicalSizeY* of the first *Pixels* of OME-XML."""
     source = "OME description"
     element = re.search(r"<(?:\w{1,20}:)?Pixels\s([^>]{1,5000})>", text)
     if element is None:
@@ -139,7 +158,7 @@ def ome_scan(text: str) -> Scan:
 
 
 def _assignments(text: str, names: tuple[str, ...]) -> dict[str, str]:
-    """Numbers of the lines ``name=number``."""
+    """Return the numbers, as text, of the lines ``name=number``."""
     return {
         name: match.group(1)
         for name in names
@@ -155,14 +174,14 @@ def _metres(text: str) -> float | None:
 
 
 def _pair(width: Any, height: Any) -> Pixel | None:
-    """Two numbers in m; the height is the width where it is missing."""
+    """Return width and height in m; a missing height is equal to the width."""
     across = _positive(width)
     down = across if height is None else _positive(height)
     return None if across is None or down is None else (across, down)
 
 
 def _ratio(value: Any) -> float | None:
-    """A number, or a fraction of two."""
+    """Return a positive number that is given as a number or as a fraction (a, b)."""
     if isinstance(value, tuple) and len(value) == 2:
         above, below = (_positive(each) for each in value)
         return None if above is None or below is None else above / below
@@ -170,7 +189,7 @@ def _ratio(value: Any) -> float | None:
 
 
 def _count(value: Any) -> int | None:
-    """A positive whole number of at most six digits."""
+    """Return a positive whole number of at most six digits, or None."""
     text = str(value)
     return int(text) if text.isdecimal() and len(text) <= 6 and int(text) > 0 else None
 

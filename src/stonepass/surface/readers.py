@@ -1,7 +1,7 @@
-"""Files to surface images: TIFF, PNG and JPEG of 8 or 16 bit, and maps of surface instruments.
+"""Reader of micrographs (TIFF, PNG, JPEG) and of height maps of surface instruments.
 
-Sizes are checked from the header before anything is decoded. Use `untrusted.read_untrusted` for a
-file of unknown origin: it reads in a process of its own, with limits.
+Sizes are checked from the header before anything is decoded. Files of unknown origin should be read
+by `untrusted.read_untrusted`, which works in a separate process with limits of time and memory.
 """
 
 from __future__ import annotations
@@ -26,23 +26,33 @@ __all__ = ["load_libraries", "read_surface_image"]
 def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceImage:
     """Read a micrograph or a height map.
 
-    Grey pictures saved as colour are grey; a palette or an opaque alpha channel is no matter. Of
-    several pages the largest is taken that is not marked as a reduced image. A data bar is left
-    out where the file says so, or where the lowest or uppermost rows look like one.
+    Grey pictures that were saved in colour or with a palette are accepted, and an alpha channel is
+    ignored. If a TIFF file has several pages, the largest one that is not marked as a reduced image
+    is read. A data bar is left out if the file declares it, or if the lowest or uppermost rows look
+    like one.
 
     Parameters
     ----------
-    path : Path
+    path : str or Path
+        A TIFF, PNG or JPEG file with 8 or 16 bits per sample, or a height map.
     area : Area, optional
-        The part that is surface, which alone must be grey; the whole picture but for a data bar by
-        default.
+        The part of the picture that belongs to the surface, in pixels. Only this part must be grey.
+        By default it is the whole picture without a data bar.
+
+    Returns
+    -------
+    SurfaceImage
 
     Raises
     ------
     BadInput
-        No such file, an unknown kind, one that is damaged or too large, colour, bits other than 8
-        or 16, a file without a map of heights, an area that is not within the picture, or a library
-        that is not installed.
+        The file does not exist, is damaged, too large or of an unknown kind; it is in colour, has
+        another number of bits or no heights; the area is not within the picture; or a library is
+        not installed.
+
+    References
+    ----------
+    docs/friction.md, "What it reads".
     """
     path = Path(path)
     check_file(path)
@@ -55,21 +65,21 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
     except Exception as problem:  # a decoder may raise anything at all over a damaged file
         shortage = _memory_error(problem)
         if shortage is not None:
-            allowed = "readable in the memory it may take"
+            allowed = "readable within the limit of memory"
             raise BadInput("image", short_name(path), allowed, MEMORY_REMEDY) from shortage
-        allowed = f"undamaged and of a kind that can be read ({said_of(path, problem)})"
+        allowed = f"an undamaged file of a kind that can be read ({said_of(path, problem)})"
         raise BadInput("image", short_name(path), allowed) from problem
 
 
 def _memory_error(problem: BaseException | None) -> MemoryError | None:
-    """The lack of memory behind what a decoder raised; None where there was none."""
+    """Return the MemoryError that caused the exception of a decoder, or None."""
     while problem is not None and not isinstance(problem, MemoryError):
         problem = problem.__cause__ or problem.__context__
     return problem
 
 
 def _reader(path: Path) -> Callable[[Path, Area | None], SurfaceImage]:
-    """Who reads this file."""
+    """Return the function that reads this kind of file."""
     with path.open("rb") as file:
         head = file.read(16)
     if path.suffix.lower() in HEIGHT_MAPS:
@@ -83,7 +93,7 @@ def _reader(path: Path) -> Callable[[Path, Area | None], SurfaceImage]:
 
 
 def load_libraries(path: Path) -> None:
-    """Load what a file of this name may need, as far as it is installed."""
+    """Import the libraries that a file with this name may need, if they are installed."""
     heights = path.suffix.lower() in HEIGHT_MAPS
     names = ("SurfaceTopography.IO", "defusedxml.ElementTree")
     for name in names if heights else ("tifffile", "PIL.Image"):
@@ -93,7 +103,7 @@ def load_libraries(path: Path) -> None:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Decoders warn and log about files that they then refuse, or read all the same."""
+    """Suppress warnings and log messages of the decoders while a file is read."""
     before = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
     try:

@@ -1,7 +1,7 @@
-"""The scan that a file describes: the size of a pixel, for which width, and a data bar.
+"""The pixel size and the data bar that a file declares for the original scan.
 
-Every microscope writes it in its own words (`pixel_size`); here it is compared with the picture as
-it is stored. A picture that was made larger or smaller since keeps the words, not their meaning.
+`pixel_size` reads these declarations of different microscopes. Here they are compared with the
+stored picture. If the picture was resized or cropped after the scan, they no longer apply.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ MICRO = 1e6  # µm per m
 
 @dataclass(frozen=True)
 class Scan:
-    """The description of a scan in the file, or in a text file beside it.
+    """Declarations about the scan in the file of a picture, or in a text file next to it.
 
     Attributes
     ----------
     source : str
-        Who says it, e.g. "FEI tag"; empty where nothing is said.
-    pixel : tuple of float or None
-        Width and height of a pixel in m.
+        Origin of the declarations, e.g. "FEI tag"; empty if there are none.
+    pixel : (float, float) or None
+        Width and height of a pixel of the scan in m; None if they are not declared.
     columns, rows : int or None
-        Size in pixels of the scan that it holds for, where that is said.
+        Size of the scan in pixels; None if it is not declared.
     bar : int
-        Rows of the picture's lower end that are said to be a data bar.
+        Height of the data bar at the lower end in rows; 0 if none is declared.
     doubt : str
-        Why the pixel size is not taken, where it is said in a way that may be mistaken.
+        Reason why a declared pixel size is not used; empty if it is used.
     """
 
     source: str = ""
@@ -42,11 +42,17 @@ class Scan:
     doubt: str = ""
 
     def same_width(self, columns: int) -> bool:
-        """Whether a picture of so many columns has the width that was scanned, as far as said."""
+        """Return whether a picture has the width of the scan, or the scan declares no width."""
         return self.columns is None or self.columns == columns
 
     def rows_of_bar(self, columns: int, rows: int) -> int:
-        """Rows at the lower end of a picture that are its data bar; 0 where nothing is said."""
+        """Return the height in rows of the declared data bar; 0 if none is declared.
+
+        Parameters
+        ----------
+        columns, rows : int
+            Size of the stored picture in pixels.
+        """
         if not self.same_width(columns):
             return 0
         if self.bar or self.rows is None:
@@ -54,20 +60,23 @@ class Scan:
         return max(rows - self.rows, 0)
 
     def pixel_for(self, columns: int) -> tuple[Pixel | None, str]:
-        """The pixel of a picture of so many columns, and why it is not taken.
+        """Return the pixel size of a picture with so many columns, or why it cannot be used.
 
         Returns
         -------
-        pixel : tuple of float or None
-            None where nothing is said, or where it cannot be taken.
+        pixel : (float, float) or None
+            Width and height in m; None if no size is declared or the size cannot be used.
         why : str
-            The sentence of a refusal; empty where the pixel is taken, or nothing is said.
+            Reason why a declared size cannot be used, otherwise empty.
         """
         if self.pixel is None:
             return None, self.doubt
         width = self.pixel[0] * MICRO
         if not possible_pixel(self.pixel):
-            return None, f"the {self.source} says {width:.4g} µm, which is impossible"
+            return (
+                None,
+                f"the {self.source} says {width:.4g} µm, which is outside the accepted range",
+            )
         if self.same_width(columns):
             return self.pixel, ""
         assert self.columns is not None
@@ -75,7 +84,7 @@ class Scan:
         return None, (
             f"the {self.source} says {width:.4g} µm for a picture {self.columns} pixels wide, but "
             f"this one is {columns} wide: give {resized:.4g}um if it was resized as a whole, or "
-            f"{width:.4g}um if it was cut"
+            f"{width:.4g}um if it was cropped"
         )
 
 

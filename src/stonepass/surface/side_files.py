@@ -1,4 +1,4 @@
-"""Text files that microscopes write beside a picture: TESCAN, JEOL and Hitachi."""
+"""Text files that microscopes of TESCAN, JEOL and Hitachi write next to a picture."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from stonepass.surface.scan import NO_SCAN, Scan
 
 __all__ = ["scan_beside"]
 
-LARGEST = 1_000_000  # bytes, of a text file beside a picture
-MARKS = (b"\xff\xfe", b"\xfe\xff")  # of UTF-16
+LARGEST = 1_000_000  # largest size of a text file in bytes
+MARKS = (b"\xff\xfe", b"\xfe\xff")  # byte order marks of UTF-16
 
 
 def scan_beside(path: Path) -> Scan:
-    """Read what stands in a text file beside a picture.
+    """Read the scan from a text file next to a picture; without one the scan is empty.
 
-    ``NAME.hdr`` and ``NAME-tif.hdr`` are TESCAN's; ``NAME.txt`` is Hitachi's or JEOL's.
+    TESCAN writes ``NAME.hdr`` or ``NAME-tif.hdr``, Hitachi and JEOL write ``NAME.txt``.
     """
     ending = path.suffix.lstrip(".")
     for beside in (path.with_suffix(".hdr"), path.with_name(f"{path.stem}-{ending}.hdr")):
@@ -40,7 +40,7 @@ _WRITERS: tuple[tuple[str, Callable[[str], Scan]], ...] = (
 
 
 def _text(path: Path) -> str | None:
-    """Text of a file; None where there is none, or one too long."""
+    """Return the text of a file; None if it does not exist or is too large."""
     if not path.is_file() or path.stat().st_size > LARGEST:
         return None
     raw = path.read_bytes()

@@ -1,4 +1,4 @@
-"""A micrograph or a height map: rows of numbers, and what a pixel measures."""
+"""A micrograph or a height map: grey levels or heights, and the size of a pixel."""
 
 from __future__ import annotations
 
@@ -12,14 +12,22 @@ from stonepass.errors import BadInput, require
 
 __all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]
 
-PIXEL = (1e-11, 1e-3)  # m
-OBLONG = 10.0  # largest ratio of a pixel's sides
-FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}
+PIXEL = (1e-11, 1e-3)  # smallest and largest side of a pixel in m
+OBLONG = 10.0  # largest ratio of the sides of a pixel
+FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}  # by the type of the values
 
 
 @dataclass(frozen=True)
 class Area:
-    """A rectangle of pixels: columns `left` to before `right`, rows `top` to before `bottom`."""
+    """A rectangle of pixels.
+
+    Attributes
+    ----------
+    left, right : int
+        First column, and the column after the last one.
+    top, bottom : int
+        First row, and the row after the last one.
+    """
 
     left: int
     top: int
@@ -27,16 +35,16 @@ class Area:
     bottom: int
 
     def __str__(self) -> str:
-        """``left, top, right, bottom``."""
+        """Return the text ``left, top, right, bottom``."""
         return f"{self.left}, {self.top}, {self.right}, {self.bottom}"
 
     @property
     def option(self) -> str:
-        """The command's option that asks for this area."""
+        """The command-line option that selects this area."""
         return f"--area {self.left},{self.top},{self.right},{self.bottom}"
 
     def lies_in(self, other: Area) -> bool:
-        """Whether it lies within another area."""
+        """Return whether this area lies within another one."""
         return (
             other.left <= self.left
             and other.top <= self.top
@@ -48,32 +56,37 @@ class Area:
 @array_dataclass
 @dataclass(frozen=True)
 class SurfaceImage:
-    """Grey values or heights, row by row from the top.
+    """Grey levels of a micrograph or heights of a height map.
 
     Attributes
     ----------
     values : array (rows, columns)
-        Grey values (8 or 16 bit), or heights in m where `full_scale` is 0.
-    pixel : tuple of float or None
-        Width and height of a pixel in m; None where the file does not say.
+        Grey levels (uint8 or uint16), or heights in m (float64, NaN where one is missing). The
+        first row is the top of the picture.
+    pixel : (float, float) or None
+        Width and height of a pixel in m, 1e-11 to 1e-3; None if the file does not contain them.
     full_scale : int
-        Largest grey value that the file could hold, 255 or 65535; 0 for heights.
+        Largest possible grey level, 255 or 65535; 0 for heights.
     area : Area
-        What belongs to the surface; the data bar under a micrograph does not.
+        The part that belongs to the surface, without a data bar, in pixels.
     pixel_source : str
-        Who says how large a pixel is.
+        Origin of the pixel size, e.g. "FEI tag"; empty if it is unknown.
     notes : tuple of str
-        What was left out, and how the file was read.
+        Remarks of the reader, e.g. about parts that were left out.
     pixel_hint : str
-        Where `pixel` is None although the file says something of it: what it says and what to do.
+        Reason why a pixel size in the file was not used, and what to do; otherwise empty.
     grey : Area or None
-        The part whose pixels are known to be grey; the area must lie within it. None: everywhere.
+        The part whose pixels are all grey, which `area` must lie in; None for the whole picture.
 
     Raises
     ------
     BadInput
-        An area that is not within the picture or smaller than 2 × 2 pixels, or a pixel that is not
-        from 1e-11 to 1e-3 m and at most ten times as long as wide.
+        The area is not within the picture or smaller than 2 × 2 pixels, or the sides of a pixel are
+        out of bounds or differ by more than a factor of ten.
+
+    References
+    ----------
+    docs/friction.md, "What it reads".
     """
 
     values: Num[np.ndarray, "rows columns"]
@@ -89,8 +102,9 @@ class SurfaceImage:
         rows, columns = self.values.shape
         kind = self.values.dtype.name
         require(
-            FULL_SCALES.get(kind) == self.full_scale, "picture", kind, "of 8 or 16 bit, or heights"
-        )
+            FULL_SCALES.get(kind) == self.full_scale, "type of the picture", kind,
+            "uint8, uint16, or float64 for heights"
+        )  # fmt: skip
         area = self.area
         across = 0 <= area.left <= area.right - 2 <= columns - 2
         down = 0 <= area.top <= area.bottom - 2 <= rows - 2
@@ -98,32 +112,39 @@ class SurfaceImage:
         allowed = f"left, top, right, bottom within 0, 0, {columns}, {rows}"
         require(across and down, "area", shown, allowed)
         within = self.grey is None or area.lies_in(self.grey)
-        require(within, "area", shown, f"within {self.grey}, the part that is known to be grey")
+        require(within, "area", shown, f"within {self.grey}, the part without colours")
         if self.pixel is not None and not possible_pixel(self.pixel):
             shown = " × ".join(f"{side:g} m" for side in self.pixel)
-            raise BadInput("pixel", shown, "1e-11 m to 1e-3 m, and not oblong by more than ten")
+            allowed = f"from 1e-11 m to 1e-3 m, with sides that differ at most {OBLONG:g}-fold"
+            raise BadInput("pixel size", shown, allowed)
 
     @property
     def has_heights(self) -> bool:
-        """Whether the numbers are heights, not grey values."""
+        """Whether the values are heights instead of grey levels."""
         return self.full_scale == 0
 
     @property
     def surface(self) -> Num[np.ndarray, "rows columns"]:
-        """The numbers of the area."""
+        """Values of the area, an array (rows, columns)."""
         area = self.area
         return self.values[area.top : area.bottom, area.left : area.right]
 
     def with_pixel(self, size: float) -> SurfaceImage:
-        """Return the picture with square pixels of `size` in m, whatever the file says."""
+        """Return the picture with square pixels of the given size in m."""
         return replace(self, pixel=(float(size), float(size)), pixel_source="as given")
 
     def with_area(self, left: int, top: int, right: int, bottom: int) -> SurfaceImage:
-        """Return the picture cut to an area, in pixels of the whole picture."""
+        """Return the picture with another area of the surface.
+
+        Parameters
+        ----------
+        left, top, right, bottom : int
+            Bounds of the area in pixels of the whole picture (see `Area`).
+        """
         return replace(self, area=Area(left, top, right, bottom))
 
 
 def possible_pixel(pixel: tuple[float, float]) -> bool:
-    """Whether a pixel may have these sides in m."""
+    """Return whether a pixel can have these sides in m."""
     low, high = PIXEL
     return all(low <= side <= high for side in pixel) and max(pixel) <= OBLONG * min(pixel)

@@ -1,4 +1,4 @@
-"""A surface image of unknown origin, read in a process with limits of time and memory."""
+"""Reader of surface images of unknown origin, in a process with limits of time and memory."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from stonepass.surface.surface_image import Area, SurfaceImage
 __all__ = ["read_untrusted"]
 
 TASK = "stonepass.surface.worker"
-TYPES = {"uint8": 1, "uint16": 2, "float64": 8}  # bytes of a number
+TYPES = {"uint8": 1, "uint16": 2, "float64": 8}  # bytes per value
 
 
 def read_untrusted(
@@ -28,24 +28,35 @@ def read_untrusted(
     memory: int = MEMORY,
     area: Area | None = None,
 ) -> SurfaceImage:
-    """Read a picture as `readers.read_surface_image` does, in a child process that may be stopped.
+    """Read a picture in a child process with limits of time and memory.
+
+    The result is that of `readers.read_surface_image`. The child process returns JSON and plain
+    numbers, never a pickle, and both are checked.
 
     Parameters
     ----------
-    path : Path
+    path : str or Path
+        A micrograph or a height map.
     seconds : float
-        Time that reading may take, once the process and its libraries have started.
+        Processor time in s that reading may take after the process and its libraries have started.
     memory : int
-        Bytes of data it may use; enforced on Linux.
+        Largest amount of data of the process in bytes; it is enforced on Linux.
     area : Area, optional
-        The part that is surface, as in `read_surface_image`.
+        The part of the picture that belongs to the surface, in pixels.
+
+    Returns
+    -------
+    SurfaceImage
 
     Raises
     ------
     BadInput
-        What `read_surface_image` refuses, and files that take too long, need too much memory or
-        make their decoder crash. What the child sends back is JSON and plain numbers, never a
-        pickle.
+        `read_surface_image` refuses the file, reading takes too long or too much memory, or the
+        decoder crashes.
+
+    References
+    ----------
+    docs/friction.md, "What it reads".
     """
     path = Path(path)
     check_file(path)
@@ -57,15 +68,15 @@ def read_untrusted(
         return _picture(header, body)
     except ValidationError as problem:
         allowed = f"readable within {memory // 1_000_000} MB and {seconds:g} s"
-        raise BadInput("image", name, f"{allowed} (its reader made no sense)") from problem
+        raise BadInput("image", name, f"{allowed} (its reader sent invalid data)") from problem
 
 
 def _picture(header: dict[str, Any], body: bytes) -> SurfaceImage:
-    """The picture that the child describes, believed only as far as it fits together."""
+    """Make the picture from the data of the child process, after checks of their consistency."""
     described = _Header.model_validate(header)
     rows, columns = described.shape
     if len(body) != rows * columns * TYPES[described.type]:
-        raise BadInput("image", f"{len(body)} bytes", f"{rows} × {columns} numbers")
+        raise BadInput("image", f"{len(body)} bytes", f"{rows} × {columns} values")
     values = np.frombuffer(body, np.dtype(described.type)).reshape(rows, columns)
     return SurfaceImage(
         values,
@@ -83,7 +94,7 @@ Side = Annotated[int, Field(ge=0, le=SIDE[1])]
 
 
 class _Header(BaseModel):
-    """What the child writes before the numbers; `SurfaceImage` checks the rest."""
+    """The header that the child process sends before the values."""
 
     model_config = ConfigDict(extra="forbid")
     shape: tuple[Side, Side]

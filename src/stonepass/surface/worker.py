@@ -1,4 +1,4 @@
-"""The task of the sandbox that reads a surface image (run with ``python -m``)."""
+"""The module that the sandbox runs in a child process to read a surface image."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["parse"]
 
 
 def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
-    """Read the picture of a request; its header and its numbers."""
+    """Read the picture of a request and return its header and its values."""
     asked = request.get("area")
     picture = read_surface_image(Path(request["path"]), None if asked is None else Area(*asked))
     header = {

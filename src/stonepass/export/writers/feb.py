@@ -16,7 +16,7 @@ __all__ = ["FEB"]
 
 
 def _write(case: Case, options: Mapping[str, Any], solved: Callable[[], Answer]) -> Export:
-    """Return the input file of the seated state; nothing is solved for it."""
+    """Return the input file of the seating of a stone; the case is not solved."""
     from stonepass.export.feb import write_feb
     from stonepass.export.seating import seating
 

@@ -21,7 +21,7 @@ NEXT_STEPS = {
 
 
 def _write(case: Case, options: Mapping[str, Any], solved: Callable[[], Answer]) -> Export:
-    """Return the input deck of the seated state; nothing is solved for it."""
+    """Return the input deck of the seating of a stone; the case is not solved."""
     from stonepass.export.inp import write_inp
     from stonepass.export.seating import seating
 

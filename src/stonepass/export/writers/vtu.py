@@ -15,7 +15,7 @@ __all__ = ["VTU"]
 
 
 def _write(case: Case, options: Mapping[str, Any], solved: Callable[[], Answer]) -> Export:
-    """Solve the case and return its wall; no content where the answer has no solved wall."""
+    """Solve the case and return its wall; without a solved wall there is no content."""
     from stonepass.export.vtu import vtu_file
     from stonepass.model.contact_state import SolvedState
     from stonepass.model.states.seated_state import SeatedState

@@ -80,7 +80,7 @@ def solve_active_set(
         steps += report.steps
         found = contact_edges(d) if report.converged else None
         if found is None:
-            return Failure(report.reason or "the wall left the stone", steps)
+            return Failure(report.reason or "the wall lost contact with the stone", steps)
         uncertainty = resolution.edge * (edges[1] - edges[0]) / 2.0
         if max(abs(found[0] - edges[0]), abs(found[1] - edges[1])) <= uncertainty:
             flaw = wall_flaw(d)

@@ -32,7 +32,7 @@ from stonepass.fe.core.systems import FormSystem
 __all__ = ["buckling_half_wave", "unstable_motions"]
 
 ORDER, ROWS = 6, 2
-STEP = 1.3  # ratio of successive trial half-wave lengths, from a third of the thickness to L
+STEP = 1.3  # largest ratio of successive trial lengths, from a third of the thickness to L
 TOLERANCE = 1e-12
 
 
@@ -53,8 +53,8 @@ def buckling_half_wave(tube: Tube, lumen: float) -> float | None:
     Returns
     -------
     float or None
-        Reference half-wave length in inner radii, one of a sequence with the ratio `STEP`; None if
-        the tube is stable for all of them.
+        Reference half-wave length in inner radii, from a geometric sequence whose ratio is at most
+        `STEP`; None if the tube is stable for all lengths of the sequence.
     """
     d = discretise(tube, Arc.at(Profile(lumen)), _half_wave(tube, 1.0), ORDER)
     _uniform(d, lumen)

@@ -67,7 +67,7 @@ def predict_contact(
         return Failure(report.reason, report.steps)
     edges = contact_edges(d)
     if edges is None:
-        return Failure("the wall left the stone", report.steps)
+        return Failure("the wall lost contact with the stone", report.steps)
     return Start(d, edges, force, report.steps)
 
 

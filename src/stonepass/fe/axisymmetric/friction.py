@@ -4,12 +4,13 @@
 downstream. The position of a wall point on the arc is measured by its arc-length coordinate
 (`Profile.along`). The *slip origin* of a point is its coordinate at the beginning of the increment,
 or at first contact if it comes into contact within the increment. The slip of the increment is
-s = radius × (coordinate − slip origin). Coulomb's law is the projection
+s = radius × (coordinate − slip origin). Coulomb's law is the equation
 
-    λ_t = λ_t − c s   projected on   |λ_t| ≤ μ λ_n.
+    λ_t = projection of (λ_t − c s) on the interval [−μ λ_n, μ λ_n],    with any constant c > 0.
 
-If λ_t lies inside the friction cone, this equation states s = 0 (stick). If λ_t lies on the
-boundary of the cone, the traction opposes the slip. See "Friction and its path" in docs/theory.md.
+If |λ_t| < μ λ_n, this equation states s = 0 (stick). If |λ_t| = μ λ_n, it states that s and λ_t
+have opposite signs, so that the traction opposes the slip. See "Friction and its path" in
+docs/theory.md.
 """
 
 from __future__ import annotations

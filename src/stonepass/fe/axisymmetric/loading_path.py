@@ -132,7 +132,7 @@ def follow_loading_path(
         s, step = ahead, usual
     edges = contact_edges(d)
     if edges is None:
-        return Failure("the wall left the stone", steps)
+        return Failure("the wall lost contact with the stone", steps)
     stations, at = np.unique(wall.station, return_index=True)
     return Start(d, edges, frictionless.force, steps, (stations, touch.ravel()[at]), dissipated)
 

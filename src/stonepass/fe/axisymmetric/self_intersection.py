@@ -1,4 +1,4 @@
-"""Check for self-intersection: does the wall of a solution pass through itself or through the axis?
+"""Check that the wall of a solution does not pass through itself or through the axis.
 
 The finite elements model the contact between wall and stone, but not contact of the wall with
 itself. A solution in which the wall has folded onto itself, or in which the lumen has closed, is

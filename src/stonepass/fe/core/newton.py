@@ -120,7 +120,7 @@ def newton(system: System, tolerance: float, most: int = 40, polish: float = 1.0
             return Report(count, norm, "the tangent matrix is singular")
         norm, last = _line_search(system, norm), norm
         if not math.isfinite(norm):
-            return Report(count + 1, last, "the residual was no longer finite in the iteration")
+            return Report(count + 1, last, "an iterate had no finite residual")
         if norm <= FAST * last:
             norm = _same_tangent(system, norm, tolerance)
     if norm <= tolerance:

@@ -1,1 +1,1 @@
-"""The models that answer a case, one file each."""
+"""The models that compute the critical pressure of a case, one file each."""

@@ -1,7 +1,8 @@
-"""A thin wall as a beam on an elastic foundation (`model: beam`; paper, section 3.3, Eqs 23–28).
+"""The beam model: a thin wall as a beam on an elastic foundation (paper, section 3.3, Eqs 23–28).
 
-Fibres along the tube bend like a beam of unit width, fibres round it are the springs under it, and
-the stone presses on it as a disc does on a half-plane (Hertz). Lengths here are in inner radii.
+The axial fibres of the wall act as a beam of unit width, the circumferential fibres as springs
+under the beam. The stone presses on the beam like a disc on a half-plane (Hertz contact). Lengths
+in this module are divided by the inner radius R_a. See "The thin wall as a beam" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
-from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.secant import STRETCH, secant_moduli
@@ -28,25 +29,37 @@ from stonepass.units import Pressure, Values, pressure
 
 __all__ = ["BeamState", "ElasticFoundation", "ElasticFoundationDetail"]
 
-THICKEST = 1.5  # η
-WIDEST = 2.0  # ξ
-THIN, SMALL = 0.1, 0.1  # of the inner radius: what is called so without a warning
-WHY = "the beam model is of a thin free tube round a sphere: take the paper's or the direct model"
-MODULUS = (1e2, 1e10)  # Pa
+THICKEST = 1.5  # largest η
+WIDEST = 2.0  # largest ξ
+# Largest wall thickness and largest deflection without a warning, in inner radii.
+THIN, SMALL = 0.1, 0.1
+WHY = (
+    "the beam model is for a thin, unloaded tube round a sphere: use the paper's or the direct "
+    "model"
+)
+MODULUS = (1e2, 1e10)  # bounds of a modulus in Pa
 
 
 @dataclass(frozen=True)
 class ElasticFoundation:
-    """A thin wall as a beam on an elastic foundation.
+    """The beam model of a thin wall.
+
+    Either both moduli or `secant_stretch` must be given.
 
     Parameters
     ----------
     circumferential_modulus, longitudinal_modulus : str or Pressure, optional
-        E₁ and E₂, Young's moduli of the fibres round and along the tube.
+        E₁ and E₂, Young's moduli of the circumferential and the axial fibres, 100 Pa to 10 GPa.
     secant_stretch : float, optional
-        Take both as nominal plane-strain secants of the wall's law at this stretch.
+        Stretch, 1.001 to 2, at which both moduli are computed as nominal plane-strain secant moduli
+        of the wall's law (`materials.secant`).
     far_field_ground : bool
-        Whether the law of the secants contains its ground matrix.
+        True if the secant moduli include the ground matrix of the law.
+
+    Raises
+    ------
+    BadInput
+        A modulus is missing or out of bounds, or both moduli and a stretch are given.
     """
 
     SECTION: ClassVar[str] = "method"
@@ -85,6 +98,8 @@ class ElasticFoundation:
         shown_default="fibres",
     )
 
+    __repr__ = described
+
     def __post_init__(self) -> None:
         check_inputs(self)
         moduli = {
@@ -98,7 +113,7 @@ class ElasticFoundation:
             raise Misplaced("secant_stretch", "a modulus", "", "give both moduli, or the stretch")
 
     def moduli(self, case: Problem) -> tuple[float, float]:
-        """E₁ and E₂ in Pa: given, or secants of the wall's law."""
+        """Return E₁ and E₂ in Pa: the given moduli, or the secant moduli of the wall's law."""
         if self.secant_stretch is not None:
             law = far_field_law(case, ground=self.far_field_ground)
             return secant_moduli(law, self.secant_stretch)
@@ -106,10 +121,14 @@ class ElasticFoundation:
         return pressure(hoop, "circumferential_modulus"), pressure(axial, "longitudinal_modulus")
 
     def require_any_size(self) -> None:
-        """Accept: no option belongs to one stone."""
+        """Do nothing: no option of this model restricts it to one stone."""
 
     def largest_size(self, case: Problem) -> float:
-        """ξ below which the contact is shorter than the stone: a < R_s where c (ξ − 1) < ξ."""
+        """Return the size ratio below which the contact is shorter than the stone, at most 2.
+
+        The half-length a of the contact satisfies (a/R_a)² = c ξ (ξ − 1) with a constant c, so that
+        a < R_s if c (ξ − 1) < ξ.
+        """
         at_one = _beam_state(self, case.with_size_ratio(2.0))
         c = at_one.half_length**2 / 2.0
         return WIDEST if c <= 2.0 else c / (c - 1.0) * (1.0 - 1e-9)
@@ -121,19 +140,22 @@ class ElasticFoundation:
         states: StateSolver,
         resolution: Resolution | None = None,
     ) -> Answer:
-        """Answer a stuck stone by the beam; it needs no states and no mesh.
+        """Find the critical pressure with the beam equations.
+
+        For the parameters see `Model.solve`; `states` and `resolution` are not used.
 
         Raises
         ------
         BadInput
-            A stone that is no sphere, a tube under load or pre-stretch, a wall that is not thin.
+            The stone is not a sphere, the tube is under confining pressure or pre-stretch, or the
+            wall is too thick (η > 1.5).
         """
         state = _beam_state(self, case)
         a, xi = state.half_length, case.size_ratio
         if not a < xi:
             reason = (
-                f"the beam model does not hold: half the contact would be {a:.3g} inner radii "
-                f"long, as long as the stone's radius or longer, {xi:.3g}"
+                f"the beam model does not hold: half the contact length, {a:.3g} inner radii, is "
+                f"not less than the radius of the stone, {xi:.3g}"
             )
             return unanswered(case, self, numerics, reason)
 
@@ -156,12 +178,12 @@ class ElasticFoundation:
 
 @dataclass(frozen=True)
 class ElasticFoundationDetail:
-    """What the beam model knows beside the answer.
+    """Additional results of the beam model.
 
     Attributes
     ----------
     closure_end_pressure : float
-        P_u in Pa at which the closure ends (r_a = R_s), not a physical bound.
+        Urine pressure in Pa at α = π/2, where the closure ends; it is not a physical bound.
     state : BeamState
     """
 
@@ -169,7 +191,7 @@ class ElasticFoundationDetail:
     state: BeamState
 
     def quantities(self) -> tuple[Quantity, ...]:
-        """The end of the closure, moduli, springs and length of the contact."""
+        """Return end pressure of the closure, moduli, foundation, decay and contact length."""
         state = self.state
         return (
             Quantity("closure_end_pressure", self.closure_end_pressure / 1e3, "kPa", "closure end"),
@@ -183,21 +205,23 @@ class ElasticFoundationDetail:
 
 @dataclass(frozen=True)
 class BeamState:
-    """Disc and beam in contact, without urine.
+    """The contact of stone and beam, without urine pressure.
 
     Attributes
     ----------
+    case : Problem
     circumferential_modulus, longitudinal_modulus : float
         E₁ and E₂ in Pa.
     foundation : float
-        k = h E₁/R_a² (Eq. 23) in Pa per inner radius of deflection.
+        Stiffness k = h E₁/R_a² of the foundation (Eq. 23), in Pa per inner radius of deflection;
+        h is the thickness of the wall.
     decay : float
-        β = (3k/(E₂ h³))^¼ per inner radius. Printed (Eq. 24) with a square root, which has the
-        wrong units and is not that of a point load on a Winkler beam.
+        β = (3k/(E₂ h³))^¼ per inner radius. Eq. 24 is printed with a square root instead of the
+        fourth root of a Winkler beam under a point load; the printed form has the wrong units.
     line_load : float
-        F_n = 2 k δ/β (Eq. 24), in Pa × inner radius, δ = R_s − R_a.
+        Force per width F_n = 2 k δ/β (Eq. 24), in Pa × inner radius, with δ = R_s − R_a.
     half_length : float
-        a = √(4 R_s F_n/(π E₂)) (Eq. 25), half the contact's length in inner radii.
+        Half the length of the contact a = √(4 R_s F_n/(π E₂)) (Eq. 25), in inner radii.
     """
 
     case: Problem
@@ -210,47 +234,59 @@ class BeamState:
 
     @property
     def contact_angle(self) -> float:
-        """α₀ in rad, cos α₀ = a/R_s."""
+        """Contact angle α₀ in rad, from cos α₀ = a/R_s."""
         return float(np.arccos(self.half_length / self.case.size_ratio))
 
     @property
     def downstream_angle(self) -> float:
-        """π − α₀ in rad."""
+        """Angle π − α₀ in rad at which the contact ends."""
         return float(np.pi - self.contact_angle)
 
     @property
     def peak_contact_pressure(self) -> float:
-        """2 F_n/(π a) in Pa, at the equator."""
+        """Largest contact pressure 2 F_n/(π a) in Pa, at the equator."""
         return 2.0 * self.line_load / (np.pi * self.half_length)
 
     @property
     def equator_contact_pressure(self) -> float:
-        """σ(π/2) in Pa."""
+        """Contact pressure σ(π/2) in Pa."""
         return self.peak_contact_pressure
 
     def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
-        """σ(θ) in Pa, half an ellipse over R_s cos θ."""
+        """Return σ(θ) in Pa for θ in rad; as a function of R_s cos θ it is half an ellipse."""
         share = self.case.size_ratio * np.cos(theta) / self.half_length
         return np.asarray(self.peak_contact_pressure * np.sqrt(np.maximum(1.0 - share**2, 0.0)))
 
     def friction(self, y: Values) -> Values:
-        """F_re in Pa × inner radius² of what is closed up to y = a − x upstream (Eq. 26)."""
+        """Return the friction force of the remaining contact in Pa × inner radius² (Eq. 26).
+
+        Parameters
+        ----------
+        y : float or array
+            Axial distance in inner radii, upstream of the equator, up to which the wall is still in
+            contact; y = a − x with the paper's coordinate x.
+        """
         t = y / self.half_length
         arc = t / 2.0 * np.sqrt(np.maximum(1.0 - t**2, 0.0)) + np.arcsin(t) / 2.0 + np.pi / 4.0
         case = self.case
         return 4.0 * self.line_load * case.stone.friction * case.size_ratio * arc
 
     def urine_pressure(self, y: Values) -> Values:
-        """P_u in Pa where the wall has opened to y = a − x: k (r_a − R_a), Eqs 27, 28.
+        """Return the urine pressure P_u = k (r_a − R_a) in Pa (Eqs 27 and 28).
 
-        Eq. 28 is Eq. 15 with sin α = √(1 − (y/R_s)²).
+        r_a follows from Eq. 28, which is Eq. 15 with sin α = √(1 − (y/R_s)²).
+
+        Parameters
+        ----------
+        y : float or array
+            See `friction`.
         """
         xi = self.case.size_ratio
         width, first = (np.sqrt(1.0 - (each / xi) ** 2) for each in (y, self.half_length))
         return self.foundation * (linear_closure(width, float(first), xi) - 1.0)
 
     def warnings(self) -> list[Caution]:
-        """Where the beam's assumptions are strained."""
+        """Return a caution for each assumption of the beam that is not well satisfied."""
         found, reach = [], self.half_length * self.decay
         if reach > 1.0:
             found.append(caution("long_beam_contact", decay_lengths=reach))
@@ -260,22 +296,23 @@ class BeamState:
         return found
 
     def without_wall(self) -> BeamState:
-        """Return itself: a beam has no stress field."""
+        """Return the state itself, because a beam has no stress field."""
         return self
 
 
 def _beam_state(model: ElasticFoundation, case: Problem) -> BeamState:
-    """Press the beam on the stone.
+    """Solve the contact of stone and beam.
 
     Raises
     ------
     BadInput
-        A stone that is no sphere, a tube under load or pre-stretch, a wall that is not thin.
+        The stone is not a sphere, the tube is under confining pressure or pre-stretch, or the wall
+        is too thick (η > 1.5).
     """
     load, eta = case.load, case.wall_ratio
     stone = case.stone.shape
-    require(stone.spheroidal and stone.aspect == 1.0, "shape of the stone", "no sphere", "a sphere",
-            WHY)  # fmt: skip
+    require(stone.spheroidal and stone.aspect == 1.0, "shape of the stone", "not a sphere",
+            "a sphere", WHY)  # fmt: skip
     require(eta <= THICKEST, "wall ratio", round(eta, 6), f"at most {THICKEST:g}", WHY)
     if load.confining_pressure > 0.0:
         shown = f"{load.confining_pressure / 1e3:g} kPa"

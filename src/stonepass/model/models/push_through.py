@@ -1,4 +1,4 @@
-"""The direct model's answer: the loaded push-through, with its error from a coarser solve."""
+"""The direct model: finite-element solution of the push-through, without a closure."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from stonepass.caution import caution
-from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import ErrorEstimate, Level
@@ -23,27 +23,31 @@ __all__ = ["PushThrough", "PushThroughDetail"]
 
 @dataclass(frozen=True)
 class PushThrough:
-    """The loaded push-through itself, without a closure.
+    """The direct model: wall and held stone are solved under the urine pressure.
+
+    The critical pressure is the urine pressure at which the axial force on the held stone vanishes.
+    See "The push-through, solved directly" in docs/theory.md.
 
     Parameters
     ----------
     wetted : bool
-        Whether urine takes its pressure off the friction, from the contact's upstream edge to the
-        seal.
+        True if urine enters the contact between its upstream edge and the seal, the place of the
+        largest contact pressure. There friction then acts on the contact pressure minus the urine
+        pressure. False for a dry contact.
     far_field_ground : bool
-        Whether the far field of an assessment contains the ground matrix of the law; the
-        push-through itself always does.
+        True if the far field of an assessment includes the ground matrix of the law. The
+        push-through solution always includes it.
     """
 
     SECTION: ClassVar[str] = "method"
     NAME: ClassVar[str] = "direct"
-    MEANING: ClassVar[str] = "the loaded push-through itself"
+    MEANING: ClassVar[str] = "finite elements of wall and stone under the urine pressure"
     NEEDS_ELEMENTS: ClassVar[bool] = True
 
     wetted: bool = declared(
         Kind.FLAG,
         "--wetted/--dry",
-        "Whether urine takes friction off up to the seal.",
+        "Whether urine enters the contact up to the seal and so reduces friction there.",
         default=False,
         shown_default="dry",
     )
@@ -55,14 +59,16 @@ class PushThrough:
         shown_default="fibres",
     )
 
+    __repr__ = described
+
     def __post_init__(self) -> None:
         check_inputs(self)
 
     def require_any_size(self) -> None:
-        """Accept: no option belongs to one stone."""
+        """Do nothing: no option of this model restricts it to one stone."""
 
     def largest_size(self, case: Problem) -> float:
-        """The end of the material's strain range."""
+        """Return the upper end of the material's strain range as the largest size ratio."""
         return case.ureter.material.strain_range[1]
 
     def solve(
@@ -72,7 +78,10 @@ class PushThrough:
         states: StateSolver,
         resolution: Resolution | None = None,
     ) -> Answer:
-        """Answer a stuck stone by the pressure at which no force is left on it."""
+        """Find the urine pressure at which the axial force on the stone vanishes.
+
+        For the parameters and exceptions see `Model.solve`.
+        """
         level = numerics.level
         wanted = (level.companion, level.resolution) if resolution is None else (resolution,)
         *coarser, found = states.push(
@@ -104,7 +113,7 @@ class PushThrough:
             ),
         )
         if not found.leaks:
-            # Without friction nothing holds the stone: the root is 0, and rounding tells nothing.
+            # Without friction the exact result is 0; the computed root differs by rounding only.
             pressure = 0.0 if case.stone.friction == 0.0 else state.urine_pressure
             answer = replace(answer, pressure=pressure, critical_angle=state.contact_angle)
         if coarse is None or undecided:
@@ -114,22 +123,22 @@ class PushThrough:
 
 @dataclass(frozen=True)
 class PushThroughDetail:
-    """What the direct model knows beside the answer.
+    """Additional results of the direct model.
 
     Attributes
     ----------
     leak_pressure : float or None
-        Urine pressure in Pa at which urine passes the held stone; None where it was not asked for,
-        or not found.
+        Urine pressure in Pa at which urine passes the held stone; None if it was not computed or
+        not found.
     seal_angle : float
-        θ in rad of the largest contact pressure, which holds the urine back.
+        Angle θ in rad of the largest contact pressure, which holds back the urine.
     """
 
     leak_pressure: float | None
     seal_angle: float
 
     def quantities(self) -> tuple[Quantity, ...]:
-        """Leak pressure and place of the seal."""
+        """Return leak pressure and angle of the seal."""
         leak = None if self.leak_pressure is None else self.leak_pressure / 1e3
         return (
             Quantity("leak_pressure", leak, "kPa", "leak pressure"),

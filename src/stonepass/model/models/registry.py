@@ -1,4 +1,4 @@
-"""The models by their name at the doors. A new model is one file and one line here."""
+"""The registry of the models by name. To add a model, add one file and one line here."""
 
 from __future__ import annotations
 
@@ -11,14 +11,20 @@ from stonepass.model.models.seated_balance import SeatedBalance
 
 __all__ = ["MODELS", "model_named"]
 
-# The classes satisfy `Model`; a protocol with attributes is no type that a class is checked by.
+# The classes satisfy `Model`, but a type checker cannot verify that of a class object.
 MODELS: dict[str, type[Any]] = {
     each.NAME: each for each in (SeatedBalance, PushThrough, ElasticFoundation)
 }
 
 
 def model_named(name: str) -> type[Any]:
-    """Look up a model by its name; an unknown one is refused, naming the nearest."""
+    """Look up the class of a model by its name.
+
+    Raises
+    ------
+    BadInput
+        No model has this name; the message suggests the most similar name.
+    """
     if name not in MODELS:
         refuse_unknown("model", name, list(MODELS))
     return MODELS[name]

@@ -1,4 +1,4 @@
-"""The paper's model: the seated contact, cut off at an angle, balances the urine (Eqs 4–17)."""
+"""The paper's model: balance of urine pressure and resistance of the seated contact (Eqs 4–17)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from stonepass.caution import caution
-from stonepass.declaration import Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.protocol import Law
@@ -39,46 +39,59 @@ from stonepass.units import Values
 
 __all__ = ["Closure", "SeatedBalance", "SeatedBalanceDetail", "balance", "balance_pressure"]
 
-SMALLEST_OPENING, LARGEST_OPENING = 0.5, 2.0  # of a series: r_a/R_a, r_a/R_s
-NO_LUMEN = "the far field without the ground matrix has no lumen under this load"
-NO_CURVE = "too few loaded states were found for the series that closes the gap to be fitted"
+# Range of an admissible series closure: smallest r_a/R_a and largest r_a/R_s.
+SMALLEST_OPENING, LARGEST_OPENING = 0.5, 2.0
+NO_LUMEN = "the load closes the lumen of the far field, which is evaluated without ground matrix"
+NO_CURVE = "too few loaded states were found to fit the series closure"
 
 
 @dataclass(frozen=True)
 class SeatedBalance:
     """The paper's model.
 
+    Finite elements give the contact pressure of the seated state. Urine opens the contact from
+    upstream. A closure relates the angle up to which it is open to the radius of the tube upstream,
+    and the far field relates that radius to the urine pressure. The stone moves at the first angle
+    at which the urine pressure on the open part of the stone balances the resistance of the
+    remaining contact. See "Resistance and drive" and "Closure and critical state" in
+    docs/theory.md.
+
     Parameters
     ----------
     seating : {"pressed", "frictionless", "growing"}
-        How the stone came to its place: its arc pressed radially into the wall as in the paper,
-        without friction, or a sphere growing in place.
+        The way in which the stone is brought into the wall, see `model.seating.Seating`.
     seating_friction : float, optional
-        Coulomb coefficient while the stone is seated, 0 to 2; by default the stone's.
+        Coulomb coefficient during the seating, 0 to 2; by default that of the stone.
     as_printed : bool
-        Take Eq. 5 with the sign printed in the paper (the wall behind the stone assists).
+        True to use Eq. 5 with the sign printed in the paper, by which the axial resultant of the
+        contact pressure assists the motion.
     closure_start : {"inner-radius", "lumen"}
-        Where the closure starts: at R_a as in the paper, or at the lumen that load leaves open.
+        Radius at which the closure starts: R_a as in the paper, or the lumen under the load.
     closure : {"linear", "series"}
-        Eq. 15; or the series of Eqs 13–14, fitted to `opening_curve` or to loaded states of the
-        case.
+        ``"linear"`` is Eq. 15. ``"series"`` is the series of Eqs 13–14, fitted to `opening_curve`
+        or, without one, to loaded states of the direct model.
     series_order : int
-        Order of the series, 1 to 8.
+        Number of coefficients of the series, 1 to 8.
     opening_curve : OpeningCurve, optional
-        Opened angles and radii to fit the series to (`read_opening_curve`).
+        Angles and radii to which the series is fitted (see `read_opening_curve`).
     far_field_ground : bool
-        Whether the far field contains the ground matrix of the law (Eq. 22 does not).
+        True if the far field includes the ground matrix of the law. Eq. 22 does not include it.
+
+    Raises
+    ------
+    BadInput
+        An option is out of bounds, or options contradict each other.
     """
 
     SECTION: ClassVar[str] = "method"
     NAME: ClassVar[str] = "paper"
-    MEANING: ClassVar[str] = "the seated contact of the paper, cut off by a closure"
+    MEANING: ClassVar[str] = "the paper's balance of the seated contact, with a closure"
     NEEDS_ELEMENTS: ClassVar[bool] = True
 
     seating: str = declared(
         Kind.CHOICE,
         "--seating",
-        "How the stone came to its place.",
+        "How the stone is brought into the wall.",
         default="pressed",
         choices=SEATINGS,
     )
@@ -118,7 +131,7 @@ class SeatedBalance:
     opening_curve: OpeningCurve | None = declared(
         Kind.OPENING_CURVE,
         "--opening-curve",
-        "Opened angles and radii to fit the series to: alpha_deg, radius_ratio.",
+        "Table with the angles and radii to which the series is fitted: alpha_deg, radius_ratio.",
         default=None,
         shown_default="loaded states of the case",
         metavar="FILE.csv",
@@ -131,6 +144,8 @@ class SeatedBalance:
         shown_default="fibres",
     )
 
+    __repr__ = described
+
     def __post_init__(self) -> None:
         check_inputs(self)
         if self.seating == "frictionless" and self.seating_friction not in (None, 0.0):
@@ -138,7 +153,7 @@ class SeatedBalance:
         curve = self.opening_curve
         if curve is None:
             return
-        allowed = "as read_opening_curve gives it"
+        allowed = "as read_opening_curve returns it"
         require(isinstance(curve, OpeningCurve), "opening_curve", curve, allowed)
         if self.closure != "series":
             raise Misplaced("opening_curve", f"the closure '{self.closure}'",
@@ -148,20 +163,20 @@ class SeatedBalance:
         require(count >= self.series_order, "opening_curve", f"{count} points", least)
 
     def seating_of(self, case: Problem) -> Seating:
-        """How the stone of a case comes to its place."""
+        """Return kind and friction of the seating for the stone of a case."""
         if self.seating == "frictionless":
             return Seating(self.seating, 0.0)
         given = self.seating_friction
         return Seating(self.seating, case.stone.friction if given is None else given)
 
     def require_any_size(self) -> None:
-        """Refuse an opening curve: it belongs to the one stone that it was found for."""
+        """Raise `Misplaced` if there is an opening curve, which is valid for one stone only."""
         if self.opening_curve is not None:
-            why = "the series is fitted to loaded states where it is left out"
-            raise Misplaced("opening_curve", "sizes that vary", "belongs to one stone", why)
+            why = "without it the series is fitted to loaded states of each stone"
+            raise Misplaced("opening_curve", "sizes that vary", "is valid for one stone only", why)
 
     def largest_size(self, case: Problem) -> float:
-        """The end of the material's strain range."""
+        """Return the upper end of the material's strain range as the largest size ratio."""
         return case.ureter.material.strain_range[1]
 
     def solve(
@@ -171,7 +186,10 @@ class SeatedBalance:
         states: StateSolver,
         resolution: Resolution | None = None,
     ) -> Answer:
-        """Answer a stuck stone by its seated contact, the closure and the far field."""
+        """Find the critical pressure from the seated contact, the closure and the far field.
+
+        For the parameters and exceptions see `Model.solve`.
+        """
         start = _closure_start(self, case, self.far_field_ground)
         if start is None:
             return unanswered(case, self, numerics, NO_LUMEN)
@@ -192,16 +210,16 @@ class SeatedBalance:
 
 @dataclass(frozen=True)
 class Closure:
-    """How the pressure follows from the opened angle: shape of the gap, and far field.
+    """The urine pressure as a function of the angle up to which the contact has opened.
 
     Attributes
     ----------
     law : Law
         The law of the far field.
     start : float
-        r_a/R_a at which Eq. 15 starts.
+        r_a/R_a at α₀ in Eq. 15.
     series : Series or None
-        A fitted series in the place of Eq. 15.
+        Fitted series that replaces Eq. 15; None for Eq. 15.
     """
 
     law: Law
@@ -209,7 +227,15 @@ class Closure:
     series: Series | None = None
 
     def pressure(self, contact: Contact, alpha: Values) -> Values:
-        """P_u(α) in Pa (Eq. 16): the far field at the radius that the closure gives to α."""
+        """Return the urine pressure P_u(α) in Pa of the far field at the radius r_a(α) (Eq. 16).
+
+        Parameters
+        ----------
+        contact : Contact
+            The seated contact; it supplies α₀ and the case.
+        alpha : float or array
+            Angle in rad up to which the contact has opened, from α₀ to π/2.
+        """
         case, width = contact.case, contact.case.stone.shape.width
         shape: Callable[[Values, float, float], Values]
         shape = self.series or partial(linear_closure, start=self.start)
@@ -218,21 +244,22 @@ class Closure:
         return urine_pressure(radius, case.wall_ratio, self.law, case.load)
 
     def end_pressure(self, contact: Contact) -> float:
-        """P_u in Pa at which the closure ends, not a physical bound."""
+        """Return P_u(π/2) in Pa, at which the closure ends; this is not a physical bound."""
         return float(self.pressure(contact, np.array(np.pi / 2)))
 
 
 @dataclass(frozen=True)
 class SeatedBalanceDetail:
-    """What the paper's model knows beside the answer.
+    """Additional results of the paper's model.
 
     Attributes
     ----------
     closure : Closure
+        The closure that was used.
     closure_end_pressure : float
-        P_u in Pa at which the closure ends (r_a = R_s), not a physical bound.
+        Urine pressure in Pa at α = π/2, where the closure ends; it is not a physical bound.
     printed_series : tuple of float or None
-        Coefficients of a fitted series as Eq. 14 has them, in inner radii.
+        Coefficients of a fitted series in the form of Eq. 14, in inner radii; None for Eq. 15.
     """
 
     closure: Closure
@@ -240,7 +267,7 @@ class SeatedBalanceDetail:
     printed_series: tuple[float, ...] | None = None
 
     def quantities(self) -> tuple[Quantity, ...]:
-        """The end of the closure, and the coefficients of a fitted series."""
+        """Return the end pressure of the closure, and the coefficients of a fitted series."""
         series = self.closure.series
         return (
             Quantity("closure_end_pressure", self.closure_end_pressure / 1e3, "kPa", "closure end"),
@@ -252,7 +279,21 @@ class SeatedBalanceDetail:
 def balance_pressure(
     contact: Contact, closure: Closure, *, as_printed: bool = False
 ) -> float | None:
-    """P_ucr in Pa of a seated stone by a closure; None where the forces do not balance."""
+    """Return the critical pressure P_ucr of a seated stone for a given closure.
+
+    Parameters
+    ----------
+    contact : Contact
+        The seated contact, pressures in Pa.
+    closure : Closure
+    as_printed : bool
+        True to use the sign of Eq. 5 as it is printed.
+
+    Returns
+    -------
+    float or None
+        P_ucr in Pa; None if drive and resistance do not balance at any α in [α₀, π/2].
+    """
     found = _critical(contact, closure, as_printed=as_printed)
     return None if found is None else found.pressure
 
@@ -260,7 +301,17 @@ def balance_pressure(
 def balance(
     model: SeatedBalance, case: Problem, numerics: Numerics, seated: SeatedState, closure: Closure
 ) -> Answer:
-    """The answer of a seated state by a closure."""
+    """Compute the answer of the paper's model for a seated state and a closure.
+
+    Parameters
+    ----------
+    model : SeatedBalance
+    case : Problem
+        The case that the seated state solves.
+    numerics : Numerics
+    seated : SeatedState
+    closure : Closure
+    """
     found = _critical(seated, closure, as_printed=model.as_printed)
     coarse = (
         None
@@ -317,10 +368,10 @@ def _fitted(
     start: float,
     states: StateSolver,
 ) -> Closure | None:
-    """The series fitted to the curve given, or to loaded states of the case.
+    """Fit the series closure to the given opening curve, or else to loaded states of the case.
 
-    Loaded states are of the whole law, ground matrix included, so a series fitted to them is turned
-    back to a pressure by the whole law: that gives each state its own pressure.
+    Loaded states are solved with the ground matrix. With a series fitted to them the far field is
+    therefore evaluated with the ground matrix too, so that each state has its own pressure.
     """
     curve, order = model.opening_curve, model.series_order
     if curve is None:
@@ -345,7 +396,10 @@ def _fitted(
 
 @dataclass(frozen=True)
 class _Critical:
-    """Where drive and resistance balance; `at_edge` where the drive wins from the first angle."""
+    """The critical state: angle in rad, and urine pressure in Pa.
+
+    `at_edge` is true if the drive already exceeds the resistance at α₀.
+    """
 
     angle: float
     pressure: float
@@ -353,11 +407,11 @@ class _Critical:
 
 
 def _critical(contact: Contact, closure: Closure, *, as_printed: bool) -> _Critical | None:
-    """Smallest α in [α₀, π/2] with F_re = F_dr: scan first, since it need not be the only one."""
+    """Find the smallest α in [α₀, π/2] with F_re = F_dr; the equation may have several roots."""
     forces = resistance(contact, as_printed=as_printed)
     width = contact.case.stone.shape.width
     first, last = contact.contact_angle, np.pi / 2
-    # Without friction nothing holds the stone, whatever the load: the root is α₀, and P_ucr = 0.
+    # Without friction nothing holds the stone under any load, so P_ucr = 0 at α₀.
     if contact.case.stone.friction == 0.0:
         return _Critical(first, 0.0)
 
@@ -370,7 +424,7 @@ def _critical(contact: Contact, closure: Closure, *, as_printed: bool) -> _Criti
         return None
     if found == first:
         disc = float(width(np.array(first))) ** 2
-        # P_u whose drive equals the resistance of the whole contact.
+        # This is the P_u whose drive equals the resistance of the whole contact.
         return _Critical(first, max(float(forces.total(np.array(first))), 0.0) / disc, at_edge=True)
     return _Critical(found, float(closure.pressure(contact, np.array(found))))
 
@@ -382,9 +436,10 @@ def _error(
     coarse: _Critical | None,
     closure: Closure,
 ) -> ErrorEstimate | None:
-    """The error of the contact, with that of P_ucr, from the balance of the coarser contact.
+    """Return the error estimates of the contact and of P_ucr.
 
-    Where that one has no balance, its pressure lies beyond the end of its closure.
+    The error of P_ucr follows from the critical pressure of the coarser contact. If the forces of
+    the coarser contact do not balance, the end pressure of its closure is used instead.
     """
     if seated.error is None or seated.coarse is None or found is None:
         return seated.error
@@ -394,7 +449,7 @@ def _error(
 
 
 def _closure_start(model: SeatedBalance, case: Problem, ground: bool) -> float | None:
-    # A series of a stone that is no larger than its first radius has no slope to fit.
+    # For ξ ≤ 1 a series that starts at R_a would be constant, so there would be nothing to fit.
     degenerate = model.closure == "series" and case.size_ratio <= 1.0
     if model.closure_start == "inner-radius" and not degenerate:
         return first_radius(case.size_ratio)

@@ -1,1 +1,1 @@
-"""Finite-element states of one case: seated, loaded, and who solves them."""
+"""Finite-element states of one case: the seated state, the loaded state, and their solvers."""

@@ -1,4 +1,7 @@
-"""First guess for Newton's method: the wall wrapped round the stone, uniform at every station."""
+"""First guess for Newton's method: the wall wrapped round the stone at constant volume.
+
+See "First guess" in docs/theory.md, section "Seated state".
+"""
 
 from __future__ import annotations
 
@@ -12,35 +15,38 @@ from stonepass.model.problem import Problem
 
 __all__ = ["wrap_round_arc"]
 
-REACH = 1.2  # guessed contact edge, in units of the place where the wrapped wall leaves the arc
-MERIDIAN = 2001  # samples of the arc
+REACH = 1.2  # guessed z of the contact edge, relative to the z at which the wall leaves the arc
+MERIDIAN = 2001  # number of samples of the arc
 
 
 def wrap_round_arc(
     case: Problem, half_length: float, lumen: float, modulus: float, place: Profile
 ) -> Wrap:
-    """Guess inner radius and inner pressure along the tube round a stone at a place.
+    """Guess the inner radius and the inner pressure along a tube with a stone inside.
 
-    The wall leaves the arc at half the axial coordinate at which the arc has the radius of the
-    lumen, with the slope of the arc, and returns to the lumen exponentially. The inner pressure is
-    that of a uniform tube of the local radius.
+    Let z₀ be the axial coordinate at which the arc, the meridian of the stone, has the radius of
+    the lumen. The guessed wall lies on the arc up to z₀/2. From there its radius returns to that of
+    the lumen exponentially, beginning with the slope of the arc. The inner pressure is that of a
+    uniform tube of the local radius.
 
     Parameters
     ----------
     case : Problem
+        Supplies the wall and the load.
     half_length : float
-        L/R_a, half the length of the tube in inner radii.
+        Half the length of the tube, L/R_a, in inner radii.
     lumen : float
-        Inner radius of the tube far from the stone, in undeformed inner radii; less than the
-        radius of the stone plus its offset.
+        Inner radius of the tube far from the stone, in undeformed inner radii; it must be less than
+        the radius of the stone plus its offset.
     modulus : float
         w″(1) in Pa, the unit of pressure in the finite elements.
     place : Profile
-        The stone, lengths in inner radii.
+        The stone in its current position, lengths in inner radii.
 
     Returns
     -------
     Wrap
+        Lengths in inner radii, pressures in units of the modulus.
     """
     stretch, law = case.load.prestretch, case.ureter.material.law
     end = half_length * stretch
@@ -61,7 +67,10 @@ def wrap_round_arc(
 def _side(
     place: Profile, lumen: float, end: float
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"], float]:
-    """Deformed z and inner radius downstream of the widest place, and z where the wall leaves."""
+    """Return the guess downstream of the widest place, in inner radii.
+
+    The results are deformed z, deformed inner radius, and the z at which the wall leaves the arc.
+    """
     tau = np.pi / 2 * (1.0 + np.linspace(0.0, 1.0, MERIDIAN))
     rho, along = place.meridian(tau)
     arc, axial = place.offset + place.radius * rho, place.radius * along

@@ -1,4 +1,4 @@
-"""A law tried in the finite elements before any solve: they must find what NumPy finds."""
+"""Check of a law before any solve: the finite elements and NumPy must compute the same values."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["check_in_engine"]
 
-AGREES = 1e-9  # of the largest value
-R = 1.25  # where in the wall, in inner radii
-POINTS = 7
+AGREES = 1e-9  # largest allowed difference, relative to the largest value
+R = 1.25  # reference radius of the place in the wall, in inner radii
+POINTS = 7  # number of deformations
 
 
 def check_in_engine(material: Material) -> None:
-    """Compare energy and slopes in the finite elements with those in NumPy, over the strain range.
+    """Compare energy and derivatives in NGSolve with those in NumPy, over the strain range.
 
     Raises
     ------
     BadInput
-        The law uses what the finite elements do not have, or has other values there.
+        The law uses an operation that NGSolve cannot differentiate, or its values differ there.
     """
     name, law = f"law of material '{material.name}'", material.law
     hoop = np.linspace(*material.strain_range, POINTS)
@@ -37,7 +37,7 @@ def check_in_engine(material: Material) -> None:
         found = energy_values(law.energy, C, R)
     except StonepassError:
         raise
-    except Exception as problem:  # the engine's own kinds have no public name
+    except Exception as problem:  # NGSolve's exception types have no public names
         what = f"raising {type(problem).__name__}: {problem}"
         raise BadInput(
             name, what, "such that the finite elements can differentiate it"
@@ -47,11 +47,11 @@ def check_in_engine(material: Material) -> None:
     expected = np.column_stack([energies, slopes])
     off = np.abs(found - expected).max(axis=1)
     worst = int(np.argmax(off))
-    if not off[worst] <= AGREES * np.abs(expected).max():  # NaN too
+    if not off[worst] <= AGREES * np.abs(expected).max():  # also true for NaN
         raise BadInput(
             name,
             f"{found[worst, 0]:.6g} J/m³ in the finite elements and {expected[worst, 0]:.6g} J/m³ "
             f"in NumPy at circumferential stretch {hoop[worst]:.3g}",
-            "the same in both, with the same slopes",
-            "use the functions of xp alone",
+            "the same in both, with the same derivatives",
+            "use only the functions of xp",
         )

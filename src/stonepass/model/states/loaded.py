@@ -1,10 +1,11 @@
-"""The loaded state: wall and stone under urine pressure, for the direct model (beyond the paper).
+"""The loaded state of the direct model: wall and held stone under urine pressure.
 
-The stone is held at mid-length while urine of pressure P_u stands upstream. Up to the contact the
-wall carries P_u, and it slides on the stone with its friction fully mobilised. The net axial force
-on the stone, N(P_u), is negative while the stone is stuck; its root is the critical pressure. The
-largest contact pressure seals; at the *leak pressure* P_u reaches it, and urine passes. See
-"The push-through, solved directly" in docs/theory.md.
+The stone is held at mid-length, and urine of the pressure P_u stands upstream. P_u acts on the wall
+upstream of the contact. Friction between wall and stone is fully mobilised. The axial force on the
+stone, N(P_u), is negative while the stone is stuck, and its root is the critical pressure. Urine
+cannot pass as long as P_u is below the largest contact pressure; the P_u at which both are equal is
+the *leak pressure*. See "The push-through, solved directly" in docs/theory.md. The paper has no
+such model.
 """
 
 from __future__ import annotations
@@ -56,15 +57,17 @@ from stonepass.units import Pressure, pressure
 
 __all__ = ["find_critical", "solve_loaded"]
 
-SAMPLES = 33  # points in each column in contact
-# In units of the pressure that opens the tube to R_s: largest first guess, and a low pressure.
+SAMPLES = 33  # number of samples of the contact pressure in each column
+# Largest first guess of P_ucr, and pressure at which the search for a leak starts if no critical
+# state was found, as fractions of the pressure that opens the tube to R_s.
 HIGHEST_GUESS, LOW_START = 1.2, 0.3
-# Excess of the seal over P_u, relative to P_u: where the search for the leak begins and ends, its
-# factor from step to step, and the excess above which no leak pressure is extrapolated.
+# The excess is the largest contact pressure minus P_u, divided by P_u. The search for the leak
+# pressure lowers it from at most HIGHEST_EXCESS, by the factor LEAK_STEP in each step, until it is
+# below LEAK_EXCESS. No leak pressure is extrapolated from an excess above LEAK_FAR.
 HIGHEST_EXCESS, LEAK_EXCESS, LEAK_STEP, LEAK_FAR = 3.0, 0.06, 0.6, 0.4
-NO_PRESSURE = 1e-9  # in units of the modulus: a pressure that is zero but for rounding
-LEAKS = "urine passes the stone: no contact pressure is above that of the urine"
-UNSEALED = "the state that balances does not hold the urine back"
+NO_PRESSURE = 1e-9  # pressures below this count as zero, in units of the modulus
+LEAKS = "urine passes the stone, because its pressure exceeds the contact pressure everywhere"
+UNSEALED = "the axial forces balance, but the contact pressure does not hold the urine back"
 
 
 def solve_loaded(
@@ -77,33 +80,40 @@ def solve_loaded(
     tether: float = 0.0,
     offset: float = 0.0,
 ) -> list[PushedState | NoPush]:
-    """Hold the stone under one pressure after the other, each state the start of the next.
+    """Solve the states of a held stone under a sequence of urine pressures.
 
-    The slide is imminent everywhere (theory: the push-through, solved directly). Once a state is
-    not found, the rest is not tried.
+    Friction is fully mobilised, because sliding is imminent. Each state is the starting point of
+    the next one. After the first pressure for which no state is found, the remaining ones are not
+    tried.
 
     Parameters
     ----------
     case : Problem
     numerics : Numerics
     urine : sequence of str or Pressure
-        P_u above the stone, e.g. ``"8 kPa"``; zero or positive.
+        Urine pressures P_u upstream of the stone, zero or positive, e.g. ``"8 kPa"``.
     resolution : Resolution, optional
-        The mesh; by default the finer one of the accuracy.
+        Resolution of the finite elements; by default the finer one of the accuracy level.
     wetted : bool
-        Whether urine takes its pressure off the friction, from the contact's upstream edge to the
-        seal.
+        True for a contact that urine enters between its upstream edge and the seal, see
+        `PushThrough`.
     tether : float
-        Stiffness of springs that hold the outer wall along the axis, per reference area, in units
-        of w″(1)/R_a. The ends hold the wall only far away, so it shortens upstream and lengthens
-        downstream; a weak tether leaves the same stretch on both sides.
+        Stiffness of springs that resist axial displacement of the outer wall, per reference area,
+        in units of w″(1)/R_a. Without a tether the wall is held only at the ends of the tube, so it
+        shortens on one side of the stone and lengthens on the other. A weak tether keeps the axial
+        stretch equal on both sides.
     offset : float
-        How far downstream of mid-length the stone is held, in inner radii.
+        Distance by which the stone is held downstream of mid-length, in inner radii.
+
+    Returns
+    -------
+    list of PushedState or NoPush
+        One result for each pressure, in the same order.
 
     Raises
     ------
     UnstableLaw
-        The material law is no solid.
+        The material law is not stable.
     BadInput
         The stone is not larger than the lumen, or a number is out of range.
 
@@ -142,10 +152,31 @@ def find_critical(
     wetted: bool = False,
     leak: bool = True,
 ) -> list[Critical | NoPush]:
-    """Find the pressure that moves the stone, once for each resolution, coarse before fine.
+    """Find the urine pressure at which the stone moves, once for each resolution.
 
-    The first one also looks for the leak pressure where it is asked for; the others start from its
-    answer.
+    The first solve also determines the leak pressure, if `leak` is true. Each further solve takes
+    the critical pressure of the previous one as its first guess.
+
+    Parameters
+    ----------
+    case : Problem
+    numerics : Numerics
+    resolutions : sequence of Resolution
+        Coarse resolutions first.
+    wetted : bool
+        See `solve_loaded`.
+    leak : bool
+        True to determine the leak pressure as well.
+
+    Returns
+    -------
+    list of Critical or NoPush
+        One result for each resolution, in the same order.
+
+    Raises
+    ------
+    UnstableLaw, BadInput
+        See `solve_loaded`.
     """
     started, found = time.perf_counter(), list[Critical | NoPush]()
     guess = None
@@ -163,10 +194,11 @@ def find_critical(
 
 @dataclass(frozen=True)
 class _Setup:
-    """A seated tube, ready to be loaded; pressures in units of the modulus.
+    """A seated tube that is ready to be loaded.
 
-    `guess` is a first guess of P_ucr, `opening` the pressure that opens the tube to R_s, `steps`
-    are the Newton steps of the seating.
+    `modulus` is w″(1) in Pa. `guess` is a first guess of P_ucr, and `opening` is the pressure that
+    opens the tube to R_s, both in units of the modulus. `steps` is the number of Newton steps of
+    the seated state.
     """
 
     workspace: Workspace
@@ -186,7 +218,7 @@ def _set_up(
     tether: float = 0.0,
     offset: float = 0.0,
 ) -> list[_Setup | Failure]:
-    """Seat the stone without friction, for each resolution, and prepare the loading."""
+    """Solve the seated state without friction for each resolution, and prepare the loading."""
     check(case.ureter.material)
     lumen = stuck_lumen(case)
     unstable = axisymmetric_buckling(case, numerics.half_length)
@@ -219,7 +251,10 @@ def _set_up(
 
 
 def _guess(case: Problem, seated: EquilibriumState, opening: float) -> float:
-    """P_ucr by energy from the unloaded contact: P V = ∫ μ λ dA for an advance by one length."""
+    """Guess P_ucr in units of the modulus by an energy balance with the contact force of the seat.
+
+    The work of the pressure on the mean section of the lumen equals the work of friction.
+    """
     wall = inner_wall(seated.discretisation, "closed")
     halves = 1.0 if seated.layout.whole else 2.0
     normal = halves * 2.0 * np.pi * float((wall.weight * wall.normal).sum())
@@ -241,7 +276,7 @@ def _critical(
     low = solve_at_pressure(workspace, setup.seated, LOW_START * setup.opening, friction)
     if isinstance(low, SlidingState):
         passed, last = _leak(workspace, low, setup.opening)
-        # An extrapolation from far below the leak pressure does not tell the force there.
+        # The sign of the force at the leak pressure is known only from a state close to it.
         if passed is not None and last.force < 0.0 and _excess(last) <= 2.0 * LEAK_EXCESS:
             state = _state(case, setup, last, started)
             return Critical(state, passed * setup.modulus, leaks=True)
@@ -250,17 +285,18 @@ def _critical(
 
 
 def _sealed(state: SlidingState) -> bool:
-    """Whether the contact pressure rises above that of the fluid behind the first edge."""
+    """Return True if the contact pressure exceeds the fluid pressure somewhere in the contact."""
     return int(np.argmax(state.contact_pressure)) > 0
 
 
 def _leak(
     workspace: Workspace, start: SlidingState, opening: float
 ) -> tuple[float | None, SlidingState]:
-    """The leak pressure, and the last state before it.
+    """Return the leak pressure in units of the modulus, or None, and the last state below it.
 
-    The excess of the largest contact pressure over P is lowered in steps, and P found for each.
-    It falls like a root of the distance to the leak pressure, so its square is extrapolated.
+    The excess of the largest contact pressure over P is lowered in steps, and P is solved for in
+    each step. Close to the leak pressure the excess is proportional to the square root of the
+    distance from it, so the square of the excess is extrapolated linearly to zero.
     """
     states, pressure = [start], max(start.pressure, LOW_START * opening)
     excess = min(_excess(start), HIGHEST_EXCESS)
@@ -283,7 +319,7 @@ def _leak(
 
 
 def _excess(state: SlidingState) -> float:
-    """How far the seal is above the fluid, in units of the fluid's pressure."""
+    """Return the largest contact pressure minus the fluid pressure, divided by the latter."""
     if state.pressure <= NO_PRESSURE:
         return np.inf
     return float(state.contact_pressure.max()) / state.pressure - 1.0
@@ -328,7 +364,7 @@ def _state(case: Problem, setup: _Setup, found: SlidingState, started: float) ->
 
 
 def _microbuckled(case: Problem, F: Deformation) -> bool:
-    """Whether C_zz is anywhere below the value at which the law is relaxed."""
+    """Return True if C_zz is anywhere below the value at which the axial fibres buckle."""
     law = relaxed(case.ureter.material.law)
     if not isinstance(law, RelaxedEnergy):
         return False

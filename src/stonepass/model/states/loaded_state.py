@@ -1,4 +1,4 @@
-"""The loaded push-through state as values: contact, force on the stone, wall."""
+"""Results for the loaded state of a held stone: contact, force on the stone, wall."""
 
 from __future__ import annotations
 
@@ -13,32 +13,35 @@ from stonepass.caution import Caution, caution
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
 
-if TYPE_CHECKING:  # loads the finite elements
+if TYPE_CHECKING:  # at run time the import would load the finite elements
     from stonepass.fe.axisymmetric.wall_values import Field, Volume
 
 __all__ = ["Critical", "NoPush", "PushReport", "PushedState"]
 
-LOADED_IMBALANCE = 0.01  # of the forces at the ends of the tube
+LOADED_IMBALANCE = 0.01  # imbalance above which a warning is given, relative to the end forces
 
 
 @dataclass(frozen=True)
 class PushReport:
-    """What the finite elements did.
+    """Size and cost of a finite-element solution, and independent checks of it.
 
     Attributes
     ----------
-    dofs, newton_steps, seconds : int, int, float
-        Unknowns of the mesh; Newton steps with a tangent of their own and seconds of all that was
-        solved for the answer.
+    dofs : int
+        Number of unknowns of the mesh.
+    newton_steps : int
+        Number of Newton steps with a newly factorised tangent, including the seated state.
+    seconds : float
+        Wall-clock time in s of all solves for this result.
     residual : float
-        Relative to the contact force.
+        Norm of the residual relative to the contact force.
     volume : Volume
-        How well volume is kept.
+        Error of the volume of the wall.
     axial_balance : float
-        Axial force left over on tube and stone, relative to the forces at the tube's ends.
+        Unbalanced axial force on tube and stone, relative to the forces at the ends of the tube.
     penetration : float
-        How far the open wall passes through the stone where friction begins with a step, in radii
-        of the stone.
+        Largest penetration of the open wall into the stone at the upstream contact edge, where the
+        friction traction begins with a step, in radii of the stone.
     """
 
     dofs: int
@@ -53,35 +56,39 @@ class PushReport:
 @array_dataclass
 @dataclass(frozen=True)
 class PushedState:
-    """The loaded wall round the held stone, in SI.
+    """The loaded wall round the held stone, in SI units.
 
     Attributes
     ----------
+    case : Problem
+        The problem that was solved.
     urine_pressure : float
-        P_u in Pa.
+        Urine pressure P_u in Pa upstream of the stone.
     net_force : float
-        N/(π R_s²) in Pa: axial force on the stone over its cross-section, positive downstream;
-        negative while the stone is stuck.
+        Axial force on the stone divided by its cross-section, N/(π R_s²), in Pa. It is positive
+        downstream, and negative while the stone is stuck.
     friction_work : float
-        D/(π R_s²) in Pa, D = ∫ μ σ λ_s dA with λ_s the wall's meridional stretch: what friction
-        takes as the stone goes on by one length of wall, pre-stretched but not loaded. N = I − D
-        (`model.energy_balance`).
-    theta, contact_pressure : arrays
-        Total contact pressure in Pa (true stress, compression positive) over θ in rad from the
-        upstream axis (parametric where the stone is no sphere, `model.shape`), from the upstream
-        edge of the contact to the downstream one.
+        Frictional dissipation D/(π R_s²) in Pa, per unit advance of the stone along the
+        pre-stretched but otherwise unloaded wall. D = ∫ μ σ λ_s dA with the meridional stretch λ_s
+        of the wall. The energy balance is N = I − D (`model.energy_balance`).
+    theta : array (n,)
+        Angles θ in rad, from the upstream to the downstream edge of the contact, as in `Contact`.
+    contact_pressure : array (n,)
+        Total contact pressure in Pa at `theta` (true stress, compression positive).
     upstream_radius, upstream_stretch : float
-        r_a/R_a and axial stretch far from the stone.
+        Inner radius r_a/R_a and axial stretch far upstream of the stone.
     downstream_stretch : float
-        Axial stretch far downstream.
-    wall : Field
-        Deformed wall and Cauchy stress (Pa, tension positive) of the whole tube, lengths in inner
-        radii, z from the stone's widest place downstream.
+        Axial stretch far downstream of the stone.
+    wall : Field or None
+        Deformed wall of the whole tube, lengths in inner radii, with z = 0 at the widest place of
+        the stone and z positive downstream; Cauchy stress in Pa, tension positive. None if it was
+        not kept.
     solver : PushReport
     stability : StabilityReport
-        Stability of the wall's own law in this state, without the relaxation.
+        Stability of the law without relaxation, in this state of the wall.
     microbuckled : bool
-        Whether the law was relaxed somewhere: axial fibres compressed until they buckle.
+        True if axial fibres are buckled somewhere in the wall, so that its relaxed energy differs
+        from that of the law.
     """
 
     case: Problem
@@ -100,31 +107,31 @@ class PushedState:
 
     @property
     def contact_angle(self) -> float:
-        """α in rad, at which the contact begins; upstream of it the wall has opened."""
+        """Angle α in rad at which the contact begins; upstream of it the wall has opened."""
         return float(self.theta[0])
 
     @property
     def downstream_angle(self) -> float:
-        """θ in rad at which the contact ends."""
+        """Angle θ in rad at which the contact ends."""
         return float(self.theta[-1])
 
     @property
     def seal_angle(self) -> float:
-        """θ in rad of the largest contact pressure, which holds the urine back."""
+        """Angle θ in rad of the largest contact pressure, which holds back the urine."""
         return float(self.theta[np.argmax(self.contact_pressure)])
 
     @property
     def peak_contact_pressure(self) -> float:
-        """Largest σ(θ) in Pa."""
+        """Largest contact pressure in Pa."""
         return float(self.contact_pressure.max())
 
     @property
     def equator_contact_pressure(self) -> float:
-        """σ(π/2) in Pa: the urine pressure where the wall has opened beyond the equator."""
+        """Pressure on the equator of the stone in Pa, see `pressure_at`."""
         return float(self.pressure_at(np.array(np.pi / 2)))
 
     def warnings(self) -> list[Caution]:
-        """What a reader of the state must know."""
+        """Return the cautions that apply to this state."""
         found = []
         if self.solver.axial_balance > LOADED_IMBALANCE:
             found.append(caution("loaded_imbalance", imbalance=self.solver.axial_balance))
@@ -138,16 +145,29 @@ class PushedState:
         return replace(self, wall=None)
 
     def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
-        """Pressure on the stone in Pa at any θ in [0, π]: P_u before the contact, 0 behind it."""
+        """Return the pressure on the stone in Pa at angles θ in [0, π] in rad.
+
+        It is P_u upstream of the contact, the contact pressure within it, and 0 downstream of it.
+        """
         inside = np.interp(
             theta, self.theta, self.contact_pressure, left=self.urine_pressure, right=0.0
         )
-        return np.asarray(inside)  # NumPy makes a number of an array without dimensions
+        return np.asarray(inside)  # NumPy returns a scalar for an array without dimensions
 
 
 @dataclass(frozen=True)
 class NoPush:
-    """The finite elements found no loaded state."""
+    """Result of a solve that found no loaded state.
+
+    Attributes
+    ----------
+    reason : str
+        Reason of the failure, as part of a sentence.
+    newton_steps : int
+        Number of Newton steps with a newly factorised tangent.
+    seconds : float
+        Wall-clock time in s.
+    """
 
     reason: str
     newton_steps: int
@@ -156,17 +176,18 @@ class NoPush:
 
 @dataclass(frozen=True)
 class Critical:
-    """How a held stone is let go.
+    """The critical state of a held stone: it moves, or urine passes it.
 
     Attributes
     ----------
     state : PushedState
-        Where no force is left on the stone; where urine passes first, the last state before.
+        The state in which the axial force on the stone vanishes. If urine passes first, the last
+        state that was solved below the leak pressure.
     leak_pressure : float or None
-        P_u in Pa at which urine passes the held stone; None where it was not asked for, or not
-        found.
+        Urine pressure in Pa at which urine passes the held stone; None if it was not computed or
+        not found.
     leaks : bool
-        Whether urine passes first.
+        True if urine passes before the stone moves.
     """
 
     state: PushedState
@@ -175,10 +196,10 @@ class Critical:
 
     @property
     def newton_steps(self) -> int:
-        """Newton steps with a tangent of their own."""
+        """Number of Newton steps with a newly factorised tangent."""
         return self.state.solver.newton_steps
 
     @property
     def seconds(self) -> float:
-        """Seconds of all that was solved for it."""
+        """Wall-clock time in s of all solves for this result."""
         return self.state.solver.seconds

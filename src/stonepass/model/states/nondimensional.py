@@ -1,4 +1,7 @@
-"""Ureter, load and stone in the units of the finite elements: inner radius and hoop modulus."""
+"""Conversion of ureter, load and stone to the scales of the finite elements.
+
+Lengths are divided by the inner radius R_a, and pressures by the hoop modulus w″(1).
+"""
 
 from __future__ import annotations
 
@@ -15,18 +18,30 @@ from stonepass.strain import CauchyGreen, Place
 __all__ = ["profile_of", "tube_of"]
 
 
-# The energy of a volume change, as a multiple of the pressure that a law has at rest, and at least
-# that of rubber's.
+# The factor κ of the volumetric energy is VOLUME_WEIGHT times the pressure in the wall at rest, or
+# times that of a neo-Hookean wall, RUBBER × w″(1), if the latter is larger.
 VOLUME_WEIGHT, RUBBER = 1.2, 0.25
 
 
 def tube_of(law: Law, wall_ratio: float, load: Load, half_length: float) -> Tube:
-    """Divide lengths by the inner radius and pressures by w″(1).
+    """Describe a tube in units of its inner radius and of the modulus w″(1).
 
-    A law speaks of J = 1 only; beside it the energy is ours to choose, and gets ½ κ (J − 1)², here
-    as κ (J² − 1)²/8. Finite elements keep volume on average over the pressure's polynomials. A
-    motion that keeps it so, but not in between, gains −p (div v)², p the pressure in the wall, and
-    would make a stable wall unstable on coarse meshes: κ outweighs that.
+    An incompressible law defines the energy for J = 1 only. For J ≠ 1 the volumetric energy
+    κ (J² − 1)²/8, which is ½ κ (J − 1)² near J = 1, is added. The reason is that finite elements
+    preserve the volume only on average, weighted with the polynomials of the pressure. A motion v
+    that preserves the volume on average but not at every point changes the energy by −p (div v)²,
+    where p is the pressure in the wall. On coarse meshes that would make a stable wall unstable; κ
+    is large enough to prevent it. See "Volume beside the constraint" in docs/theory.md.
+
+    Parameters
+    ----------
+    law : Law
+    wall_ratio : float
+        η = R_b/R_a, above 1.
+    load : Load
+        Confining pressure and pre-stretch.
+    half_length : float
+        Half the length of the tube, L/R_a, in inner radii.
     """
     modulus = hoop_modulus(law)
     rest_pressure = 2.0 * float(rest_gradient(law)[0]) / modulus
@@ -47,6 +62,6 @@ def tube_of(law: Law, wall_ratio: float, load: Load, half_length: float) -> Tube
 
 
 def profile_of(case: Problem) -> Profile:
-    """The stone in inner radii, its axis that of the tube."""
+    """Return the meridian of the stone in inner radii, in its final position on the axis."""
     shape = case.stone.shape
     return Profile(case.size_ratio, shape.aspect, outline=shape.outline)

@@ -1,4 +1,4 @@
-"""The opening curve of one stone from loaded states, to which Eqs 13–14 are fitted."""
+"""The opening curve of a stone from loaded states, to which the series of Eqs 13–14 is fitted."""
 
 from __future__ import annotations
 
@@ -15,15 +15,27 @@ from stonepass.units import Pressure
 
 __all__ = ["solve_opening_curve"]
 
-STATES = 13
-LAST = 0.95  # of the pressure that opens the tube to R_s
+STATES = 13  # number of loaded states
+LAST = 0.95  # last urine pressure, as a fraction of the pressure that opens the tube to R_s
 
 
 def solve_opening_curve(case: Problem, numerics: Numerics) -> OpeningCurve | None:
-    """α and r_a/R_a of frictionless loaded states with rising P_u, from P_u = 0 on, α up to 90°.
+    """Compute the opened angle α and the radius r_a/R_a for increasing urine pressures.
 
-    The states have no friction, because the series begins at the seated stone, as the wall opens
-    then. None where no such states are found.
+    The loaded states are solved without friction, from P_u = 0 up to 95 % of the pressure that
+    opens the tube to R_s. Without friction the first state is the seated state, at which the series
+    begins. States with α above 90° are left out.
+
+    Parameters
+    ----------
+    case : Problem
+    numerics : Numerics
+        Supplies the length of the tube; the states are solved at the accuracy ``fast``.
+
+    Returns
+    -------
+    OpeningCurve or None
+        None if no states are found.
     """
     bare = case.with_friction(0.0)
     rising = LAST * opening_pressure(case) * np.linspace(0.0, 1.0, STATES)

@@ -1,4 +1,7 @@
-"""The seated state: the wall stretched over the stone, no urine pressure (paper, section 2.4)."""
+"""The seated state: the wall stretched over the stone, without urine pressure (paper, section 2.4).
+
+See "Seated state" in docs/theory.md.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +37,7 @@ from stonepass.model.states.stability import (
 
 __all__ = ["solve_seated"]
 
-INNER = 0.5  # fraction of the contact whose pressure tells the error at the equator
+INNER = 0.5  # central fraction of the contact over which the pressure error is evaluated
 
 
 def solve_seated(
@@ -42,15 +45,27 @@ def solve_seated(
 ) -> SeatedState | NoSeat:
     """Solve the seated state of a stone that is larger than the lumen.
 
-    By default at the accuracy that `numerics` asks for, with an estimate of the error from a
-    second, coarser solve; with a `resolution` on that mesh alone, without an estimate.
+    Parameters
+    ----------
+    case : Problem
+    seating : Seating
+        The way in which the stone is brought into the wall.
+    numerics : Numerics
+        Accuracy and length of the tube.
+    resolution : Resolution, optional
+        Resolution of a single solve without an error estimate. By default the accuracy in
+        `numerics` is used, with an error estimate from a second, coarser solve.
+
+    Returns
+    -------
+    SeatedState or NoSeat
 
     Raises
     ------
     UnstableLaw
-        The material law is no solid.
+        The material law is not stable.
     BadInput
-        The stone is not larger than the lumen, so it is not seated at all.
+        The stone is not larger than the lumen, so it is not seated.
     """
     check(case.ureter.material)
     started = time.perf_counter()
@@ -86,10 +101,11 @@ def _solve(
 
 
 def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
-    """Claim the error of α₀ and σ(π/2).
+    """Estimate the errors of α₀ and σ(π/2).
 
-    σ(θ) of a path keeps ripples of its increments, and two of them may cross at the equator; so
-    the largest difference within the inner half of the contact counts.
+    The increments of a loading path leave ripples in σ(θ). The curves of two paths may therefore
+    cross at the equator by chance, so the largest difference in the central half of the contact is
+    used for σ(π/2).
     """
     width = (state.downstream_angle - state.contact_angle) / 2.0
     middle = (state.downstream_angle + state.contact_angle) / 2.0
@@ -103,7 +119,7 @@ def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
 
 
 def _path(case: Problem, seating: Seating, lumen: float) -> LoadingPath | None:
-    """How the stone comes to its place; None where no friction acts on the way."""
+    """Return the loading path of a seating; None for a seating without friction."""
     friction, last = seating.friction, profile_of(case)
     if friction == 0.0:
         return None
@@ -131,7 +147,7 @@ def _state(
         contact_angle=contact.contact_angle,
         theta=contact.theta,
         contact_pressure=contact.contact_pressure,
-        # Between the nodes, where Coulomb's law was solved, the polynomials may leave the cone.
+        # Coulomb's law holds at the nodes; between them the polynomials may leave the cone.
         friction_traction=modulus * np.clip(profile.traction, -cone, cone),
         wall=in_pascals,
         solver=SolverReport(

@@ -1,4 +1,4 @@
-"""The seated state as values: contact, wall, and what the finite elements did."""
+"""Results for the seated state: contact, wall, and report of the finite elements."""
 
 from __future__ import annotations
 
@@ -14,36 +14,40 @@ from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.problem import Problem
 from stonepass.model.states.stability_report import StabilityReport
 
-if TYPE_CHECKING:  # loads the finite elements
+if TYPE_CHECKING:  # at run time the import would load the finite elements
     from stonepass.fe.axisymmetric.wall_values import Field, Volume
 
 __all__ = ["Contact", "NoSeat", "SeatedState", "SolverReport"]
 
-SEATED_IMBALANCE = 0.02  # of the contact force
-CONE_EXCESS = 1e-6  # of the largest contact pressure
+SEATED_IMBALANCE = 0.02  # imbalance above which a warning is given, relative to the contact force
+CONE_EXCESS = 1e-6  # excess above which a warning is given, relative to the largest pressure
 
 
 @dataclass(frozen=True)
 class SolverReport:
-    """What the finite elements did, and how well the state obeys what they were not told.
+    """Size and cost of a finite-element solution, and independent checks of it.
 
     Attributes
     ----------
-    dofs, newton_steps, seconds : int, int, float
-        Unknowns of the last mesh; Newton steps with a tangent of their own and seconds of all
-        that was solved, the coarser solve included.
+    dofs : int
+        Number of unknowns on the finer mesh.
+    newton_steps : int
+        Number of Newton steps with a newly factorised tangent, including the coarser solve.
+    seconds : float
+        Wall-clock time in s, including the coarser solve.
     residual : float
-        Relative to the contact force.
+        Norm of the residual relative to the contact force.
     volume : Volume
-        How well volume is kept.
+        Error of the volume of the wall.
     axial_balance : float
-        Axial force left over on a half of the tube (for a stone without mirror image the whole),
-        relative to the normal contact force.
+        Unbalanced axial force on the meshed part of the tube, relative to the normal contact force.
+        The meshed part is one half, or the whole tube for a stone without mirror symmetry.
     cone_excess : float
-        Largest excess of friction over its coefficient times the pressure, at the nodes, relative
-        to the largest pressure.
+        Largest excess of the friction traction over μ times the contact pressure at the nodes,
+        relative to the largest contact pressure.
     dissipated : float
-        Energy that friction took, whole tube, per cube of the inner radius (J/m³ = Pa).
+        Energy dissipated by friction during the seating, for the whole tube, divided by the cube of
+        the inner radius, in J/m³ (= Pa).
     """
 
     dofs: int
@@ -59,18 +63,21 @@ class SolverReport:
 @array_dataclass
 @dataclass(frozen=True)
 class Contact:
-    """Where stone and wall touch in the seated state, and how hard: all that the balance needs.
+    """The contact of stone and wall in the seated state, as the force balance needs it.
 
     Attributes
     ----------
+    case : Problem
+        The problem that was solved.
     contact_angle : float
-        α₀ in rad, where the contact begins; of a stone whose halves are mirror images it ends at
-        π − α₀.
-    theta, contact_pressure : arrays
-        σ(θ) in Pa, true stress on the deformed wall, compression positive, on a fine grid from the
-        upstream edge of the contact, θ = α₀, to the downstream one. θ is the angle at the centre of
-        a sphere, from the upstream axis; of other stones the parametric one (`model.shape`), π/2
-        where the stone is widest.
+        Angle α₀ in rad at which the contact begins. If the halves of the stone are mirror images,
+        the contact ends at π − α₀.
+    theta : array (n,)
+        Angles θ in rad, increasing from α₀ to the downstream edge of the contact. θ is measured
+        from the upstream axis: it is the angle at the centre of a sphere, and the parametric angle
+        of other stones (`model.shape`). It is π/2 where the stone is widest.
+    contact_pressure : array (n,)
+        Contact pressure σ(θ) in Pa: force per deformed area (true stress), compression positive.
     """
 
     case: Problem
@@ -80,47 +87,50 @@ class Contact:
 
     @property
     def downstream_angle(self) -> float:
-        """θ in rad, where the contact ends."""
+        """Angle θ in rad at which the contact ends."""
         return float(self.theta[-1])
 
     @property
     def equator_contact_pressure(self) -> float:
-        """σ(π/2) in Pa."""
+        """Contact pressure σ(π/2) in Pa."""
         return float(self.pressure_at(np.array(np.pi / 2)))
 
     @property
     def peak_contact_pressure(self) -> float:
-        """Largest σ(θ) in Pa."""
+        """Largest contact pressure in Pa."""
         return float(self.contact_pressure.max())
 
     def pressure_at(self, theta: Float[np.ndarray, "*m"]) -> Float[np.ndarray, "*m"]:
-        """σ(θ) in Pa at any θ in [0, π]; zero outside contact."""
+        """Return σ(θ) in Pa at angles θ in [0, π] in rad; it is zero outside the contact."""
         return np.asarray(np.interp(theta, self.theta, self.contact_pressure, left=0.0, right=0.0))
 
 
 @array_dataclass
 @dataclass(frozen=True)
 class SeatedState(Contact):
-    """The solved seated state, in SI.
+    """The solved seated state, in SI units.
+
+    The attributes of `Contact` are not repeated here.
 
     Attributes
     ----------
-    friction_traction : array
-        Traction of the stone on the wall along it in Pa at `theta`, positive downstream; zero where
+    friction_traction : array (n,)
+        Tangential traction of the stone on the wall in Pa at `theta`, positive downstream; zero if
         the seating is frictionless.
-    wall : Field
-        Deformed wall and Cauchy stress (Pa, tension positive), lengths in inner radii, z from the
-        stone's widest place downstream; of a stone whose halves are mirror images the half z ≥ 0.
-        None where it was not kept (curves).
+    wall : Field or None
+        Deformed wall, lengths in inner radii, with z = 0 at the widest place of the stone and z
+        positive downstream; Cauchy stress in Pa, tension positive. If the halves of the stone are
+        mirror images, it covers the half z ≥ 0. None if it was not kept.
     solver : SolverReport
     stability : StabilityReport
-        Stability of the wall, and whether it would fold.
+        Strong ellipticity and hoop compression of the wall.
     contact_angle_uncertainty : float
-        How far α₀ is known in rad where the contact edge could not be made an unknown, else 0.
+        Uncertainty of α₀ in rad if the contact edge was found by the active-set solve, otherwise 0.
     coarse : Contact or None
-        The same contact from a coarser solve; None where none was asked for, or none was found.
+        The contact from the coarser solve; None if there was no such solve, or if it failed.
     error : ErrorEstimate or None
-        What the two say of the error of α₀ and σ(π/2).
+        Estimated errors of α₀ and σ(π/2), from the difference of both solves; None without
+        `coarse`.
     """
 
     friction_traction: Float[np.ndarray, " n"]
@@ -132,7 +142,7 @@ class SeatedState(Contact):
     error: ErrorEstimate | None = None
 
     def warnings(self) -> list[Caution]:
-        """What a reader of the state must know."""
+        """Return the cautions that apply to this state."""
         found = self.stability.warnings()
         if self.solver.axial_balance > SEATED_IMBALANCE:
             found.append(caution("seated_imbalance", imbalance=self.solver.axial_balance))
@@ -152,7 +162,17 @@ class SeatedState(Contact):
 
 @dataclass(frozen=True)
 class NoSeat:
-    """The finite elements found no seated state."""
+    """Result of a solve that found no seated state.
+
+    Attributes
+    ----------
+    reason : str
+        Reason of the failure, as part of a sentence.
+    newton_steps : int
+        Number of Newton steps with a newly factorised tangent.
+    seconds : float
+        Wall-clock time in s.
+    """
 
     reason: str
     newton_steps: int

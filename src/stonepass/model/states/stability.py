@@ -1,4 +1,7 @@
-"""Strong-ellipticity and buckling checks of a solved wall."""
+"""Strong-ellipticity and buckling checks of a loaded tube and of a solved wall.
+
+See "Stability" in docs/theory.md.
+"""
 
 from __future__ import annotations
 
@@ -28,15 +31,17 @@ __all__ = [
 
 
 def stability_of(case: Problem, F: Deformation, wall: Field) -> StabilityReport:
-    """Check strong ellipticity and hoop compression at points of every element.
+    """Evaluate strong ellipticity and hoop compression of a solved wall.
+
+    Strong ellipticity is checked at nine points of every element, hoop compression at all points.
 
     Parameters
     ----------
     case : Problem
     F : Deformation
-        Deformation gradient of the solved wall, at the points of `wall`.
+        Deformation gradient at the points of `wall`.
     wall : Field
-        The solved wall, stresses in Pa.
+        The solved wall, lengths in inner radii and stresses in Pa.
     """
     law, some = case.ureter.material.law, _some_points(wall)
     columns = [getattr(F, name)[:, some].ravel() for name in ("F_rr", "F_rz", "F_zr", "F_zz")]
@@ -56,7 +61,20 @@ def stability_of(case: Problem, F: Deformation, wall: Field) -> StabilityReport:
 
 
 def axisymmetric_buckling(case: Problem, half_length: float) -> str:
-    """A sentence where the loaded tube itself buckles axisymmetrically; empty where it does not."""
+    """Check whether the uniform tube under the load alone buckles axisymmetrically.
+
+    Parameters
+    ----------
+    case : Problem
+    half_length : float
+        Half the length of the tube, L/R_a, in inner radii.
+
+    Returns
+    -------
+    str
+        The reason why the case cannot be solved, as part of a sentence; empty if the tube is
+        stable.
+    """
     load = case.load
     if load.confining_pressure == 0.0 and load.prestretch >= 1.0:
         return ""
@@ -64,15 +82,16 @@ def axisymmetric_buckling(case: Problem, half_length: float) -> str:
     if length is None:
         return ""
     return (
-        "the tube itself is not stable under this load: far from the stone axisymmetric waves of "
-        f"half-length {length:.2g} inner radii lower its energy, so it buckles all along"
+        "the tube itself is not stable under this load: even without a stone it buckles "
+        f"axisymmetrically, with half-waves of {length:.2g} inner radii"
     )
 
 
 def far_field_hint(case: Problem) -> str:
-    """What to think of first where no state was found: the loaded tube has lost its ellipticity.
+    """Return a hint for a failed solve if the uniform tube under the load is not strongly elliptic.
 
-    In all directions of space, so it tells more than `axisymmetric_buckling`.
+    Shear bands in all directions of space are checked, so the hint may apply to a tube that passes
+    `axisymmetric_buckling`. The result is empty if the tube is strongly elliptic.
     """
     law, eta, stretch = case.ureter.material.law, case.wall_ratio, case.load.prestretch
     lumen = lumen_ratio(eta, law, case.load)
@@ -92,25 +111,25 @@ def far_field_hint(case: Problem) -> str:
 
 
 def oversize_hint(case: Problem) -> str:
-    """What to think of first where a stone is too large to be solved for."""
+    """Return a hint for a failed solve if the stone exceeds the strain range of the material."""
     material = case.ureter.material
     if case.size_ratio <= material.strain_range[1]:
         return ""
     return (
         f"; the stone stretches the wall to {case.size_ratio:.3g} times its circumference, while "
-        f"the constants of '{material.name}' were used to {material.strain_range[1]:g}"
+        f"the constants of '{material.name}' were used up to {material.strain_range[1]:g} only"
     )
 
 
 @lru_cache(maxsize=64)
 def _half_wave(law: Law, wall_ratio: float, load: Load, half_length: float) -> float | None:
     lumen = lumen_ratio(wall_ratio, law, load)
-    assert lumen is not None, "asked before a case without a lumen is answered"
+    assert lumen is not None, "callers must reject a case without a lumen first"
     return buckling_half_wave(tube_of(law, wall_ratio, load, half_length), lumen)
 
 
 def _some_points(wall: Field) -> Int[np.ndarray, " some"]:
-    """First, middle and last Gauss–Lobatto point of each direction: nine of every element."""
+    """Return the indices of nine points of an element: first, middle and last in each direction."""
     count = round(np.sqrt(wall.R.shape[1]))
     lines = np.array([0, count // 2, count - 1])
     return (lines[:, None] * count + lines[None, :]).ravel()

@@ -1,4 +1,4 @@
-"""Stability of a solved wall, as values."""
+"""Results of the stability checks of a solved wall."""
 
 from __future__ import annotations
 
@@ -11,19 +11,20 @@ __all__ = ["StabilityReport"]
 
 @dataclass(frozen=True)
 class StabilityReport:
-    """Stability of the solved wall; places are reference coordinates R/R_a, Z/R_a.
+    """Stability of a solved wall. See "Stability" in docs/theory.md.
 
     Attributes
     ----------
     margin : float
-        Stiffness of the weakest shear band in units of the rest r–z shear modulus (the ground
-        matrix G of a Fung wall): 1 unloaded, 0 where strong ellipticity is lost.
+        Stability margin: stiffness of the weakest shear band, divided by the r–z shear modulus at
+        rest, which is G for a Fung wall. It is 1 without load, and strong ellipticity is lost where
+        it is 0 or negative.
     weakest_at : (float, float)
-        Where that is.
+        Reference coordinates (R/R_a, Z/R_a) of the weakest shear band.
     hoop_compression : float
-        Largest σ_rr − σ_tt in the same units.
+        Largest σ_rr − σ_tt, divided by the same modulus.
     compressed_at : (float, float)
-        Where that is.
+        Reference coordinates (R/R_a, Z/R_a) of the largest hoop compression.
     """
 
     margin: float
@@ -32,7 +33,7 @@ class StabilityReport:
     compressed_at: tuple[float, float]
 
     def warnings(self) -> list[Caution]:
-        """One caution for each thing that a real wall would not do."""
+        """Return a caution for each sign that a real wall would not stay in this state."""
         found = []
         if self.margin <= 0.0:
             R, Z = self.weakest_at
@@ -40,7 +41,7 @@ class StabilityReport:
         return [*found, *self.folding()]
 
     def folding(self) -> list[Caution]:
-        """A caution where hoop compression may fold the wall."""
+        """Return a caution if hoop compression exceeds the shear modulus, so the wall may fold."""
         if self.hoop_compression <= 1.0:
             return []
         R, Z = self.compressed_at

@@ -1,4 +1,4 @@
-"""The interface through which models and studies ask for finite-element states of one case."""
+"""The interface by which models and studies obtain finite-element states, solved or cached."""
 
 from __future__ import annotations
 
@@ -21,17 +21,19 @@ __all__ = ["StateSolver"]
 class StateSolver(Protocol):
     """A source of finite-element states.
 
-    `model.states.uncached.UNCACHED` solves each state when it is asked for;
-    `studies.solution_cache.SolutionCache` remembers states on disk. Every implementation promises
-    the following.
+    `model.states.uncached.UNCACHED` solves a state at each call;
+    `studies.solution_cache.SolutionCache` stores states on disk. Every implementation satisfies the
+    following conditions.
 
-    * A method returns the numbers that the function named in its docstring returns for the same
-      arguments, equal to the last bit, no matter how often or in which order it is called.
-    * The states that it returns carry the case that was passed, with its own lengths and moduli.
-    * The stress field of a state (its attribute `wall`) may be None; a caller that needs the field
-      must ask an implementation that keeps it.
-    * A state that cannot be found is a value (`NoSeat`, `NoPush`, None), not an exception.
-    * An instance holds nothing that changes, and can be pickled and used in another process.
+    * A method returns the same numbers, bit for bit, as the function named in its docstring returns
+      for the same arguments, however often and in whatever order it is called.
+    * The returned state refers to the case that was passed, with the lengths and moduli of this
+      case.
+    * The stress field of a state, its attribute `wall`, may be None. A caller that needs the field
+      must use an implementation that keeps it.
+    * A state that is not found is reported by a return value (`NoSeat`, `NoPush` or None), and not
+      by an exception.
+    * An instance is immutable. It can be pickled and used in another process.
     """
 
     def seat(
@@ -47,10 +49,11 @@ class StateSolver(Protocol):
         ----------
         case : Problem
         seating : Seating
-            The way of the stone into the wall.
+            The way in which the stone is brought into the wall.
         numerics : Numerics
         resolution : Resolution, optional
-            Mesh; by default both meshes of the accuracy, from which the error is estimated.
+            Resolution of a single solve; by default both resolutions of the accuracy level are
+            solved, and the error is estimated from the difference.
         """
 
     def push(
@@ -69,11 +72,11 @@ class StateSolver(Protocol):
         case : Problem
         numerics : Numerics
         resolutions : sequence of Resolution
-            Meshes, coarse ones first; the result has one element for each.
+            Coarse resolutions first; the result has one element for each.
         wetted : bool
-            Whether urine takes its pressure off the friction up to the seal.
+            True if urine enters the contact up to the seal, see `PushThrough`.
         leak : bool
-            Whether the leak pressure is sought too, on the first mesh.
+            True to determine the leak pressure as well, with the first resolution.
         """
 
     def hold(
@@ -92,13 +95,12 @@ class StateSolver(Protocol):
         case : Problem
         numerics : Numerics
         pressures : sequence of Pressure
-            Urine pressures in Pa, each at least 0; each state is the start of the next one, and
-            the result has one element for each pressure.
+            Urine pressures in Pa, zero or positive. Each state is the starting point of the next
+            one, and the result has one element for each pressure.
         resolution : Resolution
-            Mesh.
         wetted : bool
-            Whether urine takes its pressure off the friction up to the seal.
+            True if urine enters the contact up to the seal, see `PushThrough`.
         """
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
-        """Return α and r_a/R_a under rising pressure; see `model.states.opening`."""
+        """Return angles and radii of the opening wall; see `model.states.opening`."""

@@ -1,7 +1,7 @@
-"""Finite-element states, solved every time, one at a time in a process.
+"""A source of finite-element states that solves at each call and stores nothing.
 
-The engine is not safe to be used by two threads at once, so the others wait. Several processes
-(`studies.executor.process_pool`) are what makes many cases faster.
+NGSolve is not thread-safe, so only one thread of a process solves at a time while the others wait.
+To solve many cases in parallel, use several processes (`studies.executor.process_pool`).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _ENGINE = RLock()
 
 
 class _Uncached:
-    """Solves each state when it is asked for; only then are the finite elements loaded."""
+    """A `StateSolver` that solves at each call; NGSolve is imported at the first call."""
 
     def seat(
         self,

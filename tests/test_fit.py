@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from options import asking
+from scipy.stats import t as student
 
 import stonepass as sp
 from stonepass.bench.law_fit import fit_law
@@ -292,6 +293,18 @@ def test_what_is_in_the_figure():
     }
     drawn = np.concatenate([line.get_ydata() for line in right.lines[:2]])
     np.testing.assert_allclose(np.sort(drawn), np.sort(found.residuals / 1e3))
+
+
+def test_the_band_of_a_law_that_is_linear_in_its_constant_is_exact():
+    """σ = C10 g(λ): the variance of the fitted stress is s² g²/Σ g², with n − 1 degrees of freedom."""
+    found = fit_law(tension(RUBBER, noise=0.02), "neo-hookean")
+    per_constant, count = found.predicted / found.material.law.C10, len(found.predicted)
+    scatter = np.sqrt(np.sum(found.residuals**2) / (count - 1))
+    exact = per_constant / np.linalg.norm(per_constant) * scatter * student.ppf(0.975, count - 1)
+    np.testing.assert_allclose(found.band, np.abs(exact), rtol=1e-5)
+    constant = found.constants[0]
+    half = (constant.high - constant.low) / 2.0
+    np.testing.assert_allclose(found.band, np.abs(half * per_constant), rtol=1e-2)
 
 
 @pytest.mark.slow

@@ -51,6 +51,7 @@ autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 default_role = "code"
+smartquotes = False  # --option stays --option
 # The names that a docstring of the package finds in its own module.
 doctest_global_setup = """
 from pathlib import Path

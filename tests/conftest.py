@@ -89,6 +89,17 @@ def solutions_of_this_run(tmp_path_factory):
     return SolutionCache(folder / "solutions", walls=True), {}
 
 
+@pytest.fixture(autouse=True, scope="session")
+def cache_of_this_run(tmp_path_factory):
+    """The commands remember states in a folder of this run, not in that of the user."""
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv("STONEPASS_CACHE", str(folder / "cache"))
+        yield
+
+
 @pytest.fixture
 def shared_solutions(request, monkeypatch, solutions_of_this_run):
     """A question that the finite elements have answered in this run is not solved again.

@@ -3,14 +3,18 @@
 import json
 import re
 from dataclasses import dataclass, replace
+from datetime import date
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 from options import asking
+from scipy.stats import binomtest
 
 from stonepass.cli import run
 from stonepass.clinic.assess import assess
-from stonepass.clinic.cohorts import COHORTS, rows_for
+from stonepass.clinic.cohorts import COHORTS, rows_for, wilson
+from stonepass.clinic.decisions import decisions, next_measurement
 from stonepass.clinic.fractions import FEWER, MORE, Fraction, contradiction
 from stonepass.clinic.patient import read_patient
 from stonepass.clinic.pressure_limits import LIMITS, describe_limit
@@ -25,9 +29,15 @@ from stonepass.model.load import Load
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.records.assess import AssessRecord, assess_record
-from stonepass.report.assess_figure import cohorts_figure, pressures_figure, sensitivity_figure
+from stonepass.report.assess_figure import (
+    cohorts_figure,
+    pressures_figure,
+    sensitivity_figure,
+    sizes_figure,
+)
 from stonepass.report.assess_page import write_assessment
 from stonepass.report.assess_report import describe_range
+from stonepass.report.assess_sketch import sketch_figure
 from stonepass.studies.case_solver import JobSolver
 from stonepass.studies.conditions import Conditions, lumen_ratios
 from stonepass.studies.response import response_surface
@@ -85,7 +95,7 @@ class MadeUp:
 
 def test_a_number_with_its_uncertainty():
     bounds = (1e-5, 1.0)
-    for text in ("5 mm ± 1 mm", "5 ± 1 mm", "5mm +/- 1mm", "0.5 cm +- 1000 um"):
+    for text in ("5 mm ± 1 mm", "5 ± 1 mm", "5mm +/- 1mm", "0.5 cm +- 1000 um", "5 mm ± 20 %"):
         found = measured_length(text, "stone", bounds)
         assert (found.value, found.sd) == (pytest.approx(5e-3), pytest.approx(1e-3)), text
     span = measured_length("3 to 4 mm", "stone", bounds)
@@ -102,7 +112,10 @@ def test_a_number_with_its_uncertainty():
         "5",
         "5 ± 1",
         "five ± 1 mm",
-        "5 mm ± 20 %",
+        "5 mm ± x %",
+        "5 mm ± -20 %",
+        "5 mm ± nan %",
+        "5 ± 20 %",
         "5 mm ± 1 kg",
         "nan mm ± 1 mm",
     ):
@@ -122,7 +135,9 @@ def test_exact_inputs_give_one_number(tmp_path):
     assert low == median == high == pytest.approx(exact, rel=0.02)
     assert found.sensitivity == ()
     assert found.below_limit == found.below_limit_held == Fraction(0.0, 0.0)
-    assert found.message.startswith("In fewer than 1 % of the Monte Carlo samples the critical")
+    assert found.message.startswith(
+        "In fewer than 1 % of the simulated input combinations the critical"
+    )
     assert found.fraction_noise == 0.0
 
 
@@ -146,7 +161,7 @@ def test_shares_are_those_of_a_plain_simulation(tmp_path):
         assert ours == pytest.approx(np.quantile(exact, share), rel=0.06)
     held = over > 0.0
     assert found.below_limit_held.low == pytest.approx(np.mean(exact[held] < 6e3), abs=0.02)
-    assert found.message.startswith(f"In {found.below_limit_held.describe()} of the Monte Carlo")
+    assert found.message.startswith(f"In {found.below_limit_held.describe()} of the simulated")
     assert "in which the stone is held" in found.message
     # The density of P_ucr at its median gives the standard error of the median, √n/(2 f n).
     middle = np.quantile(exact, (0.49, 0.51))
@@ -309,13 +324,13 @@ def test_cohorts_count_right():
     assert all(cohort.source and cohort.read in ("itself", "quoted") for cohort in COHORTS)
     assert [limit.pressure for limit in LIMITS] == [2e3, 4e3, 6e3, 8e3, 12e3]
     assert "61 cmH₂O" in describe_limit(6e3)
-    assert describe_limit(7e3) == "a value of your own"
+    assert describe_limit(7e3) == "chosen by the user, without a published source"
 
 
 def test_contradictions_are_told(tmp_path):
     assert contradiction(0.65, Fraction(0.1, 0.2)) == MORE
     assert contradiction(0.1, Fraction(0.5, 0.6)) == FEWER
-    assert contradiction(0.1, Fraction(0.5, 0.9)) == "the model does not decide"
+    assert contradiction(0.1, Fraction(0.5, 0.9)) == "undecided by the model"
     assert contradiction(0.65, Fraction(0.6, 0.7)) == "near the model"
     found = assess(patient(tmp_path, stone="4.2 mm ± 0.3 mm"), MadeUp(1e6))
     comparisons = {row.comparison for row in assess_record(found, "a.toml").cohorts}
@@ -347,9 +362,12 @@ def test_the_wall_is_given_once(tmp_path):
         path.write_text(re.sub("wall_thickness.*", line, text), encoding="utf-8")
         with pytest.raises(BadInput, match="wall of the ureter is"):
             read_patient(path)
-    path.write_text(text.replace('"distal"', '"distl"'), encoding="utf-8")
-    with pytest.raises(BadInput, match="did you mean 'distal'"):
-        read_patient(path)
+    for word, meant in (("distl", "distal"), ("lower", "distal"), ("Upper", "proximal"),
+                        ("VUJ", "UVJ")):  # fmt: skip
+        path.write_text(text.replace('"distal"', f'"{word}"'), encoding="utf-8")
+        allowed = f"one of proximal, mid, distal, UVJ; did you mean '{meant}'"
+        with pytest.raises(BadInput, match=f"place is {word}, but must be {allowed}"):
+            read_patient(path)
 
 
 def test_what_the_file_leaves_open_is_assumed_aloud(tmp_path):
@@ -362,37 +380,130 @@ def test_what_the_file_leaves_open_is_assumed_aloud(tmp_path):
     assert set(someone.assumed) <= set(assess(someone, MadeUp()).warnings)
 
 
-def test_page_needs_nothing_beside_it_and_gives_no_verdict(tmp_path):
+@pytest.fixture(scope="module")
+def contradicting(tmp_path_factory):
+    """An assessment whose intervals are wide and whose present pressure is often too high."""
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0.5 mm"'
-    someone = patient(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5", dilated=dilated)
-    found = assess(someone, MadeUp())
-    write_assessment(found, tmp_path / "page.html")
-    text = (tmp_path / "page.html").read_text(encoding="utf-8")
-    sources = re.findall(r'(?:src|href)="([^"]{0,30})', text)
-    assert len(sources) == 3
+    someone = patient(tmp_path_factory.mktemp("someone"), stone="4.6 mm ± 1 mm",
+                      friction="0.05 to 0.5", dilated=dilated)  # fmt: skip
+    return assess(replace(someone, title="Case 12 <b>"), MadeUp())
+
+
+@pytest.fixture(scope="module")
+def page(contradicting, tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "page.html"
+    write_assessment(contradicting, path, date(2026, 11, 27))
+    return path.read_text(encoding="utf-8")
+
+
+def test_page_needs_nothing_beside_it_and_gives_no_verdict(contradicting, page):
+    found, text = contradicting, page
+    sources = re.findall(r'src="([^"]{0,30})', text)
+    assert len(sources) == 5
     assert all(source.startswith("data:image/svg+xml;base64,") for source in sources)
+    links = re.findall(r'href="([^"]*)"', text)
+    assert len(links) >= 8
+    assert all(link.startswith("https://doi.org/10.") for link in links)
     assert "url(" not in text
     assert "<script" not in text
     assert text.count("Research use only. Not a medical device.") == 2
     words = re.sub("<[^>]+>", " ", text).lower()
     for verdict in ("will not pass", "will pass", "should", "recommend", "treatment"):
         assert verdict not in words
-    for sentence in found.warnings:
-        assert str(sentence).split("'")[0] in text
-    assert "6 kPa" in text
-    assert "Jendeberg 2017" in text
+    for warning in found.warnings:
+        assert str(warning).split("'")[0][1:] in text
+    assert "Case 12 &lt;b&gt;" in text
+    assert "Report of 2026-11-27" in text
+    assert 'name="viewport"' in text
+    for cohort in COHORTS:
+        assert cohort.name.replace("&", "&amp;") in text
 
 
-def test_figures_show_what_was_found(tmp_path):
-    someone = patient(tmp_path, stone="4.6 mm ± 1 mm", friction="0.05 to 0.5")
-    found = assess(someone, MadeUp())
+def test_page_opens_with_what_contradicts_and_what_cannot_be_decided(page):
+    """Contradictions, decisions, pressures in three units, limitations, and sources at the end."""
+    order = ["Contradictions</h2>", "the present pressure exceeds the critical pressure, yet",
+             "These measurements cannot decide</h2>", "Whether the critical pressure is below or",
+             "no number here is a probability of passage", "Critical pressure</h3>", " mmHg<",
+             " cmH₂O<", "Limitations of this result</h2>", "published cohorts</h2>",
+             "Sources</h2>"]  # fmt: skip
+    places = [page.find(part) for part in order]
+    assert -1 not in places
+    assert places == sorted(places)
+
+
+def test_decisions_follow_the_samples(contradicting, tmp_path):
+    asked = decisions(contradicting)
+    assert [each.decided for each in asked] == sorted(each.decided for each in asked)
+    assert len([each for each in asked if not each.decided]) >= 3
+    held = contradicting.below_limit_held.describe()
+    assert any(f"it is below it in {held} of the simulated" in each.sentence for each in asked)
+    assert "stone diameter contributes most" in next_measurement(contradicting)
+    certain = assess(patient(tmp_path), MadeUp())  # 10.5 kPa, exactly
+    told = {each.sentence: each.decided for each in decisions(certain)}
+    above = next(sentence for sentence in told if "is above the limit of 6 kPa" in sentence)
+    assert told[above]
+    assert told["The stone is larger than the lumen and is held by the wall."]
+    (open_question,) = (sentence for sentence, decided in told.items() if not decided)
+    assert open_question.startswith("Whether and when the stone passes")
+    record = assess_record(contradicting, "a.toml")
+    assert record.cannot_decide == [each.sentence for each in asked if not each.decided]
+
+
+def test_intervals_of_cohorts_are_wilsons():
+    for passed, count in ((8, 16), (190, 245), (0, 5), (5, 5)):
+        exact = binomtest(passed, count).proportion_ci(method="wilson")
+        assert wilson(passed / count, count) == pytest.approx((exact.low, exact.high), abs=1e-12)
+    rows = {row.cohort.name: row for row in rows_for(4.6, 5.4, "distal")}
+    assert len(rows) == len(COHORTS)
+    assert rows["Ongün 2019"].interval == wilson(0.776, 245)
+    assert rows["AUA/EAU analysis"].interval == (0.36, 0.59)
+    assert rows["Coll 2002"].interval is None  # how many stones a class had is not known
+
+
+def test_every_source_can_be_cited_or_says_that_it_cannot():
+    sources = [*(cohort.source for cohort in COHORTS), *(limit.source for limit in LIMITS)]
+    cited = re.compile(r"doi:10\.\d{4}|\d+:\d+|PubMed|PMC\d+|congress.*abstract \d+")
+    assert len(sources) == 15
+    for source in sources:
+        assert source.startswith("unverified: ") or cited.search(source), source
+
+
+def test_figures_show_what_was_found(contradicting):
+    found = contradicting
     curve = pressures_figure(found).axes[0].lines[0]
     at_limit = np.interp(6.0, curve.get_xdata(), curve.get_ydata())
     assert at_limit == pytest.approx(100.0 * found.below_limit.low, abs=1.0)
     names = [text.get_text() for text in sensitivity_figure(found).axes[0].get_yticklabels()]
     assert names == [each.name for each in found.sensitivity][::-1]
-    labels = {text.get_text() for text in cohorts_figure(found).legends[0].get_texts()}
-    assert {"this stone", "model: moves below the limit", "passed: Coll 2002"} <= labels
+    labels = {text.get_text() for text in sizes_figure(found).legends[0].get_texts()}
+    assert {"this stone", "passed, a size class of a cohort"} <= labels
+    told = [text.get_text() for text in cohorts_figure(found).axes[0].texts]
+    rows = [row for row in found.cohorts if row.passed is not None]
+    assert len(told) == len(rows) > 10
+    assert "Ahmed 2014, ≤ 10 mm, n = 163" in told
+
+
+def test_figures_are_narrow_enough_for_a_phone(contradicting):
+    """At 350 pixels, the width of a page on a phone, no letter is smaller than about 7 pixels."""
+    for draw in (pressures_figure, sensitivity_figure, cohorts_figure, sizes_figure, sketch_figure):
+        figure = draw(contradicting)
+        sizes = [text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()]
+        assert sizes
+        assert 350.0 / (72.0 * figure.get_figwidth()) * min(sizes) > 7.0, draw
+
+
+def test_the_sketch_is_to_scale(contradicting, tmp_path):
+    axes = sketch_figure(contradicting).axes[0]
+    assert axes.get_aspect() == 1.0
+    circle = axes.patches[0].get_xy()
+    assert np.ptp(circle, axis=0) == pytest.approx([4.6, 4.6], rel=1e-3)
+    inner, outer = (line.get_ydata() for line in axes.lines[:2])
+    assert (inner[0], inner[-1]) == pytest.approx((2.1, 1.75), rel=1e-3)  # dilated, and not
+    assert outer[-1] - inner[-1] == pytest.approx(0.7, rel=1e-3)
+    assert outer[0] ** 2 - inner[0] ** 2 == pytest.approx(outer[-1] ** 2 - inner[-1] ** 2)
+    assert max(inner) >= 2.3 - 1e-6  # the wall does not cut the stone
+    small = assess(patient(tmp_path, stone="3 mm ± 0 mm"), MadeUp())
+    assert sketch_figure(small).axes  # a stone within the lumen
 
 
 def test_the_record_is_whole(tmp_path):
@@ -414,14 +525,20 @@ def test_command(tmp_path, capsys, monkeypatch):
     record = json.loads(capsys.readouterr().out)
     assert record["inputs"]["limit_kPa"] == 12.0
     assert record["disclaimer"] in page.read_text(encoding="utf-8")
+    assert all(
+        row["count"] is None or row["passed_low"] < row["passed"] for row in record["cohorts"]
+    )
     values = record["critical_pressure_kPa"]
     assert values["low"] < values["median"] < values["high"]
     assert values["median"] == pytest.approx(record["critical_pressure_at_values_kPa"], rel=0.1)
     assert run(arguments) == 0
     shown = capsys.readouterr().out
     assert "Research use only" in shown
-    tables = [line for line in shown.splitlines() if not line.startswith(("In ", "Research"))]
+    sentences = ("The fractions", "Research")
+    tables = [line for line in shown.splitlines() if not line.startswith(sentences)]
     assert max(len(line) for line in tables) <= 80
+    assert "These measurements cannot decide" in shown
+    assert shown.index("cannot decide") < shown.index("critical pressure  ")
     assert run([*arguments, "--limit", "6"]) == 2
-    assert "limit is 6, but must be a pressure with its unit" in capsys.readouterr().err
+    assert "--limit is 6, but must be a pressure with its unit" in capsys.readouterr().err
     assert run([*arguments, "--html", "a.pdf"]) == 2

@@ -233,7 +233,7 @@ def test_outside_its_strain_range_the_law_warns():
     assert answer(1.25, ureter=THIN).warnings == ()
     assert "1 to 1.3 only" in str(answer(1.35, ureter=THIN).warnings[0])
     loaded = answer(1.2, ureter=THIN, load=sp.Load("3 kPa"))
-    assert any("shrinks the lumen" in str(warning) for warning in loaded.warnings)
+    assert any("narrows the lumen" in str(warning) for warning in loaded.warnings)
 
 
 def test_the_unstable_law_is_refused_before_any_solve():

@@ -550,6 +550,9 @@ def test_a_law_in_kPa_is_asked_about(tmp_path, capsys):
     path = tmp_path / "mine.py"
     path.write_text("def energy(C, place, xp):\n    return 120.0 * (C.rr + C.tt + C.zz - 3.0)\n")
     assert run(["material", "check", f"{path}:energy"]) == 0
-    assert "is 240 Pa, softer than any wall: are its constants in kPa" in capsys.readouterr().err
+    assert (
+        "is 240 Pa, which is softer than any ureter: check whether its constants were"
+        in capsys.readouterr().err
+    )
     assert run(["material", "check", "latex"]) == 0
     assert capsys.readouterr().err == ""

@@ -154,7 +154,7 @@ def test_where_no_smooth_edge_is_found_the_state_says_so(monkeypatch):
     monkeypatch.setattr(module, "solve_fitted_contact", lambda *_: Failure("made to fail", 1))
     answer = sp.solve(case)
     assert answer.outcome is sp.Outcome.MOVES
-    assert any("contact angle is known to" in str(warning) for warning in answer.warnings)
+    assert any("contact angle has an uncertainty of" in str(warning) for warning in answer.warnings)
     uncertainty = answer.contact.contact_angle_uncertainty
     assert 0.0 < uncertainty < 0.02
     expected = pytest.approx(good.contact.contact_angle, abs=uncertainty)

@@ -33,9 +33,18 @@ def door(arguments):
     return f"from stonepass.cli import run; assert run('{arguments}'.split()) == 0"
 
 
+def refusal(arguments):
+    return f"from stonepass.cli import run; assert run('{arguments}'.split()) == 2"
+
+
 @pytest.mark.parametrize(
     ("statement", "absent"),
     [
+        (refusal("pressure --xi 40 --eta 1.3"), (*HEAVY, "scipy", "pint", "rich", "autograd")),
+        (refusal("push --xi 40 --eta 1.3"), (*HEAVY, "scipy")),
+        (refusal("closures --xi 40 --eta 1.3"), (*HEAVY, "scipy")),
+        (refusal("invitro none.csv --material latex"), (*HEAVY, "scipy")),
+        (refusal("assess none.toml"), (*HEAVY, "scipy")),
         ("import stonepass", (*HEAVY, "numpy", "scipy", "pint", "pydantic", "typer", "autograd")),
         (door("--help"), (*HEAVY, "numpy", "scipy", "pint", "pydantic", "autograd", "rich")),
         (door("pressure --help"), (*HEAVY, "scipy", "pint", "autograd")),
@@ -119,6 +128,7 @@ LATE_LIBRARIES = {
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
     "scipy.ndimage": ("surface.grey_scale",),
+    "scipy.stats": ("studies.uncertain_quantity",),
     "stonepass.report": ("stonepass",),  # results are shown by it, from their first table on
 }
 

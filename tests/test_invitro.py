@@ -292,7 +292,7 @@ def test_the_command_says_first_what_does_not_hold(tmp_path, capsys):
                  "--workers", "1", "--friction", "0.475"]  # fmt: skip
     run(arguments)
     shown = capsys.readouterr().out
-    assert shown.startswith("This fit does not hold: series and model do not agree: at friction")
+    assert shown.startswith("The fit cannot be used: series and model disagree: with friction")
     run([*arguments, "--json"])
     record = json.loads(capsys.readouterr().out)
     assert record["holds"] is False

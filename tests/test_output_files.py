@@ -82,7 +82,7 @@ def test_a_cache_that_cannot_be_written_costs_one_warning(tmp_path, capsys):
     assert [each["outcome"] for each in json.loads(out)] == ["MOVES", "MOVES"]
     (warned,) = [line for line in err.splitlines() if line.startswith("warning")]
     assert "file' could not be written" in warned
-    assert warned.endswith("; --cache names another folder, --no-cache does without")
+    assert warned.endswith("; --cache DIR chooses another folder, --no-cache works without one")
 
 
 def test_names_that_cannot_be_written_are_refused_before_the_work(tmp_path):
@@ -107,7 +107,7 @@ def test_a_full_device_is_said(arguments):
 
 
 def test_too_little_memory_is_said(shared_solutions, capsys, monkeypatch):
-    def hungry(case):
+    def hungry(case, states):
         raise MemoryError
 
     monkeypatch.setattr("stonepass.model.critical.solve", hungry)

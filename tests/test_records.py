@@ -111,7 +111,7 @@ def test_warnings_become_data():
     (told,) = warning_records([made])
     assert told == CautionRecord.of(made)
     assert (told.code, told.values) == ("loaded_imbalance", {"imbalance": 0.02})
-    assert told.sentence == "the axial forces on tube and stone miss their balance by 2.0%"
+    assert told.sentence == "the axial forces on tube and stone are out of balance by 2.0%"
     with pytest.raises(KeyError):
         caution("loaded_imbalance")  # its value is missing
 

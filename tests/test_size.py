@@ -82,7 +82,7 @@ def test_absurd_limits_are_refused(limit):
 def test_warnings_at_the_critical_size_are_passed_on():
     found = sp.critical_size(THIN, "14 kPa", load=sp.Load("4 kPa"), **FAST)
     assert found.outcome is sp.Outcome.SOLVED
-    assert any("shrinks the lumen" in str(warning) for warning in found.warnings)
+    assert any("narrows the lumen" in str(warning) for warning in found.warnings)
 
 
 def test_without_friction_no_size_is_critical():

@@ -286,4 +286,4 @@ def test_constants_in_kilopascals_are_asked_about(tmp_path):
         sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=mine), **FAST
     )
     (asked,) = [each for each in answer.warnings if each.code == "soft_law"]
-    assert "is 293 Pa, softer than any wall: are its constants in kPa?" in str(asked)
+    assert "is 293 Pa, which is softer than any ureter: check whether its constants" in str(asked)

@@ -7,7 +7,7 @@ from typing import Any
 
 __all__ = ["SENTENCES", "Caution", "caution"]
 
-# Every code, and its sentence without the period. Lengths are in inner radii.
+# Every code with its sentence, without the period. Lengths are in inner radii.
 SENTENCES = {
     # --- a case
     "wall_beyond_range": (
@@ -15,246 +15,283 @@ SENTENCES = {
         "of material '{material}' were used for stretches {low:g} to {high:g} only"
     ),
     "lumen_below_range": (
-        "the load shrinks the lumen to {lumen:.3g} times its width, but the constants of material "
-        "'{material}' were used for stretches {low:g} to {high:g} only"
+        "the load narrows the lumen to {lumen:.3g} times its unloaded diameter, but the constants "
+        "of material '{material}' were used for stretches {low:g} to {high:g} only"
     ),
     "ring_buckling": (
-        "a confining pressure of {pressure_kPa:.3g} kPa would fold this tube where neither stone "
-        "nor urine holds it open (ring buckling at about {buckling_kPa:.2g} kPa), which no "
-        "axisymmetric model sees"
+        "the confining pressure of {pressure_kPa:.3g} kPa exceeds the ring buckling pressure of "
+        "the empty tube, about {buckling_kPa:.2g} kPa: where neither stone nor urine supports it, "
+        "the tube would collapse, which an axisymmetric model cannot represent"
     ),
     "shape_deviation": (
-        "the stone's shape follows its points to {deviation:.1%} of its radius only: the nearest "
-        "smooth convex one is taken"
+        "the computed shape of the stone, the nearest smooth convex one, deviates from the given "
+        "points by up to {deviation:.1%} of the stone's radius"
     ),
     "not_elliptic": (
         "the wall is not stable at R = {R:.3g}, Z = {Z:.3g} (inner radii): a shear band lowers its "
-        "energy (stability margin {margin:.2g})"
+        "energy (stability margin {margin:.2g}), so the solution may depend on the mesh; compare "
+        "the answer with that of another accuracy before you rely on it"
     ),
     "hoop_compression": (
-        "the wall is under hoop compression of {compression:.2g} times its shear modulus at "
-        "R = {R:.3g}, Z = {Z:.3g} (inner radii): a real tube may fold, which no axisymmetric model "
-        "sees"
+        "the wall is under a hoop compression of {compression:.2g} times its shear modulus at "
+        "R = {R:.3g}, Z = {Z:.3g} (inner radii): a real tube may fold there, which an axisymmetric "
+        "model cannot represent"
     ),
     "microbuckling": (
-        "the wall microbuckles at R = {R:.3g}, Z = {Z:.3g} (inner radii, downstream positive), "
-        "where its axial fibres are compressed: it is solved with the energy that it has in the "
-        "limit of fine buckles"
+        "the axial fibres of the wall are compressed and buckle on a fine scale at R = {R:.3g}, "
+        "Z = {Z:.3g} (inner radii, downstream positive), which makes the stability margin "
+        "negative; the model accounts for this by the relaxed energy of the wall, so the critical "
+        "pressure can be trusted as far as the material law can"
     ),
     "seated_imbalance": (
-        "the axial forces on the tube miss their balance by {imbalance:.1%} of the contact force"
+        "the axial forces on the tube are out of balance by {imbalance:.1%} of the contact force"
     ),
     "loaded_imbalance": (
-        "the axial forces on tube and stone miss their balance by {imbalance:.1%}"
+        "the axial forces on tube and stone are out of balance by {imbalance:.1%}"
     ),
-    "friction_cone": "friction exceeds its coefficient somewhere: Coulomb's law is violated",
-    "error_not_estimated": "the error is not estimated: no coarser solve stands beside this one",
+    "friction_cone": (
+        "the friction stress exceeds the friction coefficient times the contact pressure at some "
+        "place, which violates Coulomb's law"
+    ),
+    "error_not_estimated": (
+        "the discretisation error is not estimated, since there is no solution on a coarser mesh"
+    ),
     "contact_angle_uncertain": (
-        "the contact angle is known to {uncertainty_deg:.2f}° only, because no smooth contact edge "
-        "was found"
+        "the contact angle has an uncertainty of {uncertainty_deg:.2f}°, because the solver found "
+        "no smooth contact edge"
     ),
     "closure_undecided": (
-        "a coarser solve ends otherwise: whether the stone moves before the closure ends is within "
-        "the discretisation error"
+        "a coarser mesh gives another outcome: the discretisation error is too large to decide "
+        "whether the stone moves before the closure ends"
     ),
     "leak_undecided": (
-        "a coarser solve ends otherwise: whether the stone moves before urine passes is within the "
-        "discretisation error"
+        "a coarser mesh gives another outcome: the discretisation error is too large to decide "
+        "whether the stone moves before urine passes it"
     ),
     "moves_at_contact_angle": (
-        "the drive outweighs the resistance as soon as the stone is seated: the paper's closure "
-        "starts wider than the narrowed lumen; the critical pressure is taken from the seated "
-        "contact angle, and closure_start = 'lumen' is the alternative"
+        "the drive exceeds the resistance already at the seated contact angle, because the paper's "
+        "closure starts at the unloaded inner radius, which is wider than the narrowed lumen; the "
+        "critical pressure is that of the seated contact angle, and closure_start = 'lumen' is the "
+        "alternative"
     ),
     "smaller_than_lumen": (
-        "the stone is smaller than the unloaded lumen, where the paper's closure would narrow as "
-        "the wall opens: it is kept at the stone's radius instead"
+        "the stone is smaller than the unloaded lumen, so the paper's closure would narrow while "
+        "the wall opens; the closure is held at the radius of the stone instead"
     ),
     "long_beam_contact": (
-        "half the contact is {decay_lengths:.2g} decay lengths of the beam long, which takes the "
-        "stone's push as a point load"
+        "half the contact length is {decay_lengths:.2g} decay lengths of the beam, but the beam "
+        "model takes the force of the stone as a point load"
     ),
     "thick_beam": (
-        "the wall is {thickness:.2g} inner radii thick and widened by {widening:.2g} of them, "
-        "which the beam takes as small"
+        "the wall is {thickness:.2g} inner radii thick and is widened by {widening:.2g} inner "
+        "radii, but the beam model assumes that both are small"
     ),
     "no_closed_answer": "{outcome} by Eq. 15: {message}",
     # --- surface images
-    "single_path": "one path alone: how the friction varies over the surface is not known",
-    "uneven_paths": "paths of up to {ratio:.2f} times the length of the shortest are cut",
+    "single_path": (
+        "there is only one profile, so the variation of the friction over the surface is unknown"
+    ),
+    "uneven_paths": (
+        "the longest profile has {ratio:.2f} times the length of the shortest; all are cut to the "
+        "shortest length"
+    ),
     "friction_spread_missing": (
-        "for some of the choices the slopes are too steep: no spread is given"
+        "no spread is given, since some of the varied analysis choices make the slopes too steep "
+        "for a friction coefficient"
     ),
-    "paths_too_short": "the paths are too short for some of the orders that the spread is over",
+    "paths_too_short": (
+        "the profiles are too short for some of the baseline orders over which the spread is taken"
+    ),
     "baseline_at_path_end": (
-        "a baseline is steepest where it ceases to be looked at, near the ends of the paths: it "
-        "may be steeper still; choose longer paths"
+        "the steepest slope of a baseline lies at the limit of the range in which it is sought, "
+        "near the ends of the profiles, and the baseline may be steeper beyond it: choose longer "
+        "profiles"
     ),
-    "friction_beyond_range": "the friction coefficient lies above {largest:g}, which no case takes",
+    "friction_beyond_range": (
+        "the friction coefficient exceeds {largest:g}, the largest that the models accept"
+    ),
     "saturated_greys": (
         "{fraction:.0%} of the pixels have the darkest or brightest grey, where heights are cut off"
     ),
     "isolated_grey": (
-        "no grey lies near the darkest or brightest: a scale bar or writing sets the scale of "
-        "heights; cut it off with --area"
+        "the darkest or the brightest grey is far from all other greys, so a scale bar or a label "
+        "probably sets the scale of the heights; exclude it with --area"
     ),
     "plain_rows": (
-        "{fraction:.0%} of the rows have one grey at half of their pixels or more: a data bar, or "
-        "a part that is missing; cut it off with --area"
+        "{fraction:.0%} of the rows have the same grey in at least half of their pixels, so they "
+        "are probably a data bar or a missing part of the image; exclude them with --area"
     ),
     # --- laboratory
-    "not_bounded": "the data do not bound {name}",
-    "bounded_on_one_side": "the data bound {name} on one side only",
-    "interval_by_curvature": (
-        "intervals are by the curvature at the best fit: its profile could not be found"
+    "not_bounded": (
+        "the data do not determine {name}: its confidence interval is open on both sides"
     ),
-    "no_interval": "no interval could be found: the fit is flat about its best constants",
+    "bounded_on_one_side": "the confidence interval of {name} is open on one side",
+    "interval_by_curvature": (
+        "the confidence intervals follow from the curvature at the best fit, since the profile "
+        "likelihood could not be computed"
+    ),
+    "no_interval": (
+        "no confidence interval could be computed, since the sum of squares is flat at the best fit"
+    ),
     "residuals_grow": (
-        "residuals grow with the stress, so that intervals are too narrow: fit with relative "
-        "errors (--relative)"
+        "the residuals grow with the stress, so the confidence intervals are too narrow: fit with "
+        "relative errors (--relative)"
     ),
     "lack_of_fit": (
-        "the law misses the data systematically, by {off_kPa:.3g} kPa ({share:.1%} of the largest) "
-        "about {at:.3g} times the size at rest: the intervals are too narrow, try another law or a "
-        "smaller range"
+        "the law deviates from the data systematically, by {off_kPa:.3g} kPa ({share:.1%} of the "
+        "largest value) at about {at:.3g} times the size at rest, so the confidence intervals are "
+        "too narrow: try another law or a smaller range"
     ),
     "residuals_correlated": (
-        "neighbouring residuals are alike (correlation {alike:.2f}, p = {chance:.1g}): the law "
-        "misses the data in waves, or errors go on from point to point, and the intervals are too "
-        "narrow"
+        "neighbouring residuals are correlated (correlation {alike:.2f}, p = {chance:.1g}), either "
+        "because the law deviates from the data systematically or because the errors of "
+        "measurement are correlated; the confidence intervals are too narrow"
     ),
     "zero_offset": (
-        "the data are met better with a zero offset of {offset_kPa:.3g} kPa in what was measured "
-        "(p = {chance:.1g}): subtract what was read without load"
+        "a zero offset of {offset_kPa:.3g} kPa in the measured values improves the fit "
+        "(p = {chance:.1g}): subtract the reading without load"
     ),
     "rest_size": (
-        "the data are met better if every stretch is {part:+.2%} from what was given "
-        "(p = {chance:.1g}), as with slack, a pre-stretch that was not told or a wrong size at "
-        "rest: measure the size at rest where the load begins"
+        "stretches that differ by {part:+.2%} from the given ones improve the fit "
+        "(p = {chance:.1g}), which points to slack, to a pre-stretch or to a wrong size at rest: "
+        "measure the size at rest where the load begins"
     ),
     "slack": (
-        "the data are met better if the strip hangs loose up to a stretch of {stretch:.3g} "
-        "(p = {chance:.1g}): take its length there as that at rest, and leave the rows before out"
+        "the fit improves if the strip carries no load up to a stretch of {stretch:.3g} "
+        "(p = {chance:.1g}): use the length at that stretch as the length at rest, and leave out "
+        "the rows before it"
     ),
     "axial_rest_length": (
-        "the data are met better if the axial stretch is {part:+.2%} from what was given "
-        "(p = {chance:.1g}): give the axial stretch in column axial_stretch"
+        "an axial stretch that differs by {part:+.2%} from the given one improves the fit "
+        "(p = {chance:.1g}): give the axial stretch in the column axial_stretch"
     ),
     "hysteresis": (
-        "loading and unloading differ by up to {share:.1%} of the largest (p = {chance:.1g}), but "
-        "an elastic law has one curve for both: fit the loading alone"
+        "loading and unloading differ by up to {share:.1%} of the largest value "
+        "(p = {chance:.1g}), but an elastic law has one curve for both: fit the loading alone"
     ),
     "runs_differ": (
-        "the {runs} runs of the data, cycles or specimens, differ by up to {share:.1%} "
-        "(p = {chance:.1g}): fit one at a time, or the last cycle alone"
+        "the {runs} runs of the data (cycles or specimens) differ by up to {share:.1%} "
+        "(p = {chance:.1g}): fit one of them at a time, or the last cycle alone"
     ),
     "outlier": (
-        "{row} lies {off_kPa:+.3g} kPa off the law, at {observed_kPa:.4g} kPa (p = {chance:.1g}): "
-        "check the measurement, or leave it out"
+        "{row} is an outlier: its residual is {off_kPa:+.3g} kPa at a measured value of "
+        "{observed_kPa:.4g} kPa (p = {chance:.1g}); check this measurement, or leave it out"
     ),
     "constant_at_bound": (
-        "{name} lies at the end of what the law allows, {value}, so that it has no interval: the "
-        "data ask for a simpler law"
+        "the best fit of {name} is the bound that the law sets, {value}, so it has no confidence "
+        "interval: try a law with fewer constants"
     ),
     "soft_fit": (
-        "the shear modulus is {modulus_Pa:.3g} Pa, softer than any wall: was the {measured} given "
-        "in MPa instead of kPa"
+        "the fitted shear modulus is {modulus_Pa:.3g} Pa, which is softer than any ureter: check "
+        "whether the {measured} was given in MPa instead of kPa"
     ),
     "beyond_sd": (
-        "series and model do not agree: at friction {friction:.3g} residuals are {typical:.2g} "
-        "standard deviations, up to {largest:.2g}, so that no number below describes this series"
+        "series and model disagree: with friction {friction:.3g} the typical residual is "
+        "{typical:.2g} standard deviations and the largest {largest:.2g}, so the fitted numbers "
+        "do not describe this series"
     ),
     "beyond_repeats": (
-        "series and model do not agree: the model misses the means of repeated points by "
-        "{off_kPa:.2g} kPa, which scatter by {scatter_kPa:.2g} kPa only"
+        "series and model disagree: the model deviates from the means of repeated points by "
+        "{off_kPa:.2g} kPa, while repeated points scatter by only {scatter_kPa:.2g} kPa"
     ),
     "stiffness_excluded": (
-        "the series excludes this wall's stiffness: it asks for {stiffness:.3g} times that, with "
-        "friction {jointly:.3g}, so that friction {friction:.3g}, found with the wall's own "
-        "stiffness, does not hold; measure the wall"
+        "the series does not agree with the stiffness of this material: the best fit has "
+        "{stiffness:.3g} times that stiffness and friction {jointly:.3g}, so the friction "
+        "{friction:.3g}, which was fitted with the material's own stiffness, cannot be used; "
+        "measure the wall"
     ),
     "jointly_at_end": (
-        "with the stiffness unknown, {name} ends where the search ends, at {value:.3g}"
+        "if stiffness is fitted too, the best fit of {name} is an end of the search range, "
+        "{value:.3g}"
     ),
     "soft_law": (
-        "the shear modulus of material '{material}' is {modulus_Pa:.3g} Pa, softer than any wall: "
-        "are its constants in kPa? They have to be in Pa, 1 kPa = 1000 Pa"
+        "the shear modulus of material '{material}' is {modulus_Pa:.3g} Pa, which is softer than "
+        "any ureter: check whether its constants were given in kPa; they have to be in Pa "
+        "(1 kPa = 1000 Pa)"
     ),
     "loose_points": (
-        "{count} of {points} stones are no larger than the lumen and say nothing of friction"
+        "{count} of {points} stones are no larger than the lumen and contain no information about "
+        "the friction"
     ),
     "unanswered_points": "{count} of {points} points have no answer and are left out",
     "unanswered_at_fit": (
-        "{count} points have no answer at the friction that fits and were left out of the fit"
+        "{count} points have no answer at the fitted friction and were left out of the fit"
     ),
     "no_friction_fits": (
-        "no friction makes this wall meet the series: the one that is nearest lies at the end of "
-        "what the model answers"
+        "no friction coefficient makes the model agree with the series: the best one is an end of "
+        "the range that the model can answer"
     ),
-    "too_few_for_stiffness": "{points} points are too few to tell stiffness from friction",
-    "jointly_not_bounded": "the series does not bound {name} when stiffness is fitted too",
+    "too_few_for_stiffness": (
+        "{points} points are too few to determine friction and stiffness together"
+    ),
+    "jointly_not_bounded": (
+        "if stiffness is fitted too, the confidence interval of {name} is open on both sides"
+    ),
     "jointly_bounded_on_one_side": (
-        "the series does not bound {name} on one side when stiffness is fitted too"
+        "if stiffness is fitted too, the confidence interval of {name} is open on one side"
     ),
     # --- assessments
     "friction_assumed": (
-        "friction is taken from 0.05 to 0.5: nobody has measured it between a stone and a "
-        "ureter; wet tissue lies far below the paper's 0.5, which is estimated from a dry "
-        "crystal's slopes"
+        "the friction coefficient is assumed to lie between 0.05 and 0.5: no measurement between a "
+        "stone and a ureter is known; measured values of wet tissue are far below the 0.5 of the "
+        "paper, which was estimated from the slopes of a dry crystal"
     ),
     "stiffness_assumed": (
-        "the wall's stiffness is taken to be 1 ± 0.3 times the material's: how much people "
-        "differ is not published"
+        "the stiffness of the wall is assumed to be 1 ± 0.3 times that of the material: no "
+        "published value of its variation between people is known"
     ),
     "diameters_without_load": (
-        "diameters of the ureter are taken as those without load, but imaging shows them under it"
+        "the diameters of the ureter are used as those of the unloaded ureter, but images show the "
+        "loaded ureter"
     ),
     "samples_beyond_range": (
-        "in {fraction:.0%} of the samples the stone stretches the wall beyond {highest:g} times "
-        "its circumference, but the constants of material '{material}' were used up to "
+        "in {fraction:.0%} of the samples the stone stretches the wall to more than {highest:g} "
+        "times its circumference, but the constants of material '{material}' were used up to "
         "{highest:g} only"
     ),
     "samples_loose": (
-        "in {fraction:.0%} of the samples the stone is no larger than the lumen; one that "
-        "obstructs is held, so these say that the sizes are known too badly, or that something "
-        "else holds it"
+        "in {fraction:.0%} of the samples the stone is no larger than the lumen and would not be "
+        "held, although a stone that obstructs is held: the diameters are too uncertain, or "
+        "something that is not in the model holds the stone"
     ),
     "samples_censored": (
-        "in {fraction:.0%} of the samples only a lower bound of the critical pressure is known: "
-        "the stone is larger, or the friction higher, than the model answers"
+        "in {fraction:.0%} of the samples only a lower bound of the critical pressure is known, "
+        "because the stone or the friction is larger than the model can answer"
     ),
     "dilation_beyond_range": (
-        "in {fraction:.0%} of the samples the dilated segment is wider than {highest:g} times "
-        "the ureter, but the constants of material '{material}' were used up to {highest:g} only: "
-        "the present pressure is extrapolated, and a wall that has crept makes it too high"
+        "in {fraction:.0%} of the samples the dilated segment is more than {highest:g} times as "
+        "wide as the ureter, but the constants of material '{material}' were used up to "
+        "{highest:g} only: the present pressure is extrapolated, and it is too high if the wall "
+        "has crept"
     ),
     "dilation_none": (
-        "in {fraction:.0%} of the samples the dilated segment is no wider than the ureter; its "
-        "transmural pressure counts as 0"
+        "in {fraction:.0%} of the samples the dilated segment is no wider than the ureter, so its "
+        "transmural pressure is taken as 0"
     ),
     "inputs_contradict": (
-        "in {fraction} of the samples the present pressure exceeds the critical one although the "
-        "stone is there: these inputs contradict one another, or what holds the stone is not in "
-        "the model"
+        "in {fraction} of the samples the present pressure exceeds the critical pressure, yet the "
+        "stone has not moved: these inputs contradict one another, or something that is not in the "
+        "model holds the stone"
     ),
     "impossible_walls": (
-        "{fraction:.0%} of the draws describe no possible wall and were left out: the diameters "
-        "are known too badly, and what is left is narrower than they say"
+        "{fraction:.0%} of the random draws describe an impossible wall and were left out, because "
+        "the diameters are too uncertain; the remaining samples vary less than the measurements do"
     ),
-    "surface_error": "the response surface is off by up to {error:.0%}",
+    "surface_error": (
+        "the response surface, from which the samples are computed, has errors of up to {error:.0%}"
+    ),
     # --- surface images, continued
     "gaps_bridged": (
-        "{fraction:.1%} of the heights along the paths are missing; straight lines bridge the "
-        "gaps, of up to {length_um:.3g} µm: instruments miss steep flanks first, so that the "
-        "friction coefficient may be too low"
+        "{fraction:.1%} of the heights along the profiles are missing and were filled by straight "
+        "lines of up to {length_um:.3g} µm; instruments lose steep slopes first, so the friction "
+        "coefficient may be too low"
     ),
     "paths_moved": (
-        "{moved} of {paths} paths are moved to the nearest rows whose missing heights can be "
-        "bridged"
+        "{moved} of {paths} profiles were moved to the nearest rows with few enough missing heights"
     ),
     "tilted": (
-        "the surface is tilted by {tilt_deg:.1f}° against the picture: with its least-squares "
-        "plane subtracted (--level) the friction coefficient is {levelled:.3f}"
+        "the surface is tilted by {tilt_deg:.1f}° in the image; with its least-squares plane "
+        "subtracted (--level) the friction coefficient is {levelled:.3f}"
     ),
 }
 
@@ -266,9 +303,9 @@ class Caution:
     Attributes
     ----------
     code : str
-        One of `SENTENCES`; it stays the same when the sentence is reworded.
+        A key of `SENTENCES`; it stays the same when the sentence is reworded.
     values : tuple of (str, value)
-        The numbers and names that the sentence contains.
+        Numbers and names that are inserted into the sentence.
     """
 
     code: str
@@ -280,7 +317,13 @@ class Caution:
 
 
 def caution(code: str, **values: Any) -> Caution:
-    """Make a caution; a code without a sentence, or with other values than it says, is a fault."""
+    """Return a caution.
+
+    Raises
+    ------
+    KeyError
+        The code has no sentence, or its sentence contains a value that is not given.
+    """
     made = Caution(code, tuple(values.items()))
     str(made)
     return made

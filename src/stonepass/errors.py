@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import reprlib
+from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import PurePath
 from typing import Any, NoReturn, Self
@@ -16,11 +17,13 @@ __all__ = [
     "Outcome",
     "StonepassError",
     "UnstableLaw",
+    "did_you_mean",
     "refuse_unknown",
     "require",
 ]
 
 
+NEAR = 0.5  # similarity of a word and the name that was probably meant, from 0 to 1
 LONGEST, LONGEST_ALLOWED = 80, 300  # characters of a value, and of what is allowed
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 200
@@ -133,12 +136,21 @@ def require(condition: bool, argument: str, value: Any, allowed: str, remedy: st
         raise BadInput(argument, value, allowed, remedy)
 
 
+def did_you_mean(value: str, known: Iterable[str]) -> str:
+    """Return ``; did you mean 'x'`` with the nearest of the known names; empty without a near one.
+
+    Capital letters make no difference.
+    """
+    names = {each.casefold(): each for each in known}
+    near = get_close_matches(value.casefold(), names, n=1, cutoff=NEAR)
+    return f"; did you mean '{names[near[0]]}'" if near else ""
+
+
 def refuse_unknown(argument: str, value: str, known: list[str], otherwise: str = "") -> NoReturn:
     """Raise `BadInput` for a name that is not among `known`, naming the nearest one.
 
     `otherwise` says what to do for something that has no name.
     """
-    near = get_close_matches(value, known, n=1, cutoff=0.5)
-    remedies = [f"did you mean '{near[0]}'" if near else "", otherwise]
+    remedies = [did_you_mean(value, known).removeprefix("; "), otherwise]
     remedy = "; ".join(filter(None, remedies))
     raise BadInput(argument, value, "one of " + ", ".join(known), remedy)

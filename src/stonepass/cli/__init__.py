@@ -1,6 +1,7 @@
-"""The command line: one sub-command per file, every way out an exit code and one sentence.
+"""The command line: one sub-command per file; every failure ends in a sentence and an exit code.
 
-Exit codes: 0 an answer, 1 no answer (its outcome says why), 2 a bad request, 3 a fault of ours.
+Exit codes: 0 answered; 1 no answer, the outcome says why; 2 the request was refused; 3 an error of
+the program.
 """
 
 from __future__ import annotations
@@ -13,14 +14,17 @@ import warnings
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from stonepass.cli.encoding import spell_what_is_lacking
+from stonepass.errors import did_you_mean
 
 __all__ = ["main"]
 
 EXIT_NO_ANSWER, EXIT_BAD_REQUEST, EXIT_FAULT = 1, 2, 3
 EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
-WAYS = "; --cache names another folder, --no-cache does without"
+COMPLETION = "_STONEPASS_COMPLETE"  # set by a shell that asks for completions
+WAYS = "; --cache DIR chooses another folder, --no-cache works without one"
 RENAMED = {"--relief": "--height-range", "--pairs": "--opening-curve"}
 NO_MEMORY = (
     "bad_alloc",
@@ -33,7 +37,7 @@ NO_MEMORY = (
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit."""
-    # Looking for plug-ins of pydantic reads the metadata of every installed package.
+    # The search for plug-ins of pydantic would read the metadata of every installed package.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     spell_what_is_lacking()
     signal.signal(signal.SIGTERM, _terminate)
@@ -48,7 +52,12 @@ def run(arguments: list[str]) -> int:
     from stonepass.errors import StonepassError
 
     arguments = [_renamed(each) for each in arguments]
-    if arguments in ([], ["material"]):
+    if not arguments and COMPLETION not in os.environ:
+        from stonepass.cli.greeting import greeting
+
+        print(greeting())
+        return 0
+    if arguments in (["material"], ["fit"]):
         arguments = [*arguments, "--help"]
     try:
         with _cache_warnings():
@@ -62,7 +71,7 @@ def run(arguments: list[str]) -> int:
     except typer.Exit as stop:
         return stop.exit_code
     except typer.TyperException as problem:
-        return _say(_sentence(problem.format_message()), EXIT_BAD_REQUEST)
+        return _say(_sentence(_message(problem, arguments)), EXIT_BAD_REQUEST)
     except (KeyboardInterrupt, typer.Abort):
         return _say("stopped.", EXIT_INTERRUPTED)
     except _Terminated:
@@ -76,8 +85,8 @@ def run(arguments: list[str]) -> int:
         if (sentence := _beyond_the_machine(problem)) is not None:
             return _say(sentence, EXIT_BAD_REQUEST)
         return _say(
-            f"this is a fault of stonepass, please report it with your command: "
-            f"{type(problem).__name__}: {problem} (STONEPASS_DEBUG=1 shows where).",
+            "this is an error of stonepass; please report it together with your command: "
+            f"{type(problem).__name__}: {problem} (STONEPASS_DEBUG=1 shows where it occurred).",
             EXIT_FAULT,
         )
 
@@ -87,7 +96,7 @@ def _renamed(argument: str) -> str:
     option, equals, value = argument.partition("=")
     if option not in RENAMED:
         return argument
-    print(f"warning: {option} is called {RENAMED[option]} now", file=sys.stderr)
+    print(f"warning: {option} is now called {RENAMED[option]}", file=sys.stderr)
     return f"{RENAMED[option]}{equals}{value}"
 
 
@@ -101,9 +110,9 @@ def _terminate(*_: object) -> None:
 
 @contextmanager
 def _cache_warnings() -> Iterator[None]:
-    """Print what the solution cache warned of, once and after the answer.
+    """Print the warnings of the solution cache after the answer, each once.
 
-    Other warnings of Python are left out: what matters is in the answer's own warnings.
+    Other warnings of Python are dropped, since the answer has warnings of its own.
     """
     from stonepass.errors import CacheNotWritten, CacheWarning
 
@@ -119,7 +128,7 @@ def _cache_warnings() -> Iterator[None]:
 
 
 def _beyond_the_machine(problem: Exception) -> str | None:
-    """Say what the machine lacks, memory or room for output, where that is the problem."""
+    """Return a sentence if the machine lacks memory or room for output, else None."""
     text = str(problem).lower()
     if isinstance(problem, MemoryError) or any(sign in text for sign in NO_MEMORY):
         return "there is not enough memory for this; close other programs or raise the limit."
@@ -130,8 +139,26 @@ def _beyond_the_machine(problem: Exception) -> str | None:
 
 
 def _discard_output() -> None:
-    """Send what is left in the buffer of stdout nowhere, so that its end raises nothing."""
+    """Discard the buffer of stdout, which nobody reads; closing it would raise an error."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _message(problem: Any, arguments: list[str]) -> str:
+    """Return the message of a refused command line, with the option that was probably meant."""
+    option = getattr(problem, "option_name", None)
+    if option is None or not problem.message.startswith("No such option"):
+        return str(problem.format_message())
+    # A long option with a single hyphen is taken apart into short ones; the user wrote it whole.
+    given = next((each for each in arguments if each.startswith(option)), option).split("=")[0]
+    names = [
+        name.removeprefix("--")
+        for each in problem.ctx.command.params
+        for name in (*each.opts, *each.secondary_opts)
+        if name.startswith("--")
+    ]
+    near = did_you_mean(given.lstrip("-"), names).replace(" '", " '--")
+    command = problem.ctx.command_path
+    return f"There is no option {given}{near}; '{command} --help' lists all."
 
 
 def _say(sentence: str, code: int) -> int:

@@ -1,16 +1,36 @@
-"""``stonepass assess``: the stone and ureter of one patient, with how well they are known."""
+"""``stonepass assess``: the stone of one patient, with the uncertainty of every measurement."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stonepass.about import DISCLAIMER
+from stonepass.cli.help import OUTPUT, QUESTION, epilog
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
 
-__all__ = ["command"]
+if TYPE_CHECKING:
+    from stonepass.clinic.patient import Patient
+
+__all__ = ["EPILOG", "command"]
+
+SECONDS = 120.0  # one process, an empty cache
+EPILOG = epilog(
+    (
+        (
+            "assess examples/patient.toml --html report.html",
+            "critical and present pressure as intervals, and a report to print",
+        ),
+        (
+            "assess examples/patient.toml --limit 12kPa --json",
+            "another maximum tolerable pressure, as JSON",
+        ),
+    ),
+    "0 assessed; 1 the model answers too few of the possible cases; 2 the request was refused; 3 "
+    "an error of the program",
+)
 
 
 def command(
@@ -18,51 +38,76 @@ def command(
         Path,
         typer.Argument(
             metavar="PATIENT.toml",
-            help="Sizes as value ± uncertainty; see examples/patient.toml.",
+            help="Measurements with their uncertainties, as in examples/patient.toml.",
+            rich_help_panel=QUESTION,
         ),
     ],
     limit: Annotated[
         str | None,
-        typer.Option("--limit", metavar="PRESSURE", help="Instead of the file's, e.g. 6kPa."),
+        typer.Option(
+            "--limit",
+            metavar="PRESSURE",
+            help="Maximum tolerable urine pressure instead of that of the file, e.g. 6kPa.",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     json: Json = False,
     html: Annotated[
         Path | None,
-        typer.Option("--html", metavar="REPORT.html", help="Write one page that prints on two."),
+        typer.Option(
+            "--html",
+            metavar="REPORT.html",
+            help="Write a report as one HTML file that can be read on a phone and printed.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     cache: Cache = None,
     no_cache: NoCache = False,
     workers: Workers = None,
 ) -> int:
-    """Assess one patient: critical and present pressure as intervals, beside what cohorts saw.
+    """Assess the stone of one patient, with the uncertainty of every measurement.
 
-    Limits with a source are 2, 4, 6, 8 and 12 kPa; the answer names it.
+    The result has intervals of the critical and of the present urine pressure, and what happened to
+    stones of this size and place in published cohorts. It is not a probability of passage.
+    Published pressures that may serve as the limit are 2, 4, 6, 8 and 12 kPa.
     """
-    from stonepass.cli.terminal import counting, print_json, show, warn, writable
+    from stonepass.cli.terminal import announce, counting, print_json, show, warn, writable, wrote
 
     writable(html, (".html", ".htm"))
+    patient = _patient(patient_file, limit)
     from stonepass.clinic.assess import assess
-    from stonepass.clinic.patient import read_patient
     from stonepass.records.assess import CAUTION, assess_record
-    from stonepass.report.assess_report import assess_tables, noise_in_words
+    from stonepass.report.assess_report import assess_summary, assess_tables
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
 
-    patient = read_patient(patient_file)
-    if limit is not None:
-        patient = patient.with_limit(limit)
-    folder = cache_folder(cache, no_cache)
-    with process_pool(workers or CORES) as pool, counting("solving") as progress:
+    folder, count = cache_folder(cache, no_cache), workers or CORES
+    announce("solving about fifty cases", SECONDS / count, remembers=folder is not None)
+    with process_pool(count) as pool, counting("solving the cases") as progress:
         found = assess(patient, JobSolver(pool, folder, progress))
     if json:
         print_json(assess_record(found, patient_file.name).to_dict())
     else:
-        noise = f"Noise of the samples, one standard error: {noise_in_words(found)}."
-        show(*assess_tables(found), f"{found.message} {CAUTION}", noise, DISCLAIMER)
         warn(found.warnings)
         warn([f"at the measured values {each}" for each in found.at_values.warnings])
+        show(*assess_summary(found), *assess_tables(found), CAUTION, DISCLAIMER)
     if html is not None:
         from stonepass.report.assess_page import write_assessment
 
         write_assessment(found, html)
+        wrote(html)
     return 0 if found.outcome.answered else 1
+
+
+def _patient(path: Path, limit: str | None) -> Patient:
+    """Read the patient's file; `limit` replaces the limit of the file."""
+    from stonepass.clinic.patient import read_patient
+    from stonepass.errors import BadInput
+
+    patient = read_patient(path)
+    if limit is None:
+        return patient
+    try:
+        return patient.with_limit(limit)
+    except BadInput as problem:
+        raise problem.named("--limit") from problem

@@ -1,4 +1,4 @@
-"""``stonepass closures``: closures, a fitted series and energy against the direct push-through."""
+"""``stonepass closures``: the closures of the paper's model compared with the direct model."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stonepass.cli.curve import size_range
+from stonepass.cli.help import OUTPUT, QUESTION, epilog
 from stonepass.cli.options import (
     Cache,
     Json,
@@ -25,10 +26,11 @@ if TYPE_CHECKING:
     from stonepass.model.case import Case
     from stonepass.studies.closures import ClosureComparison, ClosureMap
 
-__all__ = ["command"]
+__all__ = ["CLOSURE_CHOICES", "EPILOG", "command"]
 
 MOST_CASES = 2_000
-# Options of the paper's model that the comparison itself sets.
+SECONDS_OF_A_CASE = 10.0  # one process, an empty cache; the direct model takes most of it
+# Options of the paper's model that the comparison varies or sets itself.
 CLOSURE_CHOICES = (
     "method.as_printed",
     "method.closure_start",
@@ -36,7 +38,7 @@ CLOSURE_CHOICES = (
     "method.series_order",
     "method.opening_curve",
 )
-# Inputs that a map varies, or takes as ratios only.
+# Inputs that have options of their own in a map.
 VARIED = (
     "stone.diameter",
     "ureter.inner_diameter",
@@ -46,47 +48,90 @@ VARIED = (
     "ureter.wall_ratio",
     "stone.friction",
 )
+EPILOG = epilog(
+    (
+        (
+            "closures --xi 1.2 --eta 1.5 --material latex --friction 0.475",
+            "one stone: the critical pressure by every closure, beside the direct model",
+        ),
+        (
+            "closures --material latex --map 1.1:1.3:0.1 --map-eta 1.5 --map-friction 0.3,0.5 "
+            "--figure map.svg",
+            "six stones: the errors of the closures as a figure",
+        ),
+    )
+)
 
 
 @takes_settings(*CLOSURE_CHOICES, models=("paper", "direct"))
 def command(
     settings: Settings,
     json: Json = False,
-    order: Annotated[int, typer.Option("--order", help="Order of the fitted series, 1 to 8.")] = 3,
+    order: Annotated[
+        int,
+        typer.Option(
+            "--order",
+            metavar="INTEGER",
+            help="Order of the series closure (1 to 8).",
+            rich_help_panel=QUESTION,
+        ),
+    ] = 3,
     sizes: Annotated[
         str | None,
         typer.Option(
-            "--map", metavar="FROM:TO:STEP", help="Map over these size ratios instead of one stone."
+            "--map",
+            metavar="FROM:TO:STEP",
+            help="Compare many stones with these size ratios, instead of one stone.",
+            rich_help_panel=QUESTION,
         ),
     ] = None,
     walls: Annotated[
-        str, typer.Option("--map-eta", metavar="A,B,…", help="Wall ratios of the map.")
+        str,
+        typer.Option(
+            "--map-eta",
+            metavar="A,B,…",
+            help="Wall ratios of the map.",
+            rich_help_panel=QUESTION,
+        ),
     ] = "1.3,1.5,2,3.4",
     frictions: Annotated[
-        str, typer.Option("--map-friction", metavar="A,B,…", help="Friction of the map.")
+        str,
+        typer.Option(
+            "--map-friction",
+            metavar="A,B,…",
+            help="Friction coefficients of the map.",
+            rich_help_panel=QUESTION,
+        ),
     ] = "0.1,0.3,0.5,0.8",
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="C.csv", help="Write the map as CSV.")
+        Path | None,
+        typer.Option(
+            "--out", metavar="C.csv", help="Write all pressures as CSV.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", metavar="C.svg", help="Draw closure or map (svg, png or pdf)."),
+        typer.Option(
+            "--figure",
+            metavar="C.svg",
+            help="Draw the closure of one stone, or the errors of a map (svg, png or pdf).",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     cache: Cache = None,
     no_cache: NoCache = False,
     workers: Workers = None,
 ) -> int:
-    """Compare critical pressures by every closure with the direct push-through.
+    """Compare the closures of the paper's model with the direct model.
 
-    Give one stone as for pressure, or --map for many; --eta and --xi are then not needed.
+    A closure is the assumption about the shape of the wall that opens above the stone. Give one
+    stone by a case file, by --stone, --inner and --outer, or by --xi and --eta; or many stones by
+    --map.
     """
-    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
+    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable, wrote
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
-    from stonepass.report.style import save
-    from stonepass.studies.closures import ClosureMap
-
     if sizes is not None:
         for key in VARIED:
             if key in settings.given:
@@ -96,15 +141,21 @@ def command(
             _numbers(walls, "--map-eta"),
             _numbers(frictions, "--map-friction"),
         )
-        study = ClosureMap(_cases(settings, *grid), order, settings.wetted)
+        cases = _cases(settings, *grid)
+        from stonepass.studies.closures import ClosureMap
+
+        study = ClosureMap(cases, order, settings.wetted)
         compared = _compared(study, cache_folder(cache, no_cache), workers)
         return _show_map(compared, out, figure, json)
+    case = settings.case(method__model="paper")
     from stonepass.records.closures import closures_record, write_map
     from stonepass.report.closures_report import closures_figure, closures_table
+    from stonepass.report.style import save
+    from stonepass.studies.closures import ClosureMap
     from stonepass.studies.study import run_study
 
-    one = ClosureMap([settings.case(method__model="paper")], order, settings.wetted)
-    with working("comparing closures"):
+    one = ClosureMap([case], order, settings.wetted)
+    with working("solving by every closure and by the direct model"):
         (found,) = run_study(one, cache_folder=cache_folder(cache, no_cache))
     if json:
         print_json(closures_record(found).to_dict())
@@ -115,6 +166,7 @@ def command(
         write_map([found], out)
     if figure is not None:
         save(closures_figure(found), figure)
+    wrote(out, figure)
     return 0 if found.outcome.answered else 1
 
 
@@ -145,19 +197,25 @@ def _cases(
 def _compared(
     study: ClosureMap, folder: Path | None, workers: int | None
 ) -> list[ClosureComparison]:
-    from stonepass.cli.terminal import counting
+    from stonepass.cli.terminal import announce, counting
     from stonepass.studies.executor import CORES, process_pool
     from stonepass.studies.study import run_study
 
-    count = workers or min(CORES, max(1, len(study.cases) // 4))  # a process takes seconds to start
-    with process_pool(count) as pool, counting("cases") as progress:
+    cases = len(study.cases)
+    count = workers or min(CORES, max(1, cases // 4))  # a process takes seconds to start
+    announce(
+        f"solving {cases} cases by every closure and by the direct model",
+        SECONDS_OF_A_CASE * cases / count,
+        remembers=folder is not None,
+    )
+    with process_pool(count) as pool, counting("solving the cases") as progress:
         return run_study(study, pool, folder, progress)
 
 
 def _show_map(
     found: list[ClosureComparison], out: Path | None, figure: Path | None, json: bool
 ) -> int:
-    from stonepass.cli.terminal import print_json, show
+    from stonepass.cli.terminal import print_json, show, wrote
     from stonepass.records.closures import closures_record, write_map
     from stonepass.report.closures_report import map_figure
     from stonepass.report.style import save
@@ -170,19 +228,20 @@ def _show_map(
         write_map(found, out)
     if figure is not None:
         save(map_figure(found), figure)
+    wrote(out, figure)
     return 0
 
 
 def _spreads(found: list[ClosureComparison]) -> list[str]:
-    """A line for each closure: the range of its errors over the cases that it answers."""
+    """Return a line for each closure with the range of its errors in the cases it answers."""
     from stonepass.studies.closures import CLOSURES
 
     lines = []
     for name, text in CLOSURES.items():
         errors = [error for each in found if (error := each.error(name)) is not None]
         if name != "direct" and errors:
-            spread = f"{min(errors):+.1%} to {max(errors):+.1%} of direct"
-            lines.append(f"{text}: {spread}, {len(errors)} cases")
+            spread = f"{min(errors):+.1%} to {max(errors):+.1%} from the direct model"
+            lines.append(f"{text}: {spread} ({len(errors)} cases)")
     return lines
 
 
@@ -190,4 +249,4 @@ def _numbers(text: str, option: str) -> list[float]:
     try:
         return [float(part) for part in text.split(",")]
     except ValueError as problem:
-        raise BadInput(option, text, "numbers with commas between, e.g. 1.3,1.5,2") from problem
+        raise BadInput(option, text, "numbers separated by commas, e.g. 1.3,1.5,2") from problem

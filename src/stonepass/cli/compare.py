@@ -1,4 +1,4 @@
-"""``stonepass compare``: the results of CalculiX for an input deck, beside our own."""
+"""``stonepass compare``: results of CalculiX and of stonepass for the same case."""
 
 from __future__ import annotations
 
@@ -7,34 +7,67 @@ from typing import Annotated
 
 import typer
 
+from stonepass.cli.help import OUTPUT, QUESTION, epilog
 from stonepass.cli.options import Json, Settings, takes_settings
 from stonepass.export.checks import checked_value
 from stonepass.export.input_options import FINE
 from stonepass.export.words import as_flag
 
-__all__ = ["command"]
+__all__ = ["EPILOG", "command"]
+
+EPILOG = epilog(
+    (
+        (
+            "export --xi 1.2 --eta 1.5 --material latex --out case.inp",
+            "first: write the input deck, and run it with 'ccx case'",
+        ),
+        (
+            "compare --xi 1.2 --eta 1.5 --material latex --results case.dat",
+            "then: compare contact angle, contact pressure and critical pressure",
+        ),
+    ),
+    "0 both programs have a critical pressure; 1 one of them has none; 2 the request was refused; "
+    "3 an error of the program",
+)
 
 
 @takes_settings("method.closure", "method.series_order", "method.opening_curve", models=("paper",))
 def command(
     settings: Settings,
     results: Annotated[
-        Path, typer.Option("--results", metavar="JOB.dat", help="Results that CalculiX wrote.")
+        Path,
+        typer.Option(
+            "--results",
+            metavar="JOB.dat",
+            help="File of results that CalculiX wrote.",
+            rich_help_panel=QUESTION,
+        ),
     ],
     fine: Annotated[
-        float | None, typer.Option("--fine", help="The value of --fine of the export.")
+        float | None,
+        typer.Option(
+            "--fine",
+            metavar="NUMBER",
+            help="The value of --fine that was used for the export.",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     json: Json = False,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", metavar="C.svg", help="Draw both pressures (svg, png or pdf)."),
+        typer.Option(
+            "--figure",
+            metavar="C.svg",
+            help="Draw the contact pressures of both programs (svg, png or pdf).",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
 ) -> int:
-    """Read the results of CalculiX for an exported input deck and put them beside our own.
+    """Compare the results of CalculiX for an exported input deck with those of stonepass.
 
-    Give the same case as for the export. Exit code 0 where both have a critical pressure.
+    Give the same case as for the export.
     """
-    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
+    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable, wrote
     from stonepass.export.comparison import Comparison, compare
     from stonepass.export.results import read_contact
     from stonepass.export.seating import seating
@@ -43,7 +76,7 @@ def command(
     case = settings.case()
     mesh = None if fine is None else checked_value(FINE, fine, as_flag)
     contact = read_contact(seating(case, mesh), results)
-    with working("solving for the wall"):
+    with working("solving the finite-element model"):
         found = compare(case, contact)
     if not isinstance(found, Comparison):
         show(f"{found.outcome.name}: {found.message}")
@@ -60,4 +93,5 @@ def command(
         from stonepass.report.style import save
 
         save(compare_figure(found), figure)
+        wrote(figure)
     return 0 if found.answer.outcome.answered and found.pressure is not None else 1

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from stonepass.cli.help import OUTPUT, QUESTION, epilog
 from stonepass.cli.options import (
     STONE_SIZE,
     Cache,
@@ -19,9 +20,23 @@ from stonepass.cli.options import (
 )
 from stonepass.errors import BadInput
 
-__all__ = ["command", "size_range"]
+__all__ = ["EPILOG", "command", "size_range"]
 
 MOST_POINTS = 10_000
+EPILOG = epilog(
+    (
+        (
+            "curve --eta 1.3 --xi 1:1.3:0.05 --figure curve.svg",
+            "the critical pressure of seven sizes as a table and as a picture",
+        ),
+        (
+            "curve --inner 3.5mm --outer 4.55mm --xi 1.1:1.2:0.1 --accuracy fast --out curve.csv",
+            "two sizes, solved on coarse meshes, also as CSV",
+        ),
+    ),
+    "0 every size has an answer; 1 some size has none; 2 the request was refused; 3 an error of "
+    "the program",
+)
 
 
 @takes_settings(*STONE_SIZE)
@@ -29,27 +44,39 @@ def command(
     settings: Settings,
     xi: Annotated[
         str,
-        typer.Option("--xi", metavar="FROM:TO:STEP", help="Size ratios, e.g. 1:1.3:0.01."),
+        typer.Option(
+            "--xi",
+            metavar="FROM:TO:STEP",
+            help="Size ratios (stone diameter over inner diameter), e.g. 1:1.3:0.05.",
+            rich_help_panel=QUESTION,
+        ),
     ],
     json: Json = False,
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="C.csv", help="Write the curve as CSV.")
+        Path | None,
+        typer.Option(
+            "--out", metavar="C.csv", help="Write the curve as CSV.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", metavar="C.svg", help="Draw the curve (svg, png or pdf)."),
+        typer.Option(
+            "--figure",
+            metavar="C.svg",
+            help="Draw the curve (svg, png or pdf).",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     cache: Cache = None,
     no_cache: NoCache = False,
     workers: Workers = None,
 ) -> int:
-    """Compute critical pressure over size ratio.
+    """Compute the critical pressure for a range of stone sizes.
 
-    Give --eta, or --inner and --outer, or CASE.toml (its stone's size is ignored). Exit code 0
-    where every size ratio has an answer.
+    Give --inner and --outer; or --eta; or a case file, whose stone may have any size.
     """
     sizes = size_range(xi)
-    from stonepass.cli.terminal import FIGURES, counting, print_json, show, warn, writable
+    from stonepass.cli.terminal import FIGURES, counting, print_json, show, warn, writable, wrote
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
@@ -62,7 +89,7 @@ def command(
     case.with_size_ratio(sizes[0])  # both ends are checked before the first solve
     folder = cache_folder(cache, no_cache)
     count = workers or min(CORES, max(1, len(sizes) // 6))  # a process takes seconds to start
-    with process_pool(count) as pool, counting("size ratios") as progress:
+    with process_pool(count) as pool, counting("solving for every size") as progress:
         answers = run_study(Curve(case, sizes), pool, folder, progress)
     if json:
         print_json([each.to_dict() for each in curve_records(answers)])
@@ -78,11 +105,16 @@ def command(
         from stonepass.report.style import save
 
         save(curve_figure(answers), figure)
+    wrote(out, figure)
     return 0 if all(answer.outcome.answered for answer in answers) else 1
 
 
 def size_range(text: str) -> list[float]:
-    """Read FROM:TO:STEP, both ends included: ``size_range("1:1.02:0.01") == [1.0, 1.01, 1.02]``."""
+    """Read ``FROM:TO:STEP`` with both ends included.
+
+    >>> size_range("1:1.02:0.01")
+    [1.0, 1.01, 1.02]
+    """
     allowed = "three rising numbers FROM:TO:STEP, e.g. 1:1.3:0.01"
     try:
         first, last, step = (float(part) for part in text.split(":"))

@@ -1,4 +1,4 @@
-"""``stonepass export``: a case for another program, made from the registered export formats."""
+"""``stonepass export``: a case as a file of a registered export format."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stonepass.cli.help import OUTPUT, epilog
 from stonepass.cli.options import Settings, takes_settings
 from stonepass.errors import Misplaced
 from stonepass.export.api import write
@@ -17,21 +18,40 @@ from stonepass.export.contract import Option, Writer
 from stonepass.export.registry import WRITERS
 from stonepass.export.words import as_flag
 from stonepass.inputs.catalogue import option_of
+from stonepass.model.models.registry import MODELS
 
 if TYPE_CHECKING:  # loads NumPy and SciPy
     from stonepass.model.answer import Answer
 
-__all__ = ["command", "make_command"]
+__all__ = ["EPILOG", "command", "make_command"]
 
-HELP = """Write a case as an input file for another program, or its solved wall to look at.
+HELP = """Write a case for CalculiX, Abaqus, FEBio or ParaView.
 
-Lengths are in millimetres, with an inner radius of 1 mm where only ratios are given; stresses in
-an input file are in kPa, in a VTU file in Pa. Give the stone as for pressure.
+Lengths in the file are in millimetres, with an inner radius of 1 mm if only ratios are given.
+Stresses are in kPa in an input file and in Pa in a VTU file. Give a case file; or --stone, --inner
+and --outer; or --xi and --eta.
 """
+EPILOG = epilog(
+    (
+        (
+            "export --xi 1.2 --eta 1.5 --material latex --out case.inp",
+            "an input deck for CalculiX",
+        ),
+        (
+            "export --xi 1.2 --eta 1.5 --material latex --out case.vtu --accuracy fast",
+            "the solved wall with its stress, for ParaView",
+        ),
+    ),
+    "0 the file is written; 1 the case has no result to write; 2 the request was refused; 3 an "
+    "error of the program",
+)
 
 
 def make_command(writers: Sequence[Writer]) -> Callable[..., int]:
-    """Make the sub-command: its formats, options and help are those that `writers` declare."""
+    """Return the sub-command; its formats, options and help are those that `writers` declare.
+
+    Inputs that no format depends on have no options here.
+    """
 
     def command(settings: Settings, out: Path, format: str | None, **options: Any) -> int:
         return _export(writers, settings, out, format, options)
@@ -40,9 +60,23 @@ def make_command(writers: Sequence[Writer]) -> Callable[..., int]:
     owners = _owners(writers)
     own = {
         "out": Annotated[
-            Path, typer.Option("--out", metavar="FILE", help="File to write; its ending counts.")
+            Path,
+            typer.Option(
+                "--out",
+                metavar="FILE",
+                help="File to write. Its ending chooses the format.",
+                rich_help_panel=OUTPUT,
+            ),
         ],
-        "format": Annotated[str | None, typer.Option("--format", help=_format_help(writers))],
+        "format": Annotated[
+            str | None,
+            typer.Option(
+                "--format",
+                metavar="|".join(each.name for each in writers),
+                help=_format_help(writers),
+                rich_help_panel=OUTPUT,
+            ),
+        ],
         **{name: _flag(option, formats) for name, (option, formats) in owners.items()},
     }
     command.__doc__ = HELP
@@ -58,11 +92,33 @@ def make_command(writers: Sequence[Writer]) -> Callable[..., int]:
         for name, annotation in command.__annotations__.items()
     ]
     command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-    return takes_settings()(command)
+    ignored, remarks = _ignored(writers)
+    models = tuple(name for name in MODELS if _takes_model(writers, name))
+    return takes_settings(*ignored, models=models, choose_model=True, remarks=remarks)(command)
+
+
+def _ignored(writers: Sequence[Writer]) -> tuple[list[str], dict[str, str]]:
+    """Return the keys of inputs that all formats ignore, and a remark for those that some do."""
+    ignoring: dict[str, list[str]] = {}
+    for writer in writers:
+        for name in writer.ignores:
+            ignoring.setdefault(f"method.{name}", []).append(writer.name)
+    everywhere = [key for key, names in ignoring.items() if len(names) == len(writers)]
+    remarks = {}
+    for key in ignoring.keys() - everywhere:
+        others = [each.name for each in writers if each.name not in ignoring[key]]
+        remarks[key] = f"Only for the format {' and '.join(others)}."
+    return everywhere, remarks
+
+
+def _takes_model(writers: Sequence[Writer], model: str) -> bool:
+    """Return whether some format can express the results of a model."""
+    limits = [writer.limits.get("model") for writer in writers]
+    return any(limit is None or model in limit.names for limit in limits)
 
 
 def _owners(writers: Sequence[Writer]) -> dict[str, tuple[Option, list[str]]]:
-    """Every declared option once, with the names of the formats that have it."""
+    """Return every declared option once, with the names of the formats that have it."""
     found: dict[str, tuple[Option, list[str]]] = {}
     for writer in writers:
         for option in writer.options:
@@ -72,17 +128,20 @@ def _owners(writers: Sequence[Writer]) -> dict[str, tuple[Option, list[str]]]:
 
 def _format_help(writers: Sequence[Writer]) -> str:
     told = "; ".join(f"{each.name}: {each.description}" for each in writers)
-    return f"{told}.  [default: by the ending of --out]"
+    return f"{told}.  [default: chosen by the ending of --out]"
 
 
 def _flag(option: Option, formats: Sequence[str]) -> Any:
-    choices = f": {' or '.join(option.choices)}" if option.choices else ""
+    """Return the annotation of an option that some formats have."""
     default = option.default_text or option.default
     tail = "" if default is None else f"  [default: {default}]"
-    text = f"Formats {' and '.join(formats)}: " if len(formats) > 1 else f"Format {formats[0]}: "
-    kind = option.kind | None
+    text = f"Only for the format {' and '.join(formats)}: {option.meaning}."
+    metavar = "|".join(option.choices) or "NUMBER"
     return Annotated[
-        kind, typer.Option(as_flag(option.name), help=f"{text}{option.meaning}{choices}.{tail}")
+        option.kind | None,
+        typer.Option(
+            as_flag(option.name), metavar=metavar, help=text + tail, rich_help_panel=OUTPUT
+        ),
     ]
 
 
@@ -93,8 +152,8 @@ def _export(
     format: str | None,
     options: dict[str, Any],
 ) -> int:
-    """Write the file and say how to go on; exit code 1 where there is nothing to write."""
-    from stonepass.cli.terminal import show, warn, working
+    """Write the file and name the next step; exit code 1 if the case has no result to write."""
+    from stonepass.cli.terminal import show, warn, working, wrote
 
     writer = find_writer(writers, out, format, as_flag)
     for name in writer.ignores:
@@ -107,7 +166,7 @@ def _export(
     def solved() -> Answer:
         from stonepass.model.critical import solve  # loads the finite elements
 
-        with working("solving for the wall"):
+        with working("solving the finite-element model"):
             return solve(case)
 
     made = write(case, out, format, solved=solved, writers=writers, words=as_flag, **options)
@@ -116,6 +175,7 @@ def _export(
         show(made.summary)
         warn(["there is no result to show, so nothing was written"])
         return 1
+    wrote(out)
     show("; ".join(part for part in (f"{out.name}: {made.summary}", made.next_step) if part))
     return 0
 

@@ -1,4 +1,4 @@
-"""``stonepass fit``: constants of a law from a bench's data."""
+"""``stonepass fit``: the constants of a material law from tensile and inflation tests."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stonepass.about import DISCLAIMER
+from stonepass.cli.app import SETTINGS
+from stonepass.cli.help import OUTPUT, QUESTION, PanelCommand, PanelGroup, epilog
 from stonepass.cli.options import Json
 
 if TYPE_CHECKING:
@@ -15,53 +17,135 @@ if TYPE_CHECKING:
 
 __all__ = ["app"]
 
-app = typer.Typer(help="Fit the constants of a law to bench data.", rich_markup_mode=None)
+app = typer.Typer(
+    cls=PanelGroup,
+    help="Fit the constants of a material law to laboratory tests.",
+    epilog="'stonepass fit COMMAND --help' shows the options of a test, with examples.",
+    **SETTINGS,
+)
+EXIT_CODES = (
+    "0 fitted; 1 the fitted constants describe no stable solid; 2 the request was refused; 3 an "
+    "error of the program"
+)
 
-File = Annotated[Path, typer.Argument(metavar="DATA.csv")]
-Law = Annotated[str, typer.Option("--law", help="See 'stonepass material laws'.")]
+File = Annotated[
+    Path,
+    typer.Argument(metavar="DATA.csv", help="Measured data.", rich_help_panel=QUESTION),
+]
+Law = Annotated[
+    str,
+    typer.Option(
+        "--law",
+        metavar="NAME",
+        help="Material law; 'stonepass material laws' lists them.",
+        rich_help_panel=QUESTION,
+        autocompletion=lambda incomplete: _law_names(),
+    ),
+]
 Fix = Annotated[
     list[str] | None,
-    typer.Option("--fix", metavar="NAME=VALUE", help="A constant that is known, e.g. G=12kPa."),
+    typer.Option(
+        "--fix",
+        metavar="NAME=VALUE",
+        help="A constant that is known, e.g. G=12kPa. May be repeated.",
+        rich_help_panel=QUESTION,
+    ),
 ]
 Free = Annotated[
     list[str] | None,
-    typer.Option("--free", metavar="NAME", help="Fit a constant that otherwise keeps its default."),
+    typer.Option(
+        "--free",
+        metavar="NAME",
+        help="Fit a constant that otherwise keeps its default. May be repeated.",
+        rich_help_panel=QUESTION,
+    ),
 ]
 Out = Annotated[
-    Path | None, typer.Option("--out", metavar="LAW.toml", help="Write the law, for --material.")
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="LAW.toml",
+        help="Write the fitted law as a file that --material reads.",
+        rich_help_panel=OUTPUT,
+    ),
 ]
 Drawn = Annotated[
     Path | None,
-    typer.Option("--figure", metavar="OUT.svg", help="Draw data, law and residuals."),
+    typer.Option(
+        "--figure",
+        metavar="OUT.svg",
+        help="Draw data, law and residuals (svg, png or pdf).",
+        rich_help_panel=OUTPUT,
+    ),
 ]
-
-
 Relative = Annotated[
     bool,
     typer.Option(
         "--relative/--absolute",
-        help="Errors in proportion to what was measured, or equal.  [default: absolute]",
+        help="Whether the errors of measurement are proportional to the measured values "
+        "(relative), or of equal size (absolute).",
+        rich_help_panel=QUESTION,
     ),
 ]
 
 
-@app.command("tensile")
+@app.command(
+    "tensile",
+    cls=PanelCommand,
+    epilog=epilog(
+        (
+            (
+                "fit tensile examples/latex_tensile.csv --law neo-hookean --width 10mm "
+                "--thickness 1.2mm",
+                "the modulus of latex from forces on a strip",
+            ),
+            (
+                "fit tensile examples/ureter_tensile.csv --law fung --fix G=12kPa "
+                "--fix a1122=0.1856 --out law.toml",
+                "three constants of a ureter, two others being known",
+            ),
+        ),
+        EXIT_CODES,
+    ),
+)
 def tensile(
     data: File,
     law: Law,
     width: Annotated[
-        str | None, typer.Option("--width", metavar="LENGTH", help="Of the strip, for force_N.")
+        str | None,
+        typer.Option(
+            "--width",
+            metavar="LENGTH",
+            help="Width of the strip at rest; needed with forces.",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     thickness: Annotated[
-        str | None, typer.Option("--thickness", metavar="LENGTH", help="Of the strip.")
+        str | None,
+        typer.Option(
+            "--thickness",
+            metavar="LENGTH",
+            help="Thickness of the strip at rest; needed with forces.",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     section: Annotated[
         str | None,
-        typer.Option("--section", metavar="AREA", help="Of the strip, e.g. 12mm2, for force_N."),
+        typer.Option(
+            "--section",
+            metavar="AREA",
+            help="Cross-section of the strip at rest, e.g. 12mm2; replaces width and thickness.",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     gauge_length: Annotated[
         str | None,
-        typer.Option("--gauge-length", metavar="LENGTH", help="At rest, for extension_mm."),
+        typer.Option(
+            "--gauge-length",
+            metavar="LENGTH",
+            help="Length at rest over which the extension was measured; needed with extensions.",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     fix: Fix = None,
     free: Free = None,
@@ -70,7 +154,11 @@ def tensile(
     figure: Drawn = None,
     json: Json = False,
 ) -> int:
-    """Fit to strips: stretch or extension_mm, nominal_stress_kPa or force_N[, axis]."""
+    """Fit a law to tensile tests of strips.
+
+    The columns of the data are stretch or extension_mm, then nominal_stress_kPa or force_N, and
+    axis (circumferential or axial) if strips were cut along both directions.
+    """
     from stonepass.bench.test_data import read_tension
     from stonepass.units import area, length
 
@@ -89,15 +177,40 @@ def tensile(
     return _fit(read, law, fix, free, relative, out, figure, json, inputs)
 
 
-@app.command("inflation")
+@app.command(
+    "inflation",
+    cls=PanelCommand,
+    epilog=epilog(
+        (
+            (
+                "fit inflation examples/ureter_inflation.csv --law demiray --inner 3.5mm "
+                "--outer 4.55mm",
+                "constants from the diameters of a tube under pressure",
+            ),
+        ),
+        EXIT_CODES,
+    ),
+)
 def inflation(
     data: File,
     law: Law,
     inner: Annotated[
-        str, typer.Option("--inner", metavar="LENGTH", help="Inner diameter of the tube at rest.")
+        str,
+        typer.Option(
+            "--inner",
+            metavar="LENGTH",
+            help="Inner diameter of the tube at rest.",
+            rich_help_panel=QUESTION,
+        ),
     ],
     outer: Annotated[
-        str, typer.Option("--outer", metavar="LENGTH", help="Outer diameter of the tube at rest.")
+        str,
+        typer.Option(
+            "--outer",
+            metavar="LENGTH",
+            help="Outer diameter of the tube at rest.",
+            rich_help_panel=QUESTION,
+        ),
     ],
     fix: Fix = None,
     free: Free = None,
@@ -106,7 +219,11 @@ def inflation(
     figure: Drawn = None,
     json: Json = False,
 ) -> int:
-    """Fit to a tube under pressure: pressure_kPa, inner_ or outer_diameter_mm[, axial_stretch]."""
+    """Fit a law to inflation tests of a tube.
+
+    The columns of the data are pressure_kPa, then inner_diameter_mm or outer_diameter_mm, and
+    axial_stretch if the tube was stretched along its axis.
+    """
     from stonepass.bench.test_data import read_inflation
     from stonepass.model.ureter import Ureter
 
@@ -131,27 +248,28 @@ def _fit(
     inputs: dict[str, Any],
 ) -> int:
     from stonepass.bench.law_fit import fit_law
-    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
+    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable, wrote
     from stonepass.records.fit import fit_record
     from stonepass.report.fit_report import fit_table
 
     writable(out, (".toml",))
     writable(figure, FIGURES)
-    with working("fitting"):
+    with working("fitting the constants"):
         name = Path(inputs["file"]).stem
         found = fit_law(data, law, _given(law, fix or []), name, relative=relative, free=free or ())
     if json:
         print_json(fit_record(found, inputs | {"relative": relative}).to_dict())
     else:
-        warn(found.warnings)  # before the numbers, which they may speak against
+        warn(found.warnings)  # first, since some of them say that the numbers cannot be used
         show(fit_table(found), DISCLAIMER)
     if figure is not None:
         from stonepass.report.fit_figure import fit_figure
         from stonepass.report.style import save
 
         save(fit_figure(found), figure)
+        wrote(figure)
     if found.unstable:
-        warn([f"these constants, {found.told}, are not a solid: {found.unstable}"])
+        warn([f"the constants {found.told} describe no stable solid: {found.unstable}"])
         if out is not None:
             warn([f"{out} is not written, since the law is not stable"])
         return 1
@@ -159,6 +277,7 @@ def _fit(
         from stonepass.inputs.material_file import write_law
 
         write_law(found.material, out)
+        wrote(out)
     return 0
 
 
@@ -172,8 +291,15 @@ def _given(law: str, fix: list[str]) -> dict[str, float]:
     for text in fix:
         name, separator, value = (part.strip() for part in text.partition("="))
         if not separator:
-            raise BadInput("--fix", text, "written NAME=VALUE")
+            raise BadInput("--fix", text, "written as NAME=VALUE")
         if name not in declared:
             refuse_unknown(f"--fix, constant of law '{law}'", name, list(declared))
         found[name] = read_constant(value, declared[name], f"--fix {name}")
     return found
+
+
+def _law_names() -> list[str]:
+    """Return the names of the laws, for the completion of a shell."""
+    from stonepass.materials.known_laws import KNOWN_LAWS
+
+    return list(KNOWN_LAWS)

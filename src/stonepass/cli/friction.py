@@ -1,4 +1,4 @@
-"""``stonepass friction``: the friction coefficient of a stone from a micrograph of its surface."""
+"""``stonepass friction``: the friction coefficient of a stone from an image of its surface."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stonepass.about import DISCLAIMER
+from stonepass.cli.help import OUTPUT, QUESTION, epilog
 from stonepass.cli.options import Json
 
 if TYPE_CHECKING:
@@ -15,21 +16,49 @@ if TYPE_CHECKING:
     from stonepass.surface.surface_image import Area
     from stonepass.units import Length
 
-__all__ = ["command"]
+__all__ = ["EPILOG", "command"]
+
+ANALYSIS = "Analysis of the surface"
+EPILOG = epilog(
+    (
+        (
+            "friction examples/known_slopes.png --pixel 0.5um --height-range 24.8um",
+            "the coefficient from a picture whose grey is height",
+        ),
+        (
+            "friction examples/crystals.x3p --figure friction.svg",
+            "the coefficient from a measured height map, with the profiles as a figure",
+        ),
+    ),
+    "0 estimated; 2 the request was refused; 3 an error of the program",
+)
 
 
 def command(
     image: Annotated[
-        Path, typer.Argument(metavar="IMAGE", help="TIFF, PNG, JPEG, or a height map.")
+        Path,
+        typer.Argument(
+            metavar="IMAGE",
+            help="Picture (TIFF, PNG, JPEG) or height map (X3P, SDF, NPY and others).",
+            rich_help_panel=QUESTION,
+        ),
     ],
     pixel: Annotated[
         str | None,
-        typer.Option("--pixel", metavar="LENGTH", help="Size of a pixel; wins over the file's."),
+        typer.Option(
+            "--pixel",
+            metavar="LENGTH",
+            help="Size of a pixel, instead of that in the file, e.g. 0.5um.",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     height_range: Annotated[
         str | None,
         typer.Option(
-            "--height-range", metavar="LENGTH", help="Height from black to white, e.g. 35um."
+            "--height-range",
+            metavar="LENGTH",
+            help="Difference in height from black to white, e.g. 35um.",
+            rich_help_panel=QUESTION,
         ),
     ] = None,
     crystal: Annotated[
@@ -37,36 +66,63 @@ def command(
         typer.Option(
             "--crystal",
             metavar="LENGTH",
-            help="Edge of the cubic crystals; height range is sqrt(3) of it.",
+            help="Edge of the cubic crystals on the surface; the height range is then sqrt(3) "
+            "times the edge.",
+            rich_help_panel=QUESTION,
         ),
     ] = None,
     paths: Annotated[
         int | None,
-        typer.Option("--paths", help="Horizontal paths, evenly spaced.  [default: 6]"),
+        typer.Option(
+            "--paths",
+            metavar="INTEGER",
+            help="Number of horizontal profiles, evenly spaced.  [default: 6]",
+            rich_help_panel=ANALYSIS,
+        ),
     ] = None,
     path: Annotated[
         list[str] | None,
-        typer.Option("--path", metavar="X0,Y0,X1,Y1", help="A path in pixels; may be repeated."),
+        typer.Option(
+            "--path",
+            metavar="X0,Y0,X1,Y1",
+            help="Ends of a profile in pixels. May be repeated.",
+            rich_help_panel=ANALYSIS,
+        ),
     ] = None,
     area: Annotated[
         str | None,
         typer.Option(
-            "--area", metavar="LEFT,TOP,RIGHT,BOTTOM", help="Part that is surface, in pixels."
+            "--area",
+            metavar="LEFT,TOP,RIGHT,BOTTOM",
+            help="Part of the image that shows the surface, in pixels.",
+            rich_help_panel=ANALYSIS,
         ),
     ] = None,
     baseline_order: Annotated[
-        int, typer.Option("--baseline-order", help="Half waves of the mean profile's baseline.")
+        int,
+        typer.Option(
+            "--baseline-order",
+            metavar="INTEGER",
+            help="Number of half waves in the baseline of the mean profile.",
+            rich_help_panel=ANALYSIS,
+        ),
     ] = 8,
     deviation_order: Annotated[
         int | None,
         typer.Option(
-            "--deviation-order", help="Of the deviation's baseline.  [default: twice as many]"
+            "--deviation-order",
+            metavar="INTEGER",
+            help="Number of half waves in the baseline of the deviations from it.  [default: twice "
+            "--baseline-order]",
+            rich_help_panel=ANALYSIS,
         ),
     ] = None,
     level: Annotated[
         bool,
         typer.Option(
-            "--level", help="Subtract the least-squares plane first: the tilt of a specimen."
+            "--level",
+            help="Subtract the least-squares plane first, which removes the tilt of the specimen.",
+            rich_help_panel=ANALYSIS,
         ),
     ] = False,
     margin: Annotated[
@@ -74,21 +130,28 @@ def command(
         typer.Option(
             "--margin",
             metavar="WAVES",
-            help="Ends of the paths where the steepest slope is not looked for, in shortest waves "
-            "of each baseline, 0 to 2; a quarter of the path at most.",
+            help="Length at both ends of a profile that is left out when the steepest slope is "
+            "sought, in shortest waves of the baseline (0 to 2).",
+            rich_help_panel=ANALYSIS,
         ),
     ] = 0.5,
     json: Json = False,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", metavar="OUT.svg", help="Draw the four panels (svg, png, pdf)."),
+        typer.Option(
+            "--figure",
+            metavar="OUT.svg",
+            help="Draw the image, the profiles and their slopes (svg, png or pdf).",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
 ) -> int:
-    """Estimate the friction coefficient from the slopes of a stone's surface (Eq. 18).
+    """Estimate the friction coefficient from the slopes of a stone's surface, by Eq. 18.
 
-    The file is read in a process of its own, within limits of time and memory.
+    The image is read in a separate process with limited time and memory, since it may come from
+    an unknown source.
     """
-    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
+    from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable, wrote
 
     writable(figure, FIGURES)
     scale = _height_range(height_range, crystal)
@@ -99,7 +162,7 @@ def command(
 
     size = None if pixel is None else length(pixel, "--pixel")
     part = None if area is None else _area(area)
-    with working("reading the picture"):
+    with working("reading the image"):
         picture = read_untrusted(image, area=part)
         if size is not None:
             picture = picture.with_pixel(size)
@@ -120,6 +183,7 @@ def command(
         from stonepass.report.style import save
 
         save(friction_figure(found), figure)
+        wrote(figure)
     return 0
 
 

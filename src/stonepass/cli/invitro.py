@@ -1,4 +1,4 @@
-"""``stonepass invitro``: measured critical pressures against the model, and their friction."""
+"""``stonepass invitro``: measured critical pressures beside those of the model."""
 
 from __future__ import annotations
 
@@ -8,42 +8,97 @@ from typing import Annotated
 import typer
 
 from stonepass.about import DISCLAIMER
-from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
+from stonepass.cli.help import MODEL_PANEL, OUTPUT, QUESTION, epilog
+from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder, complete_material
 
-__all__ = ["command"]
+__all__ = ["EPILOG", "command"]
+
+SECONDS_OF_A_POINT = {"paper": 25.0, "direct": 100.0}  # one process, an empty cache
+EPILOG = epilog(
+    (
+        (
+            "invitro examples/latex_series.csv --material latex --figure series.svg",
+            "the friction that fits ten measured points, with a figure",
+        ),
+        (
+            "invitro examples/latex_series.csv --material latex --friction 0.475",
+            "the same points beside the model with this friction",
+        ),
+    ),
+    "0 every point has an answer; 1 some point has none; 2 the request was refused; 3 an error of "
+    "the program",
+)
 
 
 def command(
     data: Annotated[
         Path,
-        typer.Argument(metavar="DATA.csv", help="xi, eta, confining_kPa, pressure_kPa[, sd_kPa]."),
+        typer.Argument(
+            metavar="DATA.csv",
+            help="Measured points, in the columns xi, eta, confining_kPa, pressure_kPa and, if "
+            "known, sd_kPa.",
+            rich_help_panel=QUESTION,
+        ),
     ],
     material: Annotated[
-        str, typer.Option("--material", metavar="NAME|FILE", help="Wall of the tubes.")
+        str,
+        typer.Option(
+            "--material",
+            metavar="NAME|FILE",
+            help="Material of the tubes: catalogue name, law.toml or file.py:function.",
+            rich_help_panel=QUESTION,
+            autocompletion=complete_material,
+        ),
     ],
     friction: Annotated[
         float | None,
-        typer.Option("--friction", help="Compare at this friction.  [default: the one that fits]"),
+        typer.Option(
+            "--friction",
+            metavar="NUMBER",
+            help="Friction coefficient of the comparison.  [default: the one that fits best]",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     confinement: Annotated[
-        str, typer.Option("--confinement", help="hydrostatic (a water bath) or dead.")
+        str,
+        typer.Option(
+            "--confinement",
+            metavar="dead|hydrostatic",
+            help="How the confining pressure acts: as a dead load, or as the pressure of a fluid "
+            "bath.",
+            rich_help_panel=QUESTION,
+        ),
     ] = "hydrostatic",
-    model: Annotated[str, typer.Option("--model", help="paper or direct.")] = "paper",
+    model: Annotated[
+        str,
+        typer.Option("--model", metavar="paper|direct", help="Model.", rich_help_panel=MODEL_PANEL),
+    ] = "paper",
     seating: Annotated[
         str | None,
         typer.Option(
             "--seating",
             metavar="pressed|frictionless|growing",
-            help="How the stones came to their place. Model 'paper' only.  [default: pressed]",
+            help="How the stones were seated, for the model 'paper'.  [default: pressed]",
+            rich_help_panel=MODEL_PANEL,
         ),
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("--out", metavar="OUT.csv", help="Write points and answers as CSV."),
+        typer.Option(
+            "--out",
+            metavar="OUT.csv",
+            help="Write measured and computed pressures as CSV.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", metavar="OUT.svg", help="Draw curves and points (svg, png, pdf)."),
+        typer.Option(
+            "--figure",
+            metavar="OUT.svg",
+            help="Draw the points and the curves of the model (svg, png or pdf).",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     json: Json = False,
     cache: Cache = None,
@@ -52,40 +107,54 @@ def command(
 ) -> int:
     """Compare a series of measured critical pressures with the model, and fit its friction.
 
-    Exit code 0 where every point has an answer.
+    Every point is solved for several friction coefficients and stiffnesses, which takes minutes
+    the first time.
     """
-    from stonepass.cli.terminal import FIGURES, counting, print_json, show, warn, writable
+    from stonepass.cli.terminal import (
+        FIGURES,
+        announce,
+        counting,
+        print_json,
+        show,
+        warn,
+        writable,
+        wrote,
+    )
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
-    from stonepass.bench.comparison import Setting, size_curves
-    from stonepass.bench.invitro import fit_friction
     from stonepass.inputs.build import build_method
     from stonepass.inputs.material_file import find_material
     from stonepass.inputs.measured_pressures import read_points
     from stonepass.model.load import Load
     from stonepass.model.stone import Stone
+
+    if friction is not None:
+        Stone(size_ratio=1.0, friction=friction)  # a value out of bounds is refused before the work
+    Load(confinement=confinement)
+    values = {"method.model": model, "method.seating": seating}
+    chosen, numerics = build_method({key: v for key, v in values.items() if v is not None})
+    wall, points = find_material(material), read_points(data)
+    from stonepass.bench.comparison import Setting, size_curves
+    from stonepass.bench.invitro import fit_friction
     from stonepass.records.invitro import invitro_record, series_warnings, write_invitro
     from stonepass.report.invitro_report import invitro_table
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
 
-    if friction is not None:
-        Stone(size_ratio=1.0, friction=friction)  # refused before the work where it is none
-    Load(confinement=confinement)
-    values = {"method.model": model, "method.seating": seating}
-    chosen, numerics = build_method({key: v for key, v in values.items() if v is not None})
-    setting = Setting(find_material(material), confinement, chosen, numerics)
-    points = read_points(data)
+    setting = Setting(wall, confinement, chosen, numerics)
     folder = cache_folder(cache, no_cache)
-    with process_pool(workers or CORES) as pool, counting("solving") as progress:
+    count = workers or CORES
+    seconds = SECONDS_OF_A_POINT.get(chosen.NAME, 0.0) * len(points) / count
+    announce(f"fitting {len(points)} measured points", seconds, remembers=not no_cache)
+    with process_pool(count) as pool, counting("solving the points") as progress:
         solver = JobSolver(pool, folder, progress)
         found = fit_friction(points, setting, friction, solver)
         curves = [] if figure is None else size_curves(found.comparison, setting, solver)
     if json:
         print_json(invitro_record(found, data.name).to_dict())
     else:
-        show(*(f"This fit does not hold: {each}." for each in found.objections))
+        show(*(f"The fit cannot be used: {each}." for each in found.objections))
         warn(each for each in series_warnings(found) if each not in found.objections)
         show(*invitro_table(found), DISCLAIMER)
     if out is not None:
@@ -95,4 +164,5 @@ def command(
         from stonepass.report.style import save
 
         save(invitro_figure(found, curves), figure)
+    wrote(out, figure)
     return 0 if all(answer.outcome.answered for answer in found.comparison.answers) else 1

@@ -6,20 +6,47 @@ from typing import Annotated
 
 import typer
 
+from stonepass.cli.app import SETTINGS
+from stonepass.cli.help import QUESTION, PanelCommand, PanelGroup, epilog
+from stonepass.cli.options import complete_material
+
 __all__ = ["app"]
 
-app = typer.Typer(help="List, show and check material laws.", rich_markup_mode=None)
+app = typer.Typer(
+    cls=PanelGroup,
+    help="List, show and check material laws.",
+    epilog="'stonepass material COMMAND --help' explains a command, with examples.",
+    **SETTINGS,
+)
 
 ONE_SIDED = 1e-4  # relative difference of a modulus in tension and in compression that is shown
+LISTED = "0 listed; 3 an error of the program"
+SHOWN = "0 shown; 2 the request was refused; 3 an error of the program"
+CHECKED = (
+    "0 the law describes a stable solid; 2 it does not (the message says why), or the request was "
+    "refused; 3 an error of the program"
+)
 
 Name = Annotated[
-    str, typer.Argument(metavar="NAME", help="Catalogue name, law.toml or file.py:function.")
+    str,
+    typer.Argument(
+        metavar="NAME",
+        help="Catalogue name, law.toml or file.py:function.",
+        rich_help_panel=QUESTION,
+        autocompletion=complete_material,
+    ),
 ]
 
 
-@app.command("list")
+def _epilog(example: str, meaning: str, exit_codes: str = SHOWN) -> str:
+    return epilog(((f"material {example}", meaning),), exit_codes)
+
+
+@app.command(
+    "list", cls=PanelCommand, epilog=_epilog("list", "the materials of the catalogue", LISTED)
+)
 def list_materials() -> int:
-    """List the catalogue."""
+    """List the materials of the catalogue."""
     from rich import box
     from rich.table import Table
 
@@ -38,9 +65,13 @@ def list_materials() -> int:
     return 0
 
 
-@app.command("laws")
+@app.command(
+    "laws",
+    cls=PanelCommand,
+    epilog=_epilog("laws", "every law with its constants, their units and bounds", LISTED),
+)
 def list_laws() -> int:
-    """List the laws that a law file and a fit may use, with their constants."""
+    """List the material laws with their constants, for law files and fits."""
     from rich import box
     from rich.table import Table
 
@@ -60,9 +91,13 @@ def list_laws() -> int:
     return 0
 
 
-@app.command("show")
+@app.command(
+    "show",
+    cls=PanelCommand,
+    epilog=_epilog("show ureter", "constants and source of the default wall"),
+)
 def show_material(name: Name) -> int:
-    """Show a law's constants and where they come from."""
+    """Show the constants of a material and the source that they come from."""
     from stonepass.cli.terminal import show
     from stonepass.inputs.material_file import find_material
     from stonepass.materials.constants import constants_of, shown_constant
@@ -83,14 +118,27 @@ def show_material(name: Name) -> int:
     return 0
 
 
-@app.command("secant")
+@app.command(
+    "secant",
+    cls=PanelCommand,
+    epilog=_epilog("secant ureter --stretch 1.3", "both moduli up to a stretch of 1.3"),
+)
 def secant_of_material(
     name: Name,
     stretch: Annotated[
-        float, typer.Option("--stretch", help="Stretch up to which the secants go, e.g. 1.3.")
+        float,
+        typer.Option(
+            "--stretch",
+            metavar="NUMBER",
+            help="Stretch at which the secants end, e.g. 1.3.",
+            rich_help_panel=QUESTION,
+        ),
     ],
 ) -> int:
-    """Show the secant moduli of a law, as the beam model takes them (E1 round, E2 along)."""
+    """Show the secant moduli of a material as the model 'beam' uses them.
+
+    E1 is the circumferential modulus and E2 the longitudinal one.
+    """
     from stonepass.cli.terminal import show
     from stonepass.inputs.material_file import find_material
     from stonepass.materials.composition import fibres_of
@@ -110,9 +158,15 @@ def secant_of_material(
     return 0
 
 
-@app.command("check")
+@app.command(
+    "check",
+    cls=PanelCommand,
+    epilog=_epilog(
+        "check examples/soft_ureter.toml", "whether a law file describes a stable solid", CHECKED
+    ),
+)
 def check_material(name: Name) -> int:
-    """Check that a law describes a solid; exit code 2 and the reason where it does not."""
+    """Check that a material describes a stable solid."""
     from stonepass.cli.terminal import show, warn
     from stonepass.inputs.material_file import find_material
     from stonepass.materials.stability import check, one_sided_moduli
@@ -122,21 +176,21 @@ def check_material(name: Name) -> int:
     entry = find_material(name)
     state = check(entry)
     check_in_engine(entry)
-    names = ("circumferential modulus", "axial modulus", "circumferential, axis held")
+    names = ("circumferential modulus", "axial modulus", "circumferential, length held")
     sides = zip(one_sided_moduli(entry.law, 1.0), one_sided_moduli(entry.law, -1.0), strict=True)
     rows = {name: _modulus(*both) for name, both in zip(names, sides, strict=True)}
     rows["r-z shear modulus"] = _modulus(state.shear, state.shear)
     warn(soft_law(entry))
     show(
-        f"{entry.name}: no stress at rest, strongly elliptic over its strain range at axial "
-        "stretch 1, and the finite elements find the same energy.",
+        f"{entry.name}: free of stress at rest, strongly elliptic over its strain range at axial "
+        "stretch 1, and evaluated alike by the finite elements.",
         *(f"  {what:<26}   {value}" for what, value in rows.items()),
     )
     return 0
 
 
 def _modulus(tension: float, compression: float) -> str:
-    """One modulus, or two of a law whose fibres bear tension only."""
+    """Write one modulus, or two for a law whose fibres bear tension only."""
     if abs(tension - compression) <= ONE_SIDED * max(tension, compression):
         return f"{tension / 1e6:.4g} MPa"
     return f"{tension / 1e6:.4g} MPa in tension, {compression / 1e6:.4g} MPa in compression"

@@ -1,18 +1,20 @@
-"""The options that several sub-commands share, made from the declared inputs of a case."""
+"""Options that several sub-commands share, made from the declared inputs of a case."""
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
+from stonepass.cli.help import MODEL_PANEL, OUTPUT, QUESTION, SOLVER, STONE, URETER
 from stonepass.declaration import DeclaredInput, Kind
 from stonepass.errors import BadInput, Misplaced
 from stonepass.inputs.catalogue import MODEL, all_inputs, models_with, option_of
+from stonepass.model.models.registry import MODELS
 
 if TYPE_CHECKING:
     from stonepass.model.case import Case
@@ -25,36 +27,65 @@ __all__ = [
     "Settings",
     "Workers",
     "cache_folder",
+    "complete_material",
     "takes_settings",
 ]
 
 Cache = Annotated[
     Path | None,
     typer.Option(
-        "--cache", metavar="DIR", help="Cache folder.  [default: the user's cache folder]"
+        "--cache",
+        metavar="DIR",
+        help="Folder of solved states.  [default: the user's cache folder]",
+        rich_help_panel=SOLVER,
     ),
 ]
-NoCache = Annotated[bool, typer.Option("--no-cache", help="Neither read nor write the cache.")]
-Workers = Annotated[
-    int | None, typer.Option("--workers", min=1, help="Processes.  [default: all cores]")
+NoCache = Annotated[
+    bool,
+    typer.Option(
+        "--no-cache", help="Neither read nor write the cache folder.", rich_help_panel=SOLVER
+    ),
 ]
-Json = Annotated[bool, typer.Option("--json", help="JSON on stdout, and nothing else.")]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        "--workers",
+        min=1,
+        metavar="INTEGER",
+        help="Number of processes.  [default: all cores]",
+        rich_help_panel=SOLVER,
+    ),
+]
+Json = Annotated[
+    bool,
+    typer.Option(
+        "--json", help="Print the result as JSON, and nothing else.", rich_help_panel=OUTPUT
+    ),
+]
 
-STONE_SIZE = ("stone.diameter", "stone.size_ratio")  # what a search over sizes has no use for
+
+STONE_SIZE = ("stone.diameter", "stone.size_ratio")  # inputs that a search over sizes replaces
 _TYPES = {Kind.NUMBER: float, Kind.WHOLE: int, Kind.FLAG: bool}
+_METAVARS = {Kind.NUMBER: "NUMBER", Kind.WHOLE: "INTEGER"}
+_PANELS = {"stone": STONE, "ureter": URETER, "load": URETER}
 _CASE_FILE = Annotated[
     Path | None,
-    typer.Argument(metavar="[CASE.toml]", help="Case file; command-line options override it."),
+    typer.Argument(
+        metavar="CASE.toml",
+        help="Case file. Command-line options override its values.",
+        rich_help_panel=QUESTION,
+    ),
 ]
 _FRICTION_FROM = Annotated[
     Path | None,
     typer.Option(
         "--friction-from",
         metavar="FILE.json",
-        help="Take the friction from the JSON of 'stonepass friction'.",
+        help="Take the friction coefficient from a result of 'stonepass friction --json'.",
+        rich_help_panel=STONE,
     ),
 ]
-# Titles of what belongs to no single input, in the words of the command line.
+# Subjects of refusals that concern no single input, in the words of the command line.
 _MORE_WORDS = {
     "size of the stone": "stone size",
     "size of the ureter": "ureter size",
@@ -66,7 +97,7 @@ _REMEDIES = {
 
 
 def cache_folder(cache: Path | None, no_cache: bool) -> Path | None:
-    """The cache folder that the options name; None for none."""
+    """Return the cache folder that the options choose; None without a cache."""
     from stonepass.studies.solution_cache import default_folder
 
     if no_cache and cache is not None:
@@ -76,12 +107,12 @@ def cache_folder(cache: Path | None, no_cache: bool) -> Path | None:
 
 @dataclass(frozen=True)
 class Settings:
-    """What the options of a case say; a case file may say the rest.
+    """The options of a case that were given; a case file may have the other values.
 
     Attributes
     ----------
     given : dict
-        Values of the options that were given, by the key of their input.
+        Values of the given options by the key of their input.
     case_file, friction_from : Path or None
     offered : frozenset of str
         Keys of the inputs that the command has options for.
@@ -93,7 +124,12 @@ class Settings:
     offered: frozenset[str] = frozenset()
 
     def case(self, **fixed: Any) -> Case:
-        """Make the case; `fixed` has values that the command sets itself, by key with ``__``.
+        """Return the case.
+
+        Parameters
+        ----------
+        **fixed
+            Values that the command sets itself, by key, with ``__`` in the place of the period.
 
         Raises
         ------
@@ -103,7 +139,7 @@ class Settings:
         from stonepass.inputs.build import build_case
 
         values = self._values() | {key.replace("__", "."): value for key, value in fixed.items()}
-        if "method__model" in fixed:  # a comparison of several models has options of all of them
+        if "method__model" in fixed:  # the command may have options of other models too
             from stonepass.inputs.overlay import of_other_models
 
             other = of_other_models(fixed["method__model"])
@@ -114,7 +150,7 @@ class Settings:
             raise _in_options(problem) from problem
 
     def sizeless_case(self, size_ratio: float = 1.0) -> Case:
-        """Make the case of a command that varies the size; the stone has `size_ratio`."""
+        """Return the case of a command that varies the size, with a stone of `size_ratio`."""
         from stonepass.inputs.build import build_case
 
         values = {key: value for key, value in self._values().items() if key not in STONE_SIZE}
@@ -125,7 +161,7 @@ class Settings:
 
     @property
     def wetted(self) -> bool:
-        """Whether the direct model is wetted, for commands that compare it with another."""
+        """Whether ``--wetted`` holds, for commands that compare the direct model with another."""
         return bool(self._values().get("method.wetted", False))
 
     def _values(self) -> dict[str, Any]:
@@ -142,7 +178,7 @@ class Settings:
         return overlay(self._file_values(), given)
 
     def _file_values(self) -> dict[str, Any]:
-        """Values of the case file, its paths as seen from here."""
+        """Return the values of the case file; its relative paths start at the current folder."""
         if self.case_file is None:
             return {}
         from stonepass.inputs.case_file import read_case, values_of
@@ -152,7 +188,10 @@ class Settings:
 
 
 def takes_settings(
-    *left_out: str, models: Collection[str] = ()
+    *left_out: str,
+    models: Collection[str] = (),
+    choose_model: bool = False,
+    remarks: Mapping[str, str] | None = None,
 ) -> Callable[[Callable[..., int]], Callable[..., int]]:
     """Turn ``function(settings, own options…)`` into a command with the options of a case.
 
@@ -161,21 +200,28 @@ def takes_settings(
     left_out : str
         Keys of inputs that the command has no options for.
     models : collection of str
-        The models whose options the command has, without ``--model``; all models by default.
+        The models whose options the command has; all models by default.
+    choose_model : bool
+        Whether the command has ``--model`` although it is restricted to some `models`.
+    remarks : mapping of str to str, optional
+        A sentence that is added to the help of an option, by the key of its input.
     """
     offered = {
         key: each
         for key, each in all_inputs().items()
-        if key not in left_out and _belongs(each, models)
+        if key not in left_out and _belongs(each, models, choose_model)
     }
     names = {each.name: key for key, each in offered.items()}
 
     def decorate(function: Callable[..., int]) -> Callable[..., int]:
-        """Make the command of `function`."""
+        """Return the command that calls `function`."""
         own_hints = get_type_hints(function, include_extras=True)
         own = [p for p in inspect.signature(function).parameters.values() if p.name != "settings"]
         shared: dict[str, Any] = {"case_file": _CASE_FILE}
-        shared |= {each.name: _option(each, models) for each in offered.values()}
+        shared |= {
+            each.name: _option(each, models, (remarks or {}).get(key, ""))
+            for key, each in offered.items()
+        }
         shared["friction_from"] = _FRICTION_FROM
         shared = {name: hint for name, hint in shared.items() if name not in own_hints}
 
@@ -198,32 +244,70 @@ def takes_settings(
     return decorate
 
 
-def _belongs(each: DeclaredInput, models: Collection[str]) -> bool:
+def _belongs(each: DeclaredInput, models: Collection[str], choose_model: bool) -> bool:
     if not models or each.section != "method":
         return True
     if each.key == MODEL:
-        return False
+        return choose_model
     owners = models_with(each.name)
     return not owners or bool(set(owners) & set(models))
 
 
-def _option(each: DeclaredInput, models: Collection[str]) -> Any:
-    """The annotation of an option: type, names and help."""
+def _option(each: DeclaredInput, models: Collection[str], remark: str) -> Any:
+    """Return the annotation of an option: its type, names, panel and help."""
     declaration = each.declaration
-    kind = _TYPES.get(declaration.kind, str)
-    text = declaration.meaning
-    owners = models_with(each.name)
-    if each.section == "method" and owners and len(owners) == 1 and len(models) != 1:
-        text += f" Model '{owners[0]}' only."
+    kind, choices = declaration.kind, declaration.choices
+    if each.key == MODEL and models:
+        choices = tuple(name for name in choices if name in models)
     default = declaration.shown_default or ("" if each.default is None else _shown(each.default))
-    if default:
-        text += f"  [default: {default}]"
+    notes = [f"default: {default}"] if default else []
+    if kind in _METAVARS and declaration.bounds is not None:
+        notes.insert(0, "{:g} to {:g}".format(*declaration.bounds))
+    words = [_meaning(each, choices), *([remark] * bool(remark))]
+    if notes:
+        words.append(f" [{'; '.join(notes)}]")
     option = typer.Option(
         declaration.option,
-        metavar=declaration.metavar or "|".join(declaration.choices) or None,
-        help=text,
+        metavar=declaration.metavar or "|".join(choices) or _METAVARS.get(kind),
+        help=" ".join(words),
+        rich_help_panel=_panel(each, models),
+        autocompletion=_completion(each),
     )
-    return Annotated[kind | None, option]
+    return Annotated[_TYPES.get(kind, str) | None, option]
+
+
+def _meaning(each: DeclaredInput, choices: Collection[str]) -> str:
+    """Return what an input means; of the models, those that the command can use."""
+    if each.key != MODEL:
+        return each.declaration.meaning
+    return "; ".join(f"{name}: {MODELS[name].MEANING}" for name in choices) + "."
+
+
+def _panel(each: DeclaredInput, models: Collection[str]) -> str:
+    """Return the panel of an input; options of a single model have a panel of their own."""
+    if each.section != "method":
+        return _PANELS[each.section]
+    if each.key == MODEL:
+        return MODEL_PANEL
+    owners = models_with(each.name)
+    if not owners:
+        return SOLVER
+    return f"Options of the model '{owners[0]}'" if len(owners) == 1 != len(models) else MODEL_PANEL
+
+
+def _completion(each: DeclaredInput) -> Callable[[str], list[str]] | None:
+    """Return the words that a shell may complete for an input; None where there are none."""
+    if each.declaration.kind is Kind.MATERIAL:
+        return complete_material
+    choices = list(each.declaration.choices)
+    return (lambda incomplete: choices) if choices else None
+
+
+def complete_material(incomplete: str) -> list[str]:
+    """Return the names of the catalogue, for the completion of a shell."""
+    from stonepass.materials.catalogue import CATALOGUE
+
+    return list(CATALOGUE)
 
 
 def _shown(default: Any) -> str:
@@ -233,7 +317,7 @@ def _shown(default: Any) -> str:
 
 
 def _in_options(problem: BadInput) -> BadInput:
-    """The refusal in the words of the command line."""
+    """Return the refusal with the input named as on the command line."""
     from stonepass.inputs.build import in_words
 
     words = {each.title: option_of(key) for key, each in all_inputs().items()}

@@ -1,4 +1,4 @@
-"""``stonepass paper``: every computed result of the paper, by one command."""
+"""``stonepass paper``: all computed results of the paper."""
 
 from __future__ import annotations
 
@@ -8,9 +8,19 @@ from typing import Annotated
 import typer
 
 from stonepass.about import DISCLAIMER
+from stonepass.cli.help import OUTPUT, QUESTION, epilog
 from stonepass.cli.options import Cache, NoCache, Workers, cache_folder
 
-__all__ = ["command"]
+__all__ = ["EPILOG", "command"]
+
+EPILOG = epilog(
+    (
+        ("paper fig5 --out paper", "the critical pressure over the size, as in Fig. 5"),
+        ("paper", "all figures, data and claims; takes long the first time"),
+    ),
+    "0 every claim that can be judged is reproduced; 1 some claim is not; 2 the request was "
+    "refused; 3 an error of the program",
+)
 
 
 def command(
@@ -18,36 +28,52 @@ def command(
         list[str] | None,
         typer.Argument(
             metavar="[PART]...",
-            help="fig4 to fig9, friction, sensitivity, claims or all.  [default: all]",
+            help="fig4 to fig9, friction, sensitivity, claims, or all.  [default: all]",
+            rich_help_panel=QUESTION,
         ),
     ] = None,
     out: Annotated[
-        Path, typer.Option("--out", metavar="DIR", help="Folder for pictures, data, index.html.")
+        Path,
+        typer.Option(
+            "--out",
+            metavar="DIR",
+            help="Folder for figures, data and the page index.html.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = Path("paper"),
     limit: Annotated[
-        str, typer.Option("--limit", metavar="PRESSURE", help="Bearable urine pressure.")
+        str,
+        typer.Option(
+            "--limit",
+            metavar="PRESSURE",
+            help="Maximum tolerable urine pressure.",
+            rich_help_panel=QUESTION,
+        ),
     ] = "12kPa",
     points: Annotated[
         Path | None,
         typer.Option(
             "--points",
             metavar="FILE.csv",
-            help="Measured pressures for Fig. 6: xi, eta, confining_kPa, pressure_kPa[, sd_kPa].",
+            help="Measured pressures for Fig. 6, in the columns xi, eta, confining_kPa, "
+            "pressure_kPa and, if known, sd_kPa.",
+            rich_help_panel=QUESTION,
         ),
     ] = None,
     cache: Cache = None,
     no_cache: NoCache = False,
     workers: Workers = None,
 ) -> int:
-    """Reproduce the paper: figures (SVG, PNG), data (CSV), and a page of claims beside ours.
+    """Reproduce the figures and claims of the paper.
 
-    What was solved is remembered, so that a second time takes seconds. Exit code 0 where every
-    claim that can be judged is reproduced, else 1.
+    The folder has the figures (SVG, PNG), their data (CSV), and a page that compares every claim
+    with the computed result. Solved states are kept, so that a repetition takes seconds.
     """
-    from stonepass.cli.terminal import counting, show, warn
+    from stonepass.cli.durations import estimated_seconds
+    from stonepass.cli.terminal import announce, counting, show, warn, wrote
     from stonepass.inputs.measured_pressures import read_points
     from stonepass.paper.claims_table import claims_table
-    from stonepass.paper.run import chosen, reproduce
+    from stonepass.paper.run import PARTS, chosen, reproduce
     from stonepass.paper.section import Asked
     from stonepass.studies.executor import CORES, process_pool
     from stonepass.units import pressure
@@ -55,13 +81,18 @@ def command(
     names = chosen(parts or [])
     asked = Asked(pressure(limit, "--limit"), () if points is None else read_points(points))
     folder = cache_folder(cache, no_cache)
-    with process_pool(workers or CORES) as pool, counting("solving") as progress:
+    count = workers or CORES
+    jobs = {job for name in names for job in PARTS[name].jobs(asked)}
+    what = f"solving {len(jobs)} cases for {', '.join(names)}"
+    announce(what, estimated_seconds(jobs, count), remembers=not no_cache)
+    with process_pool(count) as pool, counting("solving the cases") as progress:
         sections = reproduce(names, out, asked, pool, folder, progress)
     claims = [claim for section in sections for claim in section.claims]
     if claims:
         show(claims_table(claims))
-    show(f"Page: {out / 'index.html'}", DISCLAIMER)
+    show(DISCLAIMER)
+    wrote(out / "index.html")
     warned = sum(len(section.warnings) for section in sections)
     if warned:
-        warn([f"{warned} kinds of warnings stand behind the answers; the page has them"])
+        warn([f"the answers have {warned} kinds of warnings, which the page lists"])
     return 1 if any(claim.holds is False for claim in claims) else 0

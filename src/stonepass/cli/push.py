@@ -1,4 +1,4 @@
-"""``stonepass push``: a held stone under rising urine pressure."""
+"""``stonepass push``: a stone that is held in its place while the urine pressure rises."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stonepass.cli.closures import CLOSURE_CHOICES
+from stonepass.cli.help import OUTPUT, QUESTION, epilog
 from stonepass.cli.options import (
     Cache,
     Json,
@@ -20,7 +21,22 @@ from stonepass.cli.options import (
 if TYPE_CHECKING:
     from stonepass.studies.rising import Rising
 
-__all__ = ["command"]
+__all__ = ["EPILOG", "command"]
+
+EPILOG = epilog(
+    (
+        (
+            "push --xi 1.2 --eta 1.5 --material latex --animation push.gif",
+            "thirteen pressures from zero to the critical one, as a table and as an animation",
+        ),
+        (
+            "push --stone 4.2mm --inner 3.5mm --outer 4.55mm --to 8kPa --steps 5 --out push.csv",
+            "five pressures from 0 to 8 kPa, also as CSV",
+        ),
+    ),
+    "0 all states were found; 1 some were not (a warning says why); 2 the request was refused; "
+    "3 an error of the program",
+)
 
 
 @takes_settings(*CLOSURE_CHOICES, models=("paper", "direct"))
@@ -29,42 +45,72 @@ def command(
     json: Json = False,
     to: Annotated[
         str | None,
-        typer.Option("--to", metavar="PRESSURE", help="Highest pressure.  [default: the critical]"),
+        typer.Option(
+            "--to",
+            metavar="PRESSURE",
+            help="Highest urine pressure.  [default: the critical pressure]",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
-    steps: Annotated[int, typer.Option("--steps", help="Number of pressures, 0 included.")] = 13,
+    steps: Annotated[
+        int,
+        typer.Option(
+            "--steps",
+            metavar="INTEGER",
+            help="Number of urine pressures, including 0.",
+            rich_help_panel=QUESTION,
+        ),
+    ] = 13,
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="P.csv", help="Write the states as CSV.")
+        Path | None,
+        typer.Option(
+            "--out", metavar="P.csv", help="Write the states as CSV.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", metavar="P.svg", help="Draw the states (svg, png or pdf)."),
+        typer.Option(
+            "--figure",
+            metavar="P.svg",
+            help="Draw the states (svg, png or pdf).",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     animation: Annotated[
-        Path | None, typer.Option("--animation", metavar="P.gif", help="Show the pressure rising.")
+        Path | None,
+        typer.Option(
+            "--animation",
+            metavar="P.gif",
+            help="Write an animation of the rising pressure.",
+            rich_help_panel=OUTPUT,
+        ),
     ] = None,
     cache: Cache = None,
     no_cache: NoCache = False,
 ) -> int:
-    """Raise the urine pressure on a held stone, up to where it would move.
+    """Follow a held stone while the urine pressure rises from zero.
 
-    Shows force, opening and contact pressure, and how far the last is from the seated one, which
-    the paper takes for it. Give the stone as for pressure.
+    The table has the net force on the stone, the range of the contact and the contact pressure,
+    which it compares with that of the seated state, the approximation of the paper. Give a case
+    file; or --stone, --inner and --outer; or --xi and --eta.
     """
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
 
     writable(out, (".csv",))
     writable(figure, FIGURES)
     writable(animation, (".gif",))
+    from stonepass.units import pressure
+
+    top = None if to is None else pressure(to, "--to")
+    case = settings.case(method__model="paper")
     from stonepass.records.rising import rising_record
     from stonepass.report.rising_report import rising_table
     from stonepass.studies.rising import RisingPressure
     from stonepass.studies.study import run_study
-    from stonepass.units import pressure
 
-    top = None if to is None else pressure(to, "--to")
-    study = RisingPressure(settings.case(method__model="paper"), top, steps, settings.wetted)
+    study = RisingPressure(case, top, steps, settings.wetted)
     folder = cache_folder(cache, no_cache)
-    with working("raising the pressure"):
+    with working("solving for every pressure"):
         rising = run_study(study, cache_folder=folder)
     if json:
         print_json(rising_record(rising).to_dict())
@@ -75,17 +121,18 @@ def command(
         [
             *rising.critical.warnings,
             *([rising.reason] if rising.reason else []),
-            *(["no state was found, so nothing was written"] if unwritten else []),
+            *(["no state was found, so no file was written"] if unwritten else []),
         ]
     )
     if rising.states:
-        with working("drawing"):
+        with working("writing the files"):
             _write(rising, out, figure, animation)
     complete = len(rising.states) in (0, steps)
     return 0 if complete and rising.critical.outcome.answered else 1
 
 
 def _write(rising: Rising, out: Path | None, figure: Path | None, animation: Path | None) -> None:
+    from stonepass.cli.terminal import wrote
     from stonepass.records.rising import write_rising
     from stonepass.report.rising_report import rising_figure, save_animation
     from stonepass.report.style import save
@@ -96,3 +143,4 @@ def _write(rising: Rising, out: Path | None, figure: Path | None, animation: Pat
         save(rising_figure(rising), figure)
     if animation is not None:
         save_animation(rising, animation)
+    wrote(out, figure, animation)

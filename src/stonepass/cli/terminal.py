@@ -1,10 +1,9 @@
-"""Talking to a terminal: JSON, tables and warnings out, progress on stderr."""
+"""Output of the commands: results on stdout; progress, notes and warnings on stderr."""
 
 from __future__ import annotations
 
 import json
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -17,13 +16,26 @@ from stonepass.io.text_file import check_writable
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Table
 
-__all__ = ["FIGURES", "counting", "print_json", "show", "warn", "working", "writable"]
+__all__ = [
+    "FIGURES",
+    "announce",
+    "counting",
+    "duration",
+    "note",
+    "print_json",
+    "remembered",
+    "show",
+    "warn",
+    "working",
+    "writable",
+    "wrote",
+]
 
 FIGURES = (".svg", ".png", ".pdf")
-WIDEST = 1000  # characters, more than any table has
-PLAIN_INTERVAL = 2.0  # seconds between lines where stderr is not a terminal
+PLAIN_INTERVAL = 10.0  # seconds at least between two lines where stderr is no terminal
+PLAIN_LINES = 4  # such a line at every fourth part of the work
+LONG = 1.0  # seconds of work whose duration is shown
 
 
 @lru_cache
@@ -39,58 +51,25 @@ def _on_terminal() -> bool:
 
 
 def print_json(record: Any) -> None:
-    """Write one JSON document to stdout; NaN would be a fault and raises."""
+    """Write one JSON document to stdout; a number that is not finite raises `ValueError`."""
     escaped = not encodes_everything(sys.stdout)  # JSON has its own way to write characters
     document = json.dumps(record, indent=2, ensure_ascii=escaped, allow_nan=False)
     sys.stdout.write(document + "\n")
 
 
 def show(*parts: Any) -> None:
-    """Print tables and sentences for a person."""
+    """Print tables and sentences on stdout."""
+    from stonepass.cli.narrow import fitted
+
     for part in parts:
         if isinstance(part, str):
             _console().print(part, soft_wrap=True, markup=False)
         else:
-            _console().print(_never_cut(part), crop=False)
-
-
-def _never_cut(table: Table) -> Table:
-    """Let a table be wider than a narrow terminal rather than cut a number or a word.
-
-    Columns that are flush right hold numbers, which never wrap; other cells and the headers wrap
-    between words.
-    """
-    from rich.cells import cell_len
-    from rich.measure import Measurement
-    from rich.text import Text
-
-    texts = [
-        [Text.from_markup(str(cell)).plain for cell in (column.header, *column.cells)]
-        for column in table.columns
-    ]
-    natural = [max(map(cell_len, column)) for column in texts]
-    console = _console()
-    widest = console.options.update(width=WIDEST)
-    borders = Measurement.get(console, widest, table).maximum - sum(natural)
-    if sum(natural) + borders <= console.width:
-        return table
-    widths = []
-    for column, (header, *cells) in zip(table.columns, texts, strict=True):
-        numbers = column.justify == "right"
-        words = [word for text in cells for word in ([text] if numbers else text.split())]
-        widths.append(max(map(cell_len, [*header.split(), *words]), default=0))
-    room = max(0, console.width - borders - sum(widths))
-    for k in sorted(range(len(widths)), key=natural.__getitem__):  # short columns stay in one line
-        more = min(room, natural[k] - widths[k])
-        widths[k], room = widths[k] + more, room - more
-    for column, width in zip(table.columns, widths, strict=True):
-        column.width = width
-    table.width = sum(widths) + borders
-    return table
+            _console().print(fitted(part, _console()), crop=False)
 
 
 def warn(warnings: Iterable[object]) -> None:
-    """Print warnings on stderr: sentences, or cautions that have one."""
+    """Print warnings on stderr: sentences, or cautions, whose text is a sentence."""
     for sentence in map(str, warnings):
         if _on_terminal():
             line = f"warning: {sentence}"
@@ -99,44 +78,127 @@ def warn(warnings: Iterable[object]) -> None:
             print(f"warning: {sentence}", file=sys.stderr)
 
 
+def note(sentence: str) -> None:
+    """Print a line about the run itself on stderr."""
+    print(sentence, file=sys.stderr, flush=True)
+
+
+def wrote(*paths: Path | None) -> None:
+    """Name the files that were written; None stands for a file that was not asked for."""
+    for path in paths:
+        if path is not None:
+            note(f"wrote {path}")
+
+
+def announce(what: str, seconds: float, *, remembers: bool = True) -> None:
+    """Say before a long command what it does and about how long that takes.
+
+    Parameters
+    ----------
+    what : str
+        The work, e.g. ``"fitting the friction of 10 points"``.
+    seconds : float
+        Estimate with an empty cache.
+    remembers : bool
+        Whether solved states are kept, so that the command takes seconds when it is repeated.
+    """
+    note(f"{what}: about {duration(seconds)}{' the first time' if remembers else ''}")
+
+
+def duration(seconds: float) -> str:
+    """Write a duration in words: ``0.8 s``, ``25 s``, ``4 min``, ``2 h``."""
+    if seconds < 10.0:
+        return f"{max(seconds, 0.1):.1f} s"
+    if seconds < 100.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.0f} h"
+
+
+def remembered(seconds: float, elapsed: float) -> None:
+    """Say so where an answer was read from the cache folder.
+
+    Parameters
+    ----------
+    seconds : float
+        Time that the finite elements took when the states of the answer were solved.
+    elapsed : float
+        Time that the answer took now. It is the longer one if the states were solved now.
+    """
+    if elapsed < seconds:
+        saved = duration(seconds - elapsed)
+        note(f"remembered from an earlier run, which saved {saved}; --no-cache solves it again")
+
+
 @contextmanager
-def working(what: str) -> Iterator[None]:
-    """Say what is being done: a spinner on a terminal, else one line after a second."""
-    if _on_terminal():
-        with _console(stderr=True).status(what):
-            yield
+def working(what: str) -> Iterator[Callable[[str], None]]:
+    """Show on a terminal what is being done and for how long; nothing elsewhere.
+
+    Yields
+    ------
+    callable
+        Takes a text that is shown after `what`, such as the step that has begun.
+    """
+    if not _on_terminal():
+        yield lambda _: None
         return
-    line = threading.Timer(1.0, print, (f"{what} …",), {"file": sys.stderr, "flush": True})
-    line.start()
-    try:
-        yield
-    finally:
-        line.cancel()
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    began = time.monotonic()
+    with Progress(*columns, console=_console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda step: bar.update(task, description=f"{what}: {step}")
+    _tell_duration(what, time.monotonic() - began)
 
 
 def writable(path: Path | None, endings: tuple[str, ...]) -> None:
-    """Refuse an output file that could not be written, before the work is done."""
+    """Refuse an output file that cannot be written, before the work begins."""
     if path is not None:
         check_writable(path, endings)
 
 
 @contextmanager
 def counting(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that is told (done, all): a bar on a terminal, else a line now and then."""
-    if _on_terminal():
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+    """Yield a function that is called with (done, all) and shows the progress.
 
-        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
-        with Progress(*columns, console=_console(stderr=True), transient=True) as bar:
-            task = bar.add_task(what, total=None)
-            yield lambda done, total: bar.update(task, completed=done, total=total)
+    On a terminal it draws a bar with the remaining time; elsewhere it prints a few lines, and none
+    if the work is short.
+    """
+    if not _on_terminal():
+        yield _few_lines(what)
         return
-    last = time.monotonic()
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(),
+               TimeElapsedColumn(), TextColumn("remaining"), TimeRemainingColumn())  # fmt: skip
+    began = time.monotonic()
+    with Progress(*columns, console=_console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+    _tell_duration(what, time.monotonic() - began)
+
+
+def _few_lines(what: str) -> Callable[[int, int], None]:
+    """Return a progress function for output that is no terminal."""
+    last, quarter = time.monotonic(), 0
 
     def line(done: int, total: int) -> None:
-        nonlocal last
-        if time.monotonic() - last >= PLAIN_INTERVAL:
-            last = time.monotonic()
-            print(f"{what}: {done} of {total}", file=sys.stderr, flush=True)
+        nonlocal last, quarter
+        now, part = time.monotonic(), PLAIN_LINES * done // total
+        if part > quarter and done < total and now - last >= PLAIN_INTERVAL:
+            last, quarter = now, part
+            note(f"{what}: {done} of {total}")
 
-    yield line
+    return line
+
+
+def _tell_duration(what: str, seconds: float) -> None:
+    if seconds >= LONG:
+        _console(stderr=True).print(f"{what}: {duration(seconds)}", style="dim", markup=False)

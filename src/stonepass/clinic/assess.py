@@ -1,8 +1,8 @@
-"""From one patient's measurements to an assessment, by Monte Carlo samples.
+"""The assessment of one patient by Monte Carlo samples (docs/assess.md).
 
-Inputs are drawn from what was measured (a scrambled Sobol sequence, fixed seed), kept where the
-wall they describe could exist, and answered by a response surface through solved cases
-(docs/assess.md).
+Inputs are drawn from the measurements by a scrambled Sobol sequence with a fixed seed; draws of
+impossible walls are left out. A response surface through solved cases gives the critical pressure
+of every sample.
 """
 
 from __future__ import annotations
@@ -30,10 +30,11 @@ from stonepass.studies.sensitivity_indices import SensitivityIndex, rank_sensiti
 
 __all__ = ["assess"]
 
-WIDEST = 1.0 + OVERSIZE[1]  # opening beyond which the present pressure is only known to exceed it
-SIZES = np.arange(1.0, 10.01, 0.5)  # mm, of fractions by size
+WIDEST = 1.0 + OVERSIZE[1]  # opening above which only a lower bound of the pressure is known
+SIZES = np.arange(1.0, 10.01, 0.5)  # mm, stone diameters of the fractions by size
+SAMPLES = "the simulated input combinations"
 NOT_OF_RESISTANCE = ("dilated_inner_diameter", "dilated_outer_diameter")
-MOST_LOST = 0.5  # of the samples may be next to a case without an answer
+MOST_LOST = 0.5  # largest fraction of samples next to a case without an answer
 
 
 def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
@@ -43,12 +44,12 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     ----------
     patient : Patient
     solver : CaseSolver, optional
-        By default the cases are solved in this process, without a cache.
+        Solver of the cases; by default they are solved in this process, without a cache.
 
     Raises
     ------
     BadInput
-        An unstable material, or measurements that hardly any wall could have together.
+        The material is unstable, or almost no wall is compatible with the measurements.
     """
     solver = solver or JobSolver(progress=True)
     check(patient.material)
@@ -90,30 +91,33 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
 
 
 def _headline(found: Assessment, below: Fraction) -> str:
-    """Say the fraction below the limit, of the samples in which the stone is held at all."""
+    """Return the sentence about the fraction of samples below the limit."""
     pressure = f"{found.patient.limit / 1e3:.4g} kPa"
-    limit = f"the critical pressure is below the pressure limit, {pressure}"
+    limit = f"the critical pressure is below the limit of {pressure}"
     if found.loose == 0.0:
-        return f"In {below.describe()} of the Monte Carlo samples {limit}."
+        return f"In {below.describe()} of {SAMPLES} {limit}."
     apart, held = Fraction(found.loose, found.loose).describe(), found.below_limit_held
     if held is None:
-        return f"In {apart} of the Monte Carlo samples the stone is no larger than the lumen."
+        return f"In {apart} of {SAMPLES} the stone is no larger than the lumen."
     return (
-        f"In {held.describe()} of the Monte Carlo samples in which the stone is held {limit}; in "
-        f"{apart} of all samples it is no larger than the lumen, and so not held."
+        f"In {held.describe()} of {SAMPLES} in which the stone is held, {limit}; in {apart} of all "
+        "combinations the stone is no larger than the lumen and is not held."
     )
 
 
 def _lost(surface: ResponseSurface) -> str:
-    """Why too few cases have an answer."""
+    """Return the sentence that explains why too few cases have an answer."""
     lost = f"{len(surface.lost.friction)} of {surface.tried} cases that the inputs span"
-    return f"{Outcome.NO_SOLUTION.value} for {lost}; mostly: {surface.reason}."
+    return f"{Outcome.NO_SOLUTION.value} for {lost}; the most frequent reason: {surface.reason}."
 
 
 def _critical(
     surface: ResponseSurface, draws: Draws
 ) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
-    """P_ucr in Pa of many draws, s P_ucr(P_out/s) for a wall s times as stiff; where censored."""
+    """Return P_ucr in Pa of many draws, and True where it is only a lower bound.
+
+    A wall s times as stiff has the critical pressure s P_ucr(P_out/s).
+    """
     found, censored = surface(conditions(draws))
     return draws["stiffness"] * found, censored
 
@@ -127,7 +131,7 @@ def _samples(surface: ResponseSurface, draws: Draws) -> Samples:
 
 
 def _present(patient: Patient, case: Case, draws: Draws) -> Present | None:
-    """Urine pressure by the far field at the dilated diameter; None where it was not measured."""
+    """Return the urine pressure by the far field; None without a measured dilated diameter."""
     if not patient.dilated:
         return None
     wall = held_wall_ratio(draws)
@@ -135,14 +139,15 @@ def _present(patient: Patient, case: Case, draws: Draws) -> Present | None:
     held = np.minimum(opening, WIDEST)
     across = draws["stiffness"] * transmural(case, held, wall)
     outside = np.asarray(confining_traction(held, wall, patient.load))
-    # No lower than what keeps the tube open: a narrower one was not measured, but misread.
+    # A negative transmural pressure would close the tube, so a negative value is an error of the
+    # measured diameters.
     return Present(np.maximum(across, 0.0) + outside, opening > WIDEST, opening)
 
 
 def _sensitivity(
     patient: Patient, surface: ResponseSurface, samples: Samples
 ) -> tuple[SensitivityIndex, ...]:
-    """Total indices of the inputs that resistance depends on, for the rank of P_ucr."""
+    """Return Sobol' total indices of the inputs of the resistance, for the rank of P_ucr."""
     uncertain = {
         name: each
         for name, each in patient.measured.items()

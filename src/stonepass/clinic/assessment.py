@@ -1,7 +1,6 @@
-"""The assessment of one patient, as a value: what the pressures may be, beside what cohorts saw.
+"""The assessment of one patient as a value; `clinic.assess` computes it.
 
-An answer is an interval and a fraction of Monte Carlo samples, never a verdict.
-`clinic.assess` computes it.
+Its results are intervals of pressures and fractions of Monte Carlo samples, never a verdict.
 """
 
 from __future__ import annotations
@@ -29,21 +28,21 @@ FEWEST_OF_A_CLASS = 30  # samples
 @array_dataclass
 @dataclass(frozen=True, repr=False)
 class Assessment(Result):
-    """What can be said of one patient.
+    """The assessment of one patient.
 
     Attributes
     ----------
     patient : Patient
     outcome : Outcome
-        MOVES; NO_SOLUTION where the model answers too few of the possible cases.
+        MOVES; NO_SOLUTION if the model answers too few of the possible cases.
     message : str
     at_values : Answer
-        The whole answer at the measured values themselves, with its solver error, for the
-        material's own stiffness under P_out over the stiffness that was given.
+        The answer at the measured values, with its discretisation error, for the material's own
+        stiffness under P_out over the given stiffness.
     cohorts : tuple of Row
-        What published cohorts say of such stones.
+        Rates of published cohorts for such stones.
     critical, present : Range or None
-        P_ucr, and the present urine pressure where the dilated segment was measured.
+        P_ucr, and the present urine pressure if the dilated segment was measured.
     below_limit, below_present : Fraction or None
         Fractions of samples with P_ucr below the pressure limit, and below the present pressure.
     loose : float
@@ -54,7 +53,7 @@ class Assessment(Result):
     by_size : tuple of (float, Fraction)
         Stone diameters in mm, and the fraction below the limit if the stone had that size.
     median_noise : float or None
-        Standard error of the median of P_ucr by the number of samples, in Pa.
+        Standard error in Pa of the median of P_ucr due to the number of samples.
     samples : Samples or None
     at_present : Present or None
     possible : float
@@ -99,8 +98,8 @@ class Assessment(Result):
     def beside(self, row: Row) -> Fraction | None:
         """Return the model's fraction below the limit for the stones of a cohort's row.
 
-        For a size class, of the samples whose stone belongs to it; None where they are too few.
-        For a place, of all samples.
+        For a size class it is the fraction among the samples whose stone belongs to the class, or
+        None if they are too few. For a place it is the fraction of all samples.
         """
         if row.sizes is None or self.samples is None:
             return self.below_limit
@@ -111,9 +110,9 @@ class Assessment(Result):
 
     @property
     def below_limit_held(self) -> Fraction | None:
-        """Fraction below the limit among the samples in which the stone is held.
+        """Fraction below the limit among the samples whose stone is larger than the lumen.
 
-        It is held where it is larger than the lumen; None where that is so in too few samples.
+        It is None if these samples are too few.
         """
         return None if self.samples is None else self._below_limit_among(~self.samples.loose)
 
@@ -125,11 +124,11 @@ class Assessment(Result):
 
     @property
     def fraction_noise(self) -> float:
-        """Standard error of the fraction below the limit by the number of samples."""
+        """Standard error of the fraction below the limit due to the number of samples."""
         return 0.0 if self.below_limit is None else self.below_limit.noise(self.patient.samples)
 
     @property
     def central(self) -> float | None:
-        """P_ucr in Pa at the measured values themselves."""
+        """P_ucr in Pa at the measured values."""
         pressure = self.at_values.pressure
         return None if pressure is None else self.patient.measured["stiffness"].value * pressure

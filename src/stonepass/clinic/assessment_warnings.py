@@ -13,12 +13,12 @@ from stonepass.clinic.assessment import Assessment
 __all__ = ["assessment_warnings"]
 
 LARGE_ERROR = 0.05
-SMALL_FRACTION = 0.005  # not worth a sentence
+SMALL_FRACTION = 0.005  # a smaller fraction of the samples has no caution
 FEW_POSSIBLE = 0.5
 
 
 def assessment_warnings(found: Assessment) -> tuple[Caution, ...]:
-    """Return the warnings of an assessment: what was assumed, extrapolated or left open."""
+    """Return the cautions of an assessment about assumptions, extrapolation and accuracy."""
     return (
         *found.patient.assumed,
         *_of_inputs(found),

@@ -1,8 +1,8 @@
-"""What happened to stones of a size and place in published cohorts.
+"""Published cohorts: how many stones of a size, or at a place, passed without intervention.
 
-Only numbers that were read in the source itself, or in a secondary source that quotes it; `read`
-says which. Cohorts differ in what they call the size, in how long they watched, and in whom they
-left out.
+Every number was read in the source itself or in a secondary source that quotes it; `Cohort.read`
+says which. Cohorts differ in what they call the size of a stone, in how long they observed, and in
+whom they excluded.
 """
 
 from __future__ import annotations
@@ -10,19 +10,37 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-__all__ = ["COHORTS", "PLACES", "Cohort", "Rate", "Row", "rows_for"]
+__all__ = ["COHORTS", "PLACES", "Cohort", "Rate", "Row", "place_meant", "rows_for", "wilson"]
 
 PLACES = ("proximal", "mid", "distal", "UVJ")
+# Other words for the places, as far as they have one meaning.
+_OTHER_WORDS = {
+    "upper": "proximal", "upj": "proximal", "pelviureteric junction": "proximal",
+    "ureteropelvic junction": "proximal", "middle": "mid", "lower": "distal",
+    "vuj": "UVJ", "ureterovesical junction": "UVJ", "vesicoureteric junction": "UVJ",
+}  # fmt: skip
 ITSELF, QUOTED = "itself", "quoted"
+NORMAL_95 = 1.959963984540054  # quantile of the standard normal distribution at 97.5 %
 
 
 @dataclass(frozen=True)
 class Rate:
-    """The fraction of stones of a size that passed.
+    """The fraction of stones of a size class, or at a place, that passed.
 
-    `label` is the size class as printed; `low` ≤ size < `high`, in mm, is how it is looked up.
-    `days` is the mean time to pass where the source has it; `passed` is None where it has that
-    alone.
+    Attributes
+    ----------
+    label : str
+        Size class or place as printed in the source.
+    low, high : float
+        The stones in mm that the class is taken for: `low` ≤ size < `high`.
+    passed : float or None
+        Fraction that passed; None if the source has a time to pass only.
+    days : float or None
+        Mean time to pass in days.
+    count : int or None
+        Number of stones in the class; None if it is not known.
+    published : (float, float) or None
+        Interval of the fraction that the source itself states.
     """
 
     label: str
@@ -31,23 +49,51 @@ class Rate:
     passed: float | None
     days: float | None = None
     count: int | None = None
+    published: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
 class Cohort:
-    """A published cohort: fractions that passed by size, and by place."""
+    """A published cohort.
+
+    Attributes
+    ----------
+    name : str
+        First authors and year.
+    source : str
+        Citation as far as it is known; it begins with "unverified" if no citable publication is
+        known.
+    read : str
+        ``itself`` if the source was read, at least its abstract; ``quoted`` if its numbers were
+        read in another source.
+    about : str
+        Which stones were observed, how and for how long.
+    by_size, by_place : tuple of Rate
+        Rates of size classes, and of places in the ureter.
+    """
 
     name: str
     source: str
     read: str
     about: str
     by_size: tuple[Rate, ...] = ()
-    by_place: tuple[tuple[str, float], ...] = ()
+    by_place: tuple[Rate, ...] = ()
 
 
 @dataclass(frozen=True)
 class Row:
-    """One number of a cohort that concerns a stone; `sizes` in mm, None where it is of a place."""
+    """One rate of a cohort that concerns a stone.
+
+    Attributes
+    ----------
+    cohort : Cohort
+    group : str
+        Size class or place as printed.
+    passed, days, count, published
+        Those of the `Rate`.
+    sizes : (float, float) or None
+        Size class in mm; None for a place.
+    """
 
     cohort: Cohort
     group: str
@@ -55,14 +101,44 @@ class Row:
     sizes: tuple[float, float] | None = None
     days: float | None = None
     count: int | None = None
+    published: tuple[float, float] | None = None
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """Interval of the fraction: that of the source, or Wilson's 95 % interval of its count."""
+        if self.published is not None or self.passed is None or self.count is None:
+            return self.published
+        return wilson(self.passed, self.count)
+
+
+def wilson(fraction: float, count: int) -> tuple[float, float]:
+    """Return Wilson's 95 % confidence interval of a fraction observed in `count` cases.
+
+    >>> tuple(round(end, 3) for end in wilson(8 / 16, 16))
+    (0.28, 0.72)
+    """
+    square = NORMAL_95**2 / count
+    centre = (fraction + square / 2.0) / (1.0 + square)
+    variance = fraction * (1.0 - fraction) / count + square / (4.0 * count)
+    half = NORMAL_95 * math.sqrt(variance) / (1.0 + square)
+    return max(centre - half, 0.0), min(centre + half, 1.0)
+
+
+def place_meant(word: str) -> str:
+    """Return the place that another common word stands for; empty for an unknown word."""
+    return _OTHER_WORDS.get(word.strip().casefold(), "")
+
+
+def _places(*rates: tuple[str, float, int | None]) -> tuple[Rate, ...]:
+    return tuple(Rate(name, 0.0, math.inf, passed, None, n) for name, passed, n in rates)
 
 
 COHORTS = (
     Cohort(
         "Jendeberg 2017",
-        "doi 10.1007/s00330-017-4852-6",
+        "Jendeberg et al. 2017, Eur Radiol, doi:10.1007/s00330-017-4852-6",
         QUOTED,
-        "CT, width, within 20 weeks",
+        "width in CT, passed within 20 weeks; 391 stones in the companion paper",
         (
             Rate("0–2 mm", 0.0, 2.5, 0.98),
             Rate("3 mm", 2.5, 3.5, 0.98),
@@ -74,9 +150,9 @@ COHORTS = (
     ),
     Cohort(
         "Coll 2002",
-        "doi 10.2214/ajr.178.1.1780101",
+        "Coll, Varanelli, Smith 2002, AJR 178:101–103, doi:10.2214/ajr.178.1.1780101",
         ITSELF,
-        "CT, largest axial diameter, 172 stones",
+        "172 stones, largest diameter in the axial plane of CT",
         (
             Rate("1 mm", 0.0, 1.5, 0.87),
             Rate("2–4 mm", 1.5, 4.5, 0.76),
@@ -84,11 +160,16 @@ COHORTS = (
             Rate("7–9 mm", 7.0, 9.0, 0.48),
             Rate("> 9 mm", 9.0, math.inf, 0.25),
         ),
-        (("proximal", 0.48), ("mid", 0.60), ("distal", 0.75), ("UVJ", 0.79)),
+        _places(
+            ("proximal", 0.48, None),
+            ("mid", 0.60, None),
+            ("distal", 0.75, None),
+            ("UVJ", 0.79, None),
+        ),
     ),
     Cohort(
         "Miller & Kane 1999",
-        "J Urol 162:688–691",
+        "Miller, Kane 1999, J Urol 162:688–691",
         ITSELF,
         "75 patients, passed without intervention",
         (
@@ -99,32 +180,36 @@ COHORTS = (
     ),
     Cohort(
         "Hübner 1993",
-        "Eur Urol 24:172–176",
+        "Hübner et al. 1993, Eur Urol 24:172–176, PubMed 8375436",
         ITSELF,
-        "6 studies before CT, 2704 patients, selected",
+        "6 studies before CT, 2704 patients in all, selected",
         (Rate("< 4 mm", 0.0, 4.0, 0.38), Rate("> 6 mm", 6.0, math.inf, 0.012)),
-        (("proximal", 0.12), ("mid", 0.22), ("distal", 0.45)),
+        _places(("proximal", 0.12, None), ("mid", 0.22, None), ("distal", 0.45, None)),
     ),
     Cohort(
         "Park 2021",
-        "Park et al. 2021, abstract at yonsei.pure.elsevier.com",
+        "unverified: Park et al. 2021, journal not known; abstract at yonsei.pure.elsevier.com",
         ITSELF,
-        "833 patients",
+        "833 patients in all",
         (Rate("< 5 mm", 0.0, 5.0, 0.756), Rate("5–10 mm", 5.0, 10.0, 0.682)),
     ),
     Cohort(
         "AUA/EAU analysis",
-        "cited in doi 10.29337/j.isjp.2017.09.002",
+        "unverified: meta-analysis of AUA and EAU, quoted in doi:10.29337/j.isjp.2017.09.002",
         QUOTED,
-        "pooled; from 46 to 85 and from 36 to 59 %",
-        (Rate("≤ 5 mm", 0.0, 5.0, 0.68), Rate("5–10 mm", 5.0, 10.0, 0.47)),
+        "pooled studies; the intervals are those of the analysis",
+        (
+            Rate("≤ 5 mm", 0.0, 5.0, 0.68, published=(0.46, 0.85)),
+            Rate("5–10 mm", 5.0, 10.0, 0.47, published=(0.36, 0.59)),
+        ),
     ),
     Cohort(
         "Tchey 2011",
-        "doi 10.4111/kju.2011.52.12.847",
+        "Tchey et al. 2011, Korean J Urol, doi:10.4111/kju.2011.52.12.847",
         ITSELF,
-        "656 patients, of whom 86.3 % passed; mean time of those",
+        "656 patients; mean time of the stones that passed",
         (
+            Rate("all sizes", 0.0, math.inf, 566 / 656, None, 656),
             Rate("< 2 mm", 0.0, 2.0, None, 6.8),
             Rate("2–4 mm", 2.0, 4.0, None, 12.6),
             Rate("4–6 mm", 4.0, 6.0, None, 14.8),
@@ -133,42 +218,46 @@ COHORTS = (
     ),
     Cohort(
         "Ongün 2019",
-        "doi 10.4274/jus.galenos.2018.2335",
+        "Ongün et al. 2019, doi:10.4274/jus.galenos.2018.2335",
         ITSELF,
-        "245 patients, distal stones up to 10 mm",
-        by_place=(("distal", 0.776),),
+        "distal stones up to 10 mm",
+        by_place=_places(("distal", 0.776, 245)),
     ),
     Cohort(
         "Ahmed 2014",
-        "PMC4561928",
+        "Ahmed et al. 2014, PubMed Central PMC4561928",
         ITSELF,
-        "163 patients; 24.0 ± 8.1 days to pass",
+        "stones up to 10 mm; 24.0 ± 8.1 days to pass",
         (Rate("≤ 10 mm", 0.0, 10.0, 0.779, 24.0, 163),),
     ),
     Cohort(
         "Kori Hospital 2019",
-        "doi 10.1007/s00345-018-2461-x",
+        "World J Urol 2019, doi:10.1007/s00345-018-2461-x",
         ITSELF,
-        "418 patients, within 4 weeks; 76 % with a wall at the stone below 2.71 mm, 15 % else",
+        "stones up to 10 mm, passed within 4 weeks; 76 % where the wall at the stone was thinner "
+        "than 2.71 mm, 15 % where it was thicker",
         (Rate("≤ 10 mm", 0.0, 10.0, 0.483, None, 418),),
     ),
 )  # fmt: skip
 
 
 def rows_for(low: float, high: float, place: str | None) -> list[Row]:
-    """What cohorts say of stones from `low` to `high` mm, and of stones at `place`."""
+    """Return the rates of stones from `low` to `high` mm, and of stones at `place`."""
     rows = []
     for cohort in COHORTS:
         for rate in cohort.by_size:
             if _overlap(rate, low, high):
-                sizes = (rate.low, rate.high)
-                rows.append(Row(cohort, rate.label, rate.passed, sizes, rate.days, rate.count))
-        rows += [Row(cohort, name, passed) for name, passed in cohort.by_place if name == place]
+                rows.append(_row(cohort, rate, (rate.low, rate.high)))
+        rows += [_row(cohort, rate, None) for rate in cohort.by_place if rate.label == place]
     return rows
 
 
+def _row(cohort: Cohort, rate: Rate, sizes: tuple[float, float] | None) -> Row:
+    return Row(cohort, rate.label, rate.passed, sizes, rate.days, rate.count, rate.published)
+
+
 def _overlap(rate: Rate, low: float, high: float) -> bool:
-    """Whether a size class and a range have more than an end in common."""
+    """Return whether a size class and a range have more than an end in common."""
     if low == high:
         return rate.low <= low < rate.high
     return rate.low < high and low < rate.high

@@ -1,4 +1,4 @@
-"""Draws of a patient's measurements, kept where the wall that they describe could exist."""
+"""Random draws of the measurements of a patient; draws of impossible walls are left out."""
 
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ FEWEST = 100  # samples that are possible
 def draw_patient(patient: Patient) -> tuple[Draws, float]:
     """Draw every input of a patient.
 
-    With both diameters of the dilated segment, draws are kept in proportion to how well the outer
-    one meets the volume of the wall. Where few are kept, more are drawn.
+    If both diameters of the dilated segment were measured, a draw is kept with the likelihood of
+    its outer diameter, which the volume of the wall determines. If few draws are kept, more are
+    made.
 
     Returns
     -------
@@ -33,7 +34,7 @@ def draw_patient(patient: Patient) -> tuple[Draws, float]:
     Raises
     ------
     BadInput
-        If hardly any wall could have these measurements together.
+        Almost no wall is compatible with these measurements.
     """
 
     def keep(draws: Draws, chance: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:

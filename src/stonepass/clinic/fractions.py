@@ -1,4 +1,4 @@
-"""What Monte Carlo samples of one patient say: intervals of pressures and fractions of samples."""
+"""Results of the Monte Carlo samples of one patient: pressure intervals, fractions of samples."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ __all__ = [
 ]
 
 INTERVAL = (0.05, 0.5, 0.95)
-AGREE = 0.02  # of a quantile with and without censored samples: then it is stated
-MORE, FEWER, NEAR = "more than the model expects", "fewer than the model expects", "near the model"
-UNDECIDED = "the model does not decide"
-FAR_APART = 0.2  # of two fractions, to be called a contradiction
+AGREE = 0.02  # largest relative effect of censored samples on a quantile that is stated
+MORE, FEWER, NEAR = "more than in the model", "fewer than in the model", "near the model"
+UNDECIDED = "undecided by the model"
+FAR_APART = 0.2  # difference of two fractions that contradict each other
 
 
 @dataclass(frozen=True)
 class Range:
     """Median and 90 % interval in Pa.
 
-    An end that lies beyond what the model can tell is None; `at_least` is then what it exceeds.
+    An end that the model cannot determine is None; it exceeds `at_least`.
     """
 
     low: float | None
@@ -43,17 +43,17 @@ class Range:
 
 @dataclass(frozen=True)
 class Fraction:
-    """A fraction of the samples: at least `low`, and at most `high` where some are not decided."""
+    """A fraction of the samples: from `low` to `high`, which differ if some are undecided."""
 
     low: float
     high: float
 
     def noise(self, count: int) -> float:
-        """Return its standard error for `count` independent samples, that of the larger end."""
+        """Return the standard error for `count` independent samples, the larger of both ends."""
         return max((each * (1.0 - each) / count) ** 0.5 for each in (self.low, self.high))
 
     def describe(self) -> str:
-        """Return it in words: ``60 %``, ``fewer than 1 %``, ``55 to 62 %``."""
+        """Write the fraction: ``60 %``, ``fewer than 1 %``, ``55 to 62 %``."""
         low, high = (round(100.0 * each) for each in (self.low, self.high))
         if low != high:
             return f"{low} to {high} %"
@@ -65,14 +65,14 @@ class Fraction:
 @array_dataclass
 @dataclass(frozen=True)
 class Present:
-    """Present urine pressure of every sample.
+    """The present urine pressure in every sample.
 
     Attributes
     ----------
     pressure : array (n)
         In Pa.
     censored : array (n)
-        Where the pressure is only a lower bound.
+        True where the pressure is only a lower bound.
     opening : array (n)
         r_a/R_a of the dilated segment.
     """
@@ -92,9 +92,9 @@ class Samples:
     critical : array (n)
         P_ucr in Pa.
     censored : array (n)
-        Where P_ucr is only a lower bound.
+        True where P_ucr is only a lower bound.
     loose : array (n)
-        Where the stone is no larger than the lumen.
+        True where the stone is no larger than the lumen.
     size_ratio : array (n)
         ξ.
     diameter : array (n)
@@ -110,7 +110,7 @@ class Samples:
     def below(
         self, pressure: float | Present, chosen: Bool[np.ndarray, " n"] | None = None
     ) -> Fraction:
-        """Return the fraction with P_ucr below a pressure, of all samples or of those `chosen`."""
+        """Return the fraction of all samples, or of those `chosen`, with P_ucr below a pressure."""
         some = np.ones(len(self.critical), dtype=bool) if chosen is None else chosen
         if isinstance(pressure, Present):
             less = self.critical < pressure.pressure
@@ -124,8 +124,8 @@ class Samples:
 def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) -> Range:
     """Return median and 90 % interval of values, some of which are only lower bounds.
 
-    A quantile is stated only where it stays, to within `AGREE`, however far the censored values
-    are exceeded.
+    A quantile is stated if the true values behind the lower bounds cannot change it by more than
+    the fraction `AGREE`.
     """
     least = np.quantile(values, INTERVAL, method="higher")
     most = np.quantile(np.where(censored, np.inf, values), INTERVAL, method="higher")
@@ -153,7 +153,7 @@ def median_noise(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n
 
 
 def contradiction(passed: float, fraction: Fraction | None) -> str:
-    """Return whether the fraction of stones that passed is far from that below the limit."""
+    """Compare the fraction of stones that passed with the model's fraction below the limit."""
     if fraction is None:
         return ""
     if fraction.high - fraction.low > FAR_APART:

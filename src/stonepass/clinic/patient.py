@@ -1,4 +1,4 @@
-"""One patient: what imaging says of stone and ureter, each number with its uncertainty."""
+"""One patient: measurements of stone and ureter from imaging, each with its uncertainty."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import Field, create_model
 
 from stonepass.caution import Caution, caution
-from stonepass.clinic.cohorts import PLACES
+from stonepass.clinic.cohorts import PLACES, place_meant
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.inputs.build import build_load, build_method, in_words
 from stonepass.inputs.catalogue import all_inputs
@@ -36,9 +36,10 @@ STIFFNESS = (0.05, 20.0)
 LIMIT = (100.0, 1e5)  # Pa
 SAMPLES = (256, 65_536)
 LARGEST_SEED = 2**32
-# What nobody measures in a patient, and what stands in where the file is silent.
+LONGEST_TITLE = 120  # characters
+# Quantities that are not measured in a patient, and the values assumed if the file has none.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
-# Inputs of the sections that are those of a case file, as the file names them.
+# Names in the file of inputs whose sections are those of a case file.
 SHARED_WORDS = {
     each.title: f"'{key}'"
     for key, each in all_inputs().items()
@@ -59,27 +60,29 @@ INPUTS = {
 
 @dataclass(frozen=True)
 class Patient:
-    """What is known of one patient.
+    """The measurements of one patient.
 
     Attributes
     ----------
     measured : dict of str to UncertainQuantity
-        By the names in `INPUTS`: the stone's diameter across the ureter, friction, inner and either
-        outer diameter or wall thickness of the ureter where nothing dilates it, stiffness as a
-        factor on the material's, and, where the segment above the stone was measured, its
-        diameters. Lengths in m.
+        Quantities by the names in `INPUTS`, lengths in m: the diameter of the stone across the
+        ureter; friction; the inner diameter of the ureter where nothing dilates it, with the outer
+        diameter or the wall thickness; the stiffness over that of the material; and, if it was
+        measured, the diameters of the dilated segment above the stone.
     material : Material
     limit : Pressure
-        Bearable urine pressure.
+        Maximum tolerable urine pressure.
     place : str or None
-        In `cohorts.PLACES`.
+        Place of the stone, one of `cohorts.PLACES`.
     shape : Shape
     load : Load
     model : Model
     numerics : Numerics
     samples, seed : int
     assumed : tuple of Caution
-        What the file leaves to us, in sentences.
+        Cautions about values that the file does not have and that are assumed.
+    title : str
+        Name of the case for the report.
     """
 
     measured: Mapping[str, UncertainQuantity]
@@ -93,6 +96,7 @@ class Patient:
     samples: int = 4096
     seed: int = 1
     assumed: tuple[Caution, ...] = ()
+    title: str = ""
 
     @property
     def dilated(self) -> bool:
@@ -104,7 +108,11 @@ class Patient:
         return replace(self, limit=_limit(limit))
 
     def case(self) -> Case:
-        """The case at the measured values; s P_ucr of it is that of a wall s times as stiff."""
+        """Return the case at the measured values with the material's own stiffness.
+
+        Its confining pressure is divided by the stiffness s, so the critical pressure of the
+        patient is s times that of this case.
+        """
         value = {name: each.value for name, each in self.measured.items()}
         inner = value["inner_diameter"]
         outer = value.get("outer_diameter", inner + 2.0 * value.get("wall_thickness", 0.0))
@@ -138,6 +146,7 @@ class _Dilated(FileSection):
 
 class _Assessment(FileSection):
     limit: str
+    title: str = ""
     samples: int = 4096
     seed: int = 1
 
@@ -158,13 +167,13 @@ _PatientFile = create_model("_PatientFile", __base__=_OwnSections, **_SHARED)
 
 
 def read_patient(path: str | Path) -> Patient:
-    """Read a patient's file; files of materials and shapes are looked for beside it.
+    """Read the file of a patient; relative paths of materials and shapes start at its folder.
 
     Raises
     ------
     BadInput
-        Naming the file and the key: an unknown key (with the nearest known one), a missing one, a
-        length without its uncertainty or unit, values that no ureter has.
+        The file has an unknown key (the nearest known one is named), lacks a key, or has a length
+        without uncertainty or unit, or a value out of bounds.
     """
     path = Path(path)
     parsed = read_toml(path, _PatientFile)
@@ -198,8 +207,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
     measured["friction"] = measured_number(stone.friction, "friction", FRICTION)
     measured["stiffness"] = measured_number(ureter.stiffness, "stiffness", STIFFNESS, factor=True)
     _check(measured)
-    if stone.place is not None and stone.place not in PLACES:
-        refuse_unknown("place", stone.place, list(PLACES))
+    _check_place(stone.place)
     low, high = SAMPLES
     count = parsed.assessment.samples
     require(low <= count <= high, "samples", count, f"a whole number from {low} to {high}")
@@ -211,7 +219,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
             ("friction_assumed", stone.friction, ASSUMED_FRICTION),
             ("stiffness_assumed", ureter.stiffness, ASSUMED_STIFFNESS),
         )
-        if given == default  # written out or not, nobody measured it
+        if given == default  # the assumed values may be written out in the file
     ]
     values = section_values(parsed.method, "method")
     model, numerics = build_method(values, folder)
@@ -227,9 +235,25 @@ def _patient(parsed: Any, folder: Path) -> Patient:
         samples=count,
         seed=seed,
         assumed=tuple(assumed),
+        title=_title(parsed.assessment.title),
     )
-    patient.case()  # refuses what the measured values themselves cannot be
+    patient.case()  # refuses measured values that no case can have
     return patient
+
+
+def _check_place(place: str | None) -> None:
+    """Refuse an unknown place, with the place that was probably meant."""
+    if place is None or place in PLACES:
+        return
+    meant = place_meant(place)
+    if not meant:
+        refuse_unknown("place", place, list(PLACES))
+    raise BadInput("place", place, "one of " + ", ".join(PLACES), f"did you mean '{meant}'")
+
+
+def _title(text: str) -> str:
+    require(len(text) <= LONGEST_TITLE, "title", text, f"at most {LONGEST_TITLE} characters long")
+    return " ".join(text.split())
 
 
 def _limit(value: str | Pressure) -> Pressure:

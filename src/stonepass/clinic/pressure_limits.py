@@ -1,4 +1,4 @@
-"""Pressure limits that were measured or proposed, each with its source."""
+"""Urine pressures that were measured or proposed as limits, each with its source."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ __all__ = ["LIMITS", "PressureLimit", "describe_limit"]
 
 @dataclass(frozen=True)
 class PressureLimit:
-    """A pressure in Pa, what it is, and who says so."""
+    """A pressure in Pa, its meaning, and its source as far as it can be cited."""
 
     pressure: Pressure
     what: str
     source: str
 
 
-_NEPHROSTOMY = "EAU congress 2007, abstract 71"
+_NEPHROSTOMY = "EAU congress 2007, abstract 71, read at urotoday.com"
 LIMITS = (
     PressureLimit(
         Pressure(2e3),
@@ -28,7 +28,7 @@ LIMITS = (
     PressureLimit(
         Pressure(4e3),
         "peak of an acute obstruction in rabbits, 42 cmH₂O (4.1 kPa) after 3 h",
-        "rabbit ureter in vivo, abstract (scilit 64e68051)",
+        "unverified: authors and journal not known; abstract read at scilit.com, record 64e68051",
     ),
     PressureLimit(
         Pressure(6e3),
@@ -37,22 +37,22 @@ LIMITS = (
     ),
     PressureLimit(
         Pressure(8e3),
-        "about the mean in the pelvis while stones are treated by ureteroscopy: 54 ± 18 mmHg "
+        "about the mean in the renal pelvis while stones are treated by ureteroscopy: 54 ± 18 mmHg "
         "(7.2 ± 2.4 kPa), 12 patients",
-        "doi 10.1186/s40064-015-1114-4",
+        "2015, doi:10.1186/s40064-015-1114-4",
     ),
     PressureLimit(
         Pressure(12e3),
-        "the limit that the paper states, citing a study of minipigs; ink entered veins of pig "
+        "the limit of the paper, which cites a study of minipigs; ink entered the veins of pig "
         "kidneys ex vivo from 90 mmHg (12.0 kPa)",
-        "Liu et al. 2022, doi 10.1016/j.jmbbm.2022.105432; WCET abstract 4800",
+        "Liu et al. 2022, doi:10.1016/j.jmbbm.2022.105432; WCET congress, abstract 4800",
     ),
 )
 
 
 def describe_limit(limit: float) -> str:
-    """Return what a limit in Pa stands for: that of the list, or the user's own."""
+    """Return the meaning and source of a limit in Pa; other limits are the user's own."""
     for known in LIMITS:
         if abs(limit - known.pressure) < 1e-6 * known.pressure:
             return f"{known.what} ({known.source})"
-    return "a value of your own"
+    return "chosen by the user, without a published source"

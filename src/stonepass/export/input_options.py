@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from stonepass.export.contract import Limit, Option
 
-__all__ = ["ELEMENT", "FINE", "FLAVOUR", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS"]
+__all__ = [
+    "ELEMENT", "FINE", "FLAVOUR", "FROM_CONTACT", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS",
+]  # fmt: skip
 
 LENGTHS = (0.002, 0.5)  # smallest and largest length of the elements in the contact, inner radii
 FINE = Option(
@@ -34,9 +36,9 @@ SEATED_LIMITS = {
     "load": Limit(("prestretch", "dead", "hydrostatic")),
     "shape": Limit(("sphere", "spheroid", "outline")),
 }
-# Inputs without influence on the files: `FINE` sets the mesh, and the files end with the contact,
-# before the force balance and its closure.
-SEATED_IGNORES = (
-    "accuracy", "as_printed", "closure_start", "closure", "series_order", "opening_curve",
-    "far_field_ground", "wetted",
+# Inputs of what follows from a contact: they change neither the wall nor its contact.
+FROM_CONTACT = (
+    "as_printed", "closure_start", "closure", "series_order", "opening_curve", "far_field_ground",
 )  # fmt: skip
+# The input files have the mesh of `FINE`, and describe the seated state of the paper's model alone.
+SEATED_IGNORES = ("accuracy", *FROM_CONTACT, "wetted")

@@ -43,7 +43,8 @@ class Load:
     confinement: str = declared(
         Kind.CHOICE,
         "--confinement",
-        "Dead load (resultant kept) or hydrostatic (the pressure follows the wall).",
+        "How the confining pressure acts: as a dead load (its resultant is kept), or as a "
+        "hydrostatic follower pressure (it stays normal to the deformed wall).",
         default="dead",
         choices=("dead", "hydrostatic"),
     )

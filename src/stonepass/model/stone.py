@@ -72,7 +72,7 @@ class Stone:
     shape: Shape = declared(
         Kind.SHAPE,
         "--shape",
-        "Any convex shape: points z, rho of its meridian from pole to pole, z downstream.",
+        "File of a convex shape: points z, rho of its meridian from pole to pole, z downstream.",
         default=None,
         shown_default="a sphere",
         metavar="FILE.csv",

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import Row
+from stonepass.clinic.decisions import decisions
 from stonepass.clinic.fractions import Fraction, Range, contradiction
 from stonepass.clinic.patient import INPUTS
 from stonepass.clinic.pressure_limits import describe_limit
@@ -28,8 +29,9 @@ __all__ = [
 ]
 
 CAUTION = (
-    "The fractions speak of the inputs' uncertainty in a model of a passive tube. They are no "
-    "chance of passing: peristalsis, muscle tone, time and swelling are not in it."
+    "The fractions express the uncertainty of the inputs in a model of a passive tube. They are "
+    "not probabilities of passage: peristalsis, muscle tone, time and swelling are not in the "
+    "model."
 )
 LEVEL = 0.90  # of the intervals
 LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
@@ -38,16 +40,16 @@ LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in 
 class PressureRangeRecord(PartRecord):
     """Median and 90 % interval of a pressure in kPa."""
 
-    low: float | None = Field(description="lower end; null where the model cannot tell it")
-    median: float | None = Field(description="median; null where the model cannot tell it")
-    high: float | None = Field(description="upper end; null where the model cannot tell it")
+    low: float | None = Field(description="lower end; null if the model cannot determine it")
+    median: float | None = Field(description="median; null if the model cannot determine it")
+    high: float | None = Field(description="upper end; null if the model cannot determine it")
     at_least: float | None = Field(
-        description="what the first number that is null exceeds; null where all are known"
+        description="lower bound of the first number that is null; null if all are known"
     )
 
 
 class FractionRecord(PartRecord):
-    """A fraction of the samples; its ends differ where some samples are not decided."""
+    """A fraction of the samples; its ends differ if some samples are undecided."""
 
     low: float = Field(description="at least this fraction")
     high: float = Field(description="at most this fraction")
@@ -60,26 +62,35 @@ class SizeFractionRecord(FractionRecord):
 
 
 class CohortRecord(PartRecord):
-    """One number of a published cohort, beside the model."""
+    """One rate of a published cohort, beside the model."""
 
     cohort: str = Field(description="name of the cohort")
-    source: str = Field(description="where it was published")
-    read: str = Field(description="`itself` where the source was read, `quoted` by another source")
-    about: str = Field(description="whom the cohort watched, and for how long")
+    source: str = Field(description="citation as far as it is known")
+    read: str = Field(
+        description="`itself` if the source was read, `quoted` if its numbers were read elsewhere"
+    )
+    about: str = Field(description="which stones were observed, how and for how long")
     group: str = Field(description="size class or place, as printed")
     passed: float | None = Field(description="fraction of these stones that passed")
+    count: int | None = Field(description="number of stones in the class; null if not known")
+    passed_low: float | None = Field(
+        description="lower end of the 95 % interval of `passed`; null if `count` is not known"
+    )
+    passed_high: float | None = Field(
+        description="upper end of the 95 % interval of `passed`; null if `count` is not known"
+    )
     days: float | None = Field(description="mean time to pass in days")
     model: FractionRecord | None = Field(
         description="fraction of samples below the pressure limit, for such stones"
     )
-    comparison: str = Field(description="how far both fractions are apart, in words")
+    comparison: str = Field(description="difference of the two fractions in words")
 
 
 class MeasuredRecord(PartRecord):
-    """A measured number with its uncertainty."""
+    """A measured quantity with its uncertainty."""
 
-    value: float = Field(description="what was measured, in its unit")
-    sd: float | None = Field(description="standard deviation; null where a range was given")
+    value: float = Field(description="measured value in the unit")
+    sd: float | None = Field(description="standard deviation; null if a range was given")
     low: float | None = Field(description="lower end of the range; null with `sd`")
     high: float | None = Field(description="upper end of the range; null with `sd`")
     unit: str = Field(description="`m`, or empty for a plain number")
@@ -88,20 +99,21 @@ class MeasuredRecord(PartRecord):
 class AssessInputsRecord(PartRecord):
     """The inputs of the assessment, as the patient file gave them."""
 
+    title: str = Field(description="name of the case; may be empty")
     file: str = Field(description="name of the patient's file")
     measured: dict[str, MeasuredRecord] = Field(
         description="measured numbers, by their names in the file"
     )
     material: str = Field(description="name of the material of the wall")
-    place: str | None = Field(description="where in the ureter the stone is, where known")
+    place: str | None = Field(description="place of the stone in the ureter, if known")
     limit_kPa: float = Field(description="pressure limit")
-    limit_source: str = Field(description="what the limit stands for, and who says so")
+    limit_source: str = Field(description="meaning and source of the limit")
     samples: int = Field(description="number of Monte Carlo samples")
     seed: int = Field(description="seed of the samples")
 
 
 class SurfaceAccuracyRecord(PartRecord):
-    """How well the samples are known."""
+    """Accuracy of the samples."""
 
     possible: float = Field(description="fraction of the draws that describe a possible wall")
     solves: int = Field(description="number of solved cases behind the response surface")
@@ -110,25 +122,25 @@ class SurfaceAccuracyRecord(PartRecord):
     )
     median_noise_kPa: float | None = Field(
         description=(
-            "standard error of the median of P_ucr by the number of samples, as if they were "
-            "independent; null where it is not known"
+            "standard error of the median of P_ucr due to the number of samples, as if they were "
+            "independent; null if it is not known"
         )
     )
     fraction_noise: float = Field(
-        description="standard error of the fraction below the limit by the number of samples"
+        description="standard error of the fraction below the limit due to the number of samples"
     )
 
 
 class AssessRecord(Record):
-    """The assessment of one patient: pressures as intervals, beside what cohorts saw."""
+    """The assessment of one patient: intervals of pressures, beside published cohorts."""
 
     outcome: str = Field(
-        description="`MOVES`, or `NO_SOLUTION` where the model answers too few possible cases"
+        description="`MOVES`, or `NO_SOLUTION` if the model answers too few possible cases"
     )
     message: str = Field(description="the outcome as a sentence")
     critical_pressure_kPa: PressureRangeRecord | None = Field(description="P_ucr of the samples")
     critical_pressure_at_values_kPa: float | None = Field(
-        description="P_ucr at the measured values themselves"
+        description="P_ucr at the measured values"
     )
     at_values: AnswerRecord = Field(
         description=(
@@ -137,15 +149,15 @@ class AssessRecord(Record):
         )
     )
     present_pressure_kPa: PressureRangeRecord | None = Field(
-        description="present urine pressure P_u; null where no dilated segment was measured"
+        description="present urine pressure P_u; null if no dilated segment was measured"
     )
     critical_below_limit: FractionRecord | None = Field(
         description="fraction of samples whose P_ucr is below the pressure limit"
     )
     critical_below_limit_where_held: FractionRecord | None = Field(
         description=(
-            "this fraction among the samples in which the stone is larger than the lumen; null "
-            "where these are too few"
+            "this fraction among the samples in which the stone is larger than the lumen; null if "
+            "these are too few"
         )
     )
     critical_below_present: FractionRecord | None = Field(
@@ -155,21 +167,30 @@ class AssessRecord(Record):
         description="fraction of samples in which the stone is not held; P_ucr is 0 in them"
     )
     sensitivity: dict[str, float] = Field(
-        description="Sobol's total index of each input, for the rank of P_ucr; the largest first"
+        description="Sobol' total index of each input for the rank of P_ucr; the largest first"
     )
     by_size: list[SizeFractionRecord] = Field(
-        description="fraction below the limit if the stone had another size"
+        description="fraction below the limit for other sizes of the stone"
     )
-    cohorts: list[CohortRecord] = Field(description="what published cohorts say of such stones")
-    inputs: AssessInputsRecord = Field(description="what was said of the patient")
-    accuracy: SurfaceAccuracyRecord = Field(description="how well the samples are known")
+    cohorts: list[CohortRecord] = Field(description="rates of published cohorts for such stones")
+    inputs: AssessInputsRecord = Field(description="the measurements and assumptions")
+    accuracy: SurfaceAccuracyRecord = Field(description="accuracy of the samples")
     level: float = Field(description="level of the intervals")
-    warnings: list[CautionRecord] = Field(description="what was assumed, extrapolated or left open")
-    caution: str = Field(description="what the fractions are not")
+    cannot_decide: list[str] = Field(
+        description="questions that these measurements do not decide, as sentences"
+    )
+    decided: list[str] = Field(
+        description="questions that they decide within the model, as sentences"
+    )
+    warnings: list[CautionRecord] = Field(
+        description="assumptions, extrapolations and contradictions"
+    )
+    caution: str = Field(description="limits of the meaning of the fractions")
 
 
 def assess_record(found: Assessment, file: str) -> AssessRecord:
-    """Make the record of an assessment; `file` is the name of the patient's file."""
+    """Return the record of an assessment; `file` is the name of the patient's file."""
+    asked = decisions(found)
     return AssessRecord(
         outcome=found.outcome.name,
         message=found.message,
@@ -196,6 +217,8 @@ def assess_record(found: Assessment, file: str) -> AssessRecord:
             fraction_noise=found.fraction_noise,
         ),
         level=LEVEL,
+        cannot_decide=[each.sentence for each in asked if not each.decided],
+        decided=[each.sentence for each in asked if each.decided],
         warnings=warning_records(found.warnings),
         caution=CAUTION,
     )
@@ -204,6 +227,7 @@ def assess_record(found: Assessment, file: str) -> AssessRecord:
 def _inputs(found: Assessment, file: str) -> AssessInputsRecord:
     patient = found.patient
     return AssessInputsRecord(
+        title=patient.title,
         file=file,
         measured={name: _measured(name, each) for name, each in patient.measured.items()},
         material=patient.material.name,
@@ -234,6 +258,9 @@ def _cohort(row: Row, beside: Fraction | None) -> CohortRecord:
         about=row.cohort.about,
         group=row.group,
         passed=row.passed,
+        count=row.count,
+        passed_low=None if row.interval is None else row.interval[0],
+        passed_high=None if row.interval is None else row.interval[1],
         days=row.days,
         model=_fraction(beside),
         comparison="" if row.passed is None else contradiction(row.passed, beside),

@@ -7,7 +7,7 @@ from math import degrees
 from pydantic import Field
 
 from stonepass.records.base import CautionRecord, PartRecord, Record, warning_records
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = [
     "FrictionRecord",

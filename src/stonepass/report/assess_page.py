@@ -1,209 +1,286 @@
-"""An assessment as one HTML file that needs nothing beside it and prints on two pages."""
+"""An assessment as one HTML file that needs no other file, for a phone, a screen and a printer."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from datetime import date
 from html import escape
 from pathlib import Path
 
 from stonepass.about import DISCLAIMER, VERSION
 from stonepass.clinic.assessment import Assessment
-from stonepass.clinic.cohorts import Cohort, Row
-from stonepass.clinic.fractions import FEWER, MORE, contradiction
+from stonepass.clinic.cohorts import COHORTS, Row
+from stonepass.clinic.decisions import CONTRADICTIONS, decisions, next_measurement
 from stonepass.clinic.pressure_limits import LIMITS, describe_limit
 from stonepass.records.assess import CAUTION
-from stonepass.report.assess_figure import cohorts_figure, pressures_figure, sensitivity_figure
-from stonepass.report.assess_report import describe_inputs, describe_range, noise_in_words
+from stonepass.report.assess_figure import (
+    cohorts_figure,
+    pressures_figure,
+    sensitivity_figure,
+    sizes_figure,
+)
+from stonepass.report.assess_report import (
+    FAR,
+    SENSITIVITY,
+    UNITS,
+    contradictions,
+    describe_beside,
+    describe_inputs,
+    describe_passed,
+    describe_range,
+    noise_in_words,
+    sentence,
+)
+from stonepass.report.assess_sketch import sketch_figure
+from stonepass.report.assess_style import STYLE
 from stonepass.report.html import inline_svg, write_html
 
 __all__ = ["write_assessment"]
 
-FAR = {MORE: "↑", FEWER: "↓"}
-_STYLE = """
-body { max-width: 52rem; }
-h1 { margin-bottom: .2rem; } h2 { margin: 1.4rem 0 .3rem; }
-p { margin: .4rem 0; } img { width: 100%; height: auto; display: block; }
-p.band { background: #fef3c7; padding: .4rem .7rem; border-radius: .3rem; font-weight: 600; }
-.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(11rem, 1fr)); gap: .7rem;
-  margin: .8rem 0; }
-.card { border: 1px solid #e5e7eb; border-radius: .5rem; padding: .5rem .8rem; }
-.card b { display: block; font-size: 1.35rem; line-height: 1.3; } .card span { color: #4b5563;
-  font-size: .85rem; }
-.who { width: 42%; } .off { color: #b54708; font-weight: 600; }
-.about { color: #4b5563; font-size: .9em; }
-ul { padding-left: 1.1rem; margin: .3rem 0; font-size: .88rem; }
-.inputs { columns: 2; column-gap: 2rem; font-size: .88rem; margin: .3rem 0; padding: 0;
-  list-style: none; }
-.inputs li { break-inside: avoid; margin: .1rem 0; } .inputs b { font-weight: 500; }
-@page { size: A4; margin: 11mm 14mm; }
-@media print {
-  body { font-size: 9.5pt; line-height: 1.32; margin: 0; padding: 0; max-width: none; }
-  h1 { font-size: 15pt; margin-top: 0; } h2 { font-size: 11pt; margin: .7rem 0 .2rem; }
-  table, ul, .inputs { font-size: 8.2pt; } th, td { padding: .14rem .4rem; }
-  ul li { margin: 0; } footer p { margin: .4rem 0 0; font-size: 8pt; }
-  .cards { grid-template-columns: repeat(5, 1fr); gap: .4rem; } .card { padding: .3rem .5rem; }
-  .card b { font-size: 11.5pt; } .card span { font-size: 7.8pt; display: block; line-height: 1.25; }
-  .second { break-before: page; } img, table, .card { break-inside: avoid; }
-  img { width: 84%; margin: 0 auto; } .second img { width: 72%; }
-  .sources li { font-size: 7.4pt; line-height: 1.22; }
-}
-"""
+TITLE = "A stone in a ureter: which urine pressures may move it"
+MEASURED_ABOVE = "Measured above obstructing stones: 1.9 kPa on average, up to 6.0 kPa."
+_DOI = re.compile(r"doi:(10\.[^\s,;)]+)")
 
 
-def write_assessment(found: Assessment, path: Path) -> None:
-    """Write the page."""
+def write_assessment(found: Assessment, path: Path, written: date | None = None) -> None:
+    """Write the page.
+
+    Parameters
+    ----------
+    found : Assessment
+    path : Path
+    written : date, optional
+        Date of the report; today by default.
+    """
+    day = f"{written or date.today():%Y-%m-%d}"
+    name = found.patient.title
     body = [
-        "<h1>A stone in a ureter: what pressures may move it</h1>",
+        "<header>",
+        f"<h1>{escape(name) if name else TITLE}</h1>",
+        f'<p class="about">{f"{TITLE}. " if name else ""}Report of {day}, stonepass {VERSION}.</p>',
         f'<p class="band">{DISCLAIMER}</p>',
-        f"<p>{escape(found.message)} {escape(CAUTION)}</p>",
-        *_cards(found),
+        "</header>",
+        *_contradictions(found),
+        *_decisions(found),
         *_pressures(found),
-        *_inputs(found),
-        *_sources(found),
-        '<section class="second">',
+        *_measurements(found),
+        *_cautions(found),
+        *_curves(found),
         *_cohorts(found),
-        *_warnings(found),
-        "</section>",
-        f"<footer><p>stonepass {VERSION}. {DISCLAIMER} {_how(found)}</p></footer>",
+        *_sources(found),
+        f"<footer><p>{_how(found)}</p><p>{DISCLAIMER}</p></footer>",
     ]
-    write_html(path, "A stone in a ureter", _STYLE, "\n".join(body))
+    write_html(path, name or TITLE, STYLE, "\n".join(body))
 
 
-def _cards(found: Assessment) -> list[str]:
-    cards = []
-    for name, values in (
-        ("critical pressure", found.critical),
-        ("present urine pressure", found.present),
-    ):
-        if values is not None:
-            median, interval = describe_range(values)
-            beside = "; measured above stones: 1.9 to 6 kPa" if values is found.present else ""
-            cards.append((median, f"{name}, median; 90 %: {interval}{beside}"))
-    limit = f"{found.patient.limit / 1e3:.4g} kPa"
-    below, held = found.below_limit, found.below_limit_held
-    about = f"critical pressure below the limit, {limit}"
-    if held is None or below is None or found.loose == 0.0:
-        at_limit = (f"of samples: {about}", below)
-    else:
-        at_limit = (
-            f"of the samples with the stone held: {about} ({below.describe()} of all samples)",
-            held,
-        )
-    for name, fraction in (
-        at_limit,
-        ("of samples: critical pressure below the present one", found.below_present),
-    ):
-        if fraction is not None:
-            cards.append((fraction.describe(), name))
-    if found.critical is not None:
-        loose = f"{round(100 * found.loose)} %"
-        cards.append((loose, "of samples: stone no larger than the lumen (critical pressure 0)"))
-    shown = "".join(
-        f'<div class="card"><b>{escape(big)}</b><span>{escape(small)}</span></div>'
-        for big, small in cards
-    )
-    return [f'<div class="cards">{shown}</div>'] if cards else []
+def _contradictions(found: Assessment) -> list[str]:
+    told = contradictions(found)
+    if not told:
+        return []
+    return ['<section class="alert">', "<h2>Contradictions</h2>", _list(told), "</section>"]
+
+
+def _decisions(found: Assessment) -> list[str]:
+    asked = decisions(found)
+    parts = ['<section class="decide">', "<h2>These measurements cannot decide</h2>"]
+    parts.append(_list([each.sentence for each in asked if not each.decided]))
+    decided = [each.sentence for each in asked if each.decided]
+    if decided:
+        parts += ["<h2>Within the model, they decide</h2>", _list(decided)]
+    if found.sensitivity:
+        parts.append(f"<p>{escape(next_measurement(found))}</p>")
+    if found.samples is None:
+        parts.append(f"<p>{escape(found.message)}</p>")
+    return [*parts, "</section>"]
 
 
 def _pressures(found: Assessment) -> list[str]:
-    if found.samples is None:
+    cards = []
+    for name, about, values in (
+        (
+            "Critical pressure",
+            "The urine pressure above the stone at which it would start to move.",
+            found.critical,
+        ),
+        (
+            "Present urine pressure",
+            f"Estimated from the width of the dilated segment. {MEASURED_ABOVE}",
+            found.present,
+        ),
+    ):
+        if values is not None:
+            rows = "".join(_pressure_row(*describe_range(values, unit)) for unit in UNITS)
+            cards.append(
+                f'<div class="card"><h3>{name}</h3><table><tr><th>median</th><th>90 % interval</th>'
+                f"</tr>{rows}</table><p>{about}</p></div>"
+            )
+    if not cards:
         return []
-    parts = [
-        "<h2>Over every pressure</h2>",
-        inline_svg(pressures_figure(found), "Fraction of samples over urine pressure"),
+    rows = "".join(
+        f"<tr><td>{escape(big)}</td><td>{escape(small)}</td></tr>"
+        for big, small in _fractions(found)
+    )
+    head = "<tr><th>fraction</th><th>of the simulated input combinations in which …</th></tr>"
+    return [
+        "<h2>Pressures and fractions</h2>",
+        f'<div class="cards">{"".join(cards)}</div>',
+        f'<table class="facts">{head}{rows}</table>' if rows else "",
+        f'<p class="about">{escape(CAUTION)}</p>',
     ]
-    if found.sensitivity:
-        parts += [
-            "<h2>What the spread of the critical pressure comes from (with interactions)</h2>",
-            inline_svg(sensitivity_figure(found), "Sensitivity index by input"),
-        ]
-    return parts
 
 
-def _inputs(found: Assessment) -> list[str]:
+def _pressure_row(median: str, interval: str) -> str:
+    return f"<tr><td>{escape(median)}</td><td>{escape(interval)}</td></tr>"
+
+
+def _fractions(found: Assessment) -> list[tuple[str, str]]:
+    """Return each fraction in words with its meaning."""
+    limit = f"{found.patient.limit / 1e3:.4g} kPa"
+    about = f"the critical pressure is below the limit of {limit}"
+    below, held = found.below_limit, found.below_limit_held
+    told = []
+    if held is not None and below is not None and found.loose > 0.0:
+        everywhere = f"{below.describe()} of all combinations"
+        told.append((held.describe(), f"{about}, among those with a held stone ({everywhere})"))
+    elif below is not None:
+        told.append((below.describe(), about))
+    if found.critical is not None:
+        loose = f"{round(100 * found.loose)} %"
+        told.append((loose, "the stone is no larger than the lumen and is not held"))
+    if found.below_present is not None:
+        above = found.below_present.describe()
+        told.append((above, "the present pressure is above the critical pressure"))
+    return told
+
+
+def _measurements(found: Assessment) -> list[str]:
     patient = found.patient
-    limit = f"{patient.limit / 1e3:.4g} kPa: {describe_limit(patient.limit)}"
-    rows = [*describe_inputs(found).items()]
+    rows = list(describe_inputs(found).items())
     if patient.place is not None:
         rows.append(("place", patient.place))
+    limit = f"{patient.limit / 1e3:.4g} kPa, {describe_limit(patient.limit)}"
     rows.append(("pressure limit", limit))
-    items = "".join(f"<li><b>{escape(name)}:</b> {escape(text)}</li>" for name, text in rows)
+    items = "".join(f"<li><b>{escape(name)}:</b> {_linked(text)}</li>" for name, text in rows)
     return [
-        "<h2>What it was computed from (±: one standard deviation)</h2>",
+        "<h2>Measurements and assumptions</h2>",
+        inline_svg(sketch_figure(found), "Sketch of stone and ureter at the measured sizes"),
+        '<p class="about">The diameters of stone and ureter are to scale, at the measured values; '
+        "the transitions are schematic. The sign ± means one standard deviation.</p>",
         f'<ul class="inputs">{items}</ul>',
     ]
 
 
+def _cautions(found: Assessment) -> list[str]:
+    told = [sentence(str(each)) for each in found.warnings if each.code not in CONTRADICTIONS]
+    return ["<h2>Limitations of this result</h2>", _list(told)] if told else []
+
+
+def _curves(found: Assessment) -> list[str]:
+    if found.samples is None:
+        return []
+    parts = [
+        '<div class="pair"><div>',
+        "<h2>Fractions over every pressure</h2>",
+        "<p>The solid curve shows in which part of the simulated input combinations (samples) the "
+        "critical pressure is below a urine pressure.</p>",
+        inline_svg(pressures_figure(found), "Fraction of samples over urine pressure"),
+        "</div>",
+    ]
+    if found.sensitivity:
+        parts += [
+            "<div><h2>Sensitivity: which inputs cause the uncertainty</h2>",
+            f"<p>{escape(SENSITIVITY)}</p>",
+            inline_svg(sensitivity_figure(found), "Sobol' total index of every input"),
+            "</div>",
+        ]
+    return [*parts, "</div>"]
+
+
 def _cohorts(found: Assessment) -> list[str]:
-    by_cohort: dict[Cohort, list[Row]] = {}
-    for row in found.cohorts:
-        by_cohort.setdefault(row.cohort, []).append(row)
-    body = "".join(
-        f'<tr><td>{escape(cohort.name)} <span class="about">{escape(cohort.about)}</span></td>'
-        f"<td>{' · '.join(_passed(found, row) for row in rows)}</td></tr>"
-        for cohort, rows in by_cohort.items()
-    )
-    head = (
-        '<tr><th class="who">cohort</th><th>passed (the model\'s fraction below the limit); '
-        "↑ more, ↓ fewer than the model expects</th></tr>"
-    )
+    relevant = [row.cohort.name for row in found.cohorts]
+    others = [cohort.name for cohort in COHORTS if cohort.name not in relevant]
+    none = f"<p>No class of such stones: {escape(', '.join(others))}.</p>" if others else ""
+    body = "".join(_cohort(found, name) for name in dict.fromkeys(relevant))
+    head = "<tr><th>cohort, stones</th><th>passed</th><th>model</th></tr>"
     return [
-        "<h2>What cohorts saw in such stones</h2>",
-        "<p>The fraction that passed, and the fraction of samples that move below the limit, are "
-        "two different things; an arrow marks where they lie more than 20 points apart. For a "
-        "size class the model's fraction is that of the samples whose stone belongs to it. What "
-        "counts as the "
-        "lumen moves the model more than any other input: excised and empty ureters are far "
-        "narrower than those in contrast CT.</p>",
-        inline_svg(cohorts_figure(found), "Fractions that passed by size, and the model's"),
-        f'<div class="scroll"><table><thead>{head}</thead><tbody>{body}</tbody></table></div>',
+        "<h2>Such stones in published cohorts</h2>",
+        "<p>The fraction of stones that passed and the fraction of samples whose critical pressure "
+        "is below the limit are different quantities. An arrow marks cohorts in which 20 "
+        "percentage points more (↑) or fewer (↓) stones passed than the model's fraction. The "
+        "model's fraction of a size class is that of the samples whose stone belongs to it.</p>",
+        '<div class="pair"><div>',
+        inline_svg(cohorts_figure(found), "Fractions that passed in cohorts, and the model's"),
+        "</div><div>",
+        "<p>The same for other sizes of the stone: the curve is the model's fraction, and every "
+        "grey line is a size class of a cohort. What counts as the lumen changes the model's "
+        "fraction more than any other input: excised and empty ureters are much narrower than "
+        "ureters in contrast CT.</p>",
+        inline_svg(sizes_figure(found), "The model's fraction and the cohorts' over stone size"),
+        "</div></div>",
+        f"<table><thead>{head}</thead><tbody>{body}</tbody></table>{none}",
     ]
 
 
-def _passed(found: Assessment, row: Row) -> str:
-    days = "" if row.days is None else f"{row.days:g} days"
-    if row.passed is None:
-        return escape(f"{row.group}: {days}")
-    fraction = found.beside(row)
-    word = contradiction(row.passed, fraction)
-    model = "" if fraction is None else f" ({fraction.describe()})"
-    text = escape(f"{row.group}: {round(100 * row.passed)} %{', ' + days if days else ''}{model}")
-    return f'<span class="off">{text} {FAR[word]}</span>' if word in FAR else text
+def _cohort(found: Assessment, name: str) -> str:
+    """Return the rows of a cohort in the table, the first with what the cohort is."""
+    rows = [row for row in found.cohorts if row.cohort.name == name]
+    about = f"<b>{escape(name)}</b> {escape(rows[0].cohort.about)}"
+    return f'<tr class="group"><td colspan="3">{about}</td></tr>' + "".join(
+        f"<tr><td>{escape(row.group)}</td><td>{_passed(row)}</td><td>{_model(found, row)}</td></tr>"
+        for row in rows
+    )
 
 
-def _warnings(found: Assessment) -> list[str]:
-    sentences = [str(each) for each in found.warnings]
-    return ["<h2>What to keep in mind</h2>", _list(sentences)] if sentences else []
+def _passed(row: Row) -> str:
+    first, *others = describe_passed(row).split(", ")
+    return escape(first) + "".join(f'<span class="about">{escape(each)}</span>' for each in others)
+
+
+def _model(found: Assessment, row: Row) -> str:
+    """Return the model's fraction for a row of a cohort, marked if both are far apart."""
+    text = escape(describe_beside(found, row))
+    return f'<span class="off">{text}</span>' if text.endswith(tuple(FAR.values())) else text
 
 
 def _sources(found: Assessment) -> list[str]:
-    cohorts = {row.cohort.name: row.cohort for row in found.cohorts}
-    sources = "; ".join(
-        f"{each.name}: {each.source}" + (" (quoted elsewhere)" if each.read == "quoted" else "")
-        for each in cohorts.values()
-    )
-    limits = "; ".join(
-        f"{each.pressure / 1e3:g} kPa: {each.what} ({each.source})" for each in LIMITS
-    )
+    cohorts = [
+        f"{each.name}: {each.source}"
+        + (" (numbers read in a source that quotes it)" if each.read == "quoted" else "")
+        for each in COHORTS
+    ]
+    limits = [f"{each.pressure / 1e3:g} kPa: {each.what} ({each.source})" for each in LIMITS]
     return [
+        '<section class="sources">',
         "<h2>Sources</h2>",
-        '<div class="sources">'
-        + _list([f"Cohorts: {sources}.", f"Pressures (dotted lines): {limits}."])
-        + "</div>",
+        "<p>Cohorts. Mostly abstracts were read, not whole papers. “Unverified” means that no "
+        "citable publication is known.</p>",
+        _list(cohorts),
+        "<p>Published urine pressures, which are the dotted lines of the figure.</p>",
+        _list(limits),
+        "</section>",
     ]
 
 
 def _how(found: Assessment) -> str:
     patient = found.patient
     if found.samples is None:
-        return f"{found.solves} solves."
+        return f"{found.solves} cases were solved."
     return (
-        f"{len(found.samples.critical)} samples, seed {patient.seed}, of a response surface "
-        f"through {found.solves} solves, off by up to {found.surface_error:.1%} in 95 of 100 "
-        f"places (one solve left out at a time); {found.possible:.0%} of the draws describe a "
-        f"possible wall. Noise of the samples (one standard error): {noise_in_words(found)}."
+        f"How it was computed: {len(found.samples.critical)} samples (seed {patient.seed}) of a "
+        f"response surface through {found.solves} solved cases. The error of the surface is at "
+        f"most {found.surface_error:.1%} in 95 % of the cases, as measured by leaving out one case "
+        f"at a time. {found.possible:.0%} of the random draws describe a possible wall. Standard "
+        f"error by the number of samples: {noise_in_words(found)}."
     )
 
 
 def _list(sentences: Sequence[str]) -> str:
-    return "<ul>" + "".join(f"<li>{escape(each)}</li>" for each in sentences) + "</ul>"
+    return "<ul>" + "".join(f"<li>{_linked(each)}</li>" for each in sentences) + "</ul>"
+
+
+def _linked(text: str) -> str:
+    """Return escaped text in which every DOI is a link."""
+    return _DOI.sub(
+        lambda found: f'<a href="https://doi.org/{found[1]}">doi:{found[1]}</a>', escape(text)
+    )

@@ -1,4 +1,4 @@
-"""Closures side by side: a table, a figure, and the map of their errors."""
+"""Comparison of closures: a table, a figure, and a map of their errors."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ __all__ = ["closures_figure", "closures_table", "map_figure"]
 
 
 def closures_table(found: ClosureComparison) -> Table:
-    """P_ucr of every closure, and how far it is from the direct model."""
+    """Return a table of P_ucr by every closure, with its difference from the direct model."""
     case = found.case
     table = Table(
         box=box.SIMPLE_HEAD,
@@ -37,7 +37,7 @@ def closures_table(found: ClosureComparison) -> Table:
         f"friction {case.stone.friction:g} · {case.ureter.material.name}",
         title_justify="left",
     )
-    for name in ("closure", "kPa", "against direct"):
+    for name in ("closure", "kPa", "difference from direct"):
         table.add_column(name, justify="left" if name == "closure" else "right")
     for name, text in CLOSURES.items():
         pressure, error = found.pressures[name], found.error(name)

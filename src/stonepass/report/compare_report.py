@@ -1,4 +1,4 @@
-"""The results of CalculiX beside our own: table and figure."""
+"""Results of CalculiX and of stonepass for the same case: table and figure."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def compare_table(found: Comparison) -> Table:
     """Return a table of the numbers of both programs and their relative differences."""
     table = Table(box=box.SIMPLE_HEAD, title=case_title(found.answer.case))
     table.add_column("")
-    for name in ("stonepass", "solver error", "CalculiX", "difference"):
+    for name in ("stonepass", "discretisation error", "CalculiX", "difference"):
         table.add_column(name, justify="right")
     ours, theirs, error = found.seated, found.contact, found.answer.error
     angle = np.degrees(ours.contact_angle), np.degrees(theirs.contact_angle)

@@ -14,14 +14,14 @@ from stonepass.materials.known_laws import name_of_law
 
 __all__ = ["fit_table"]
 
-CLOSE = 0.95  # correlation of two estimates that trade off
+CLOSE = 0.95  # correlation from which two constants are not determined separately
 
 
 def fit_table(found: FittedLaw) -> Table:
-    """Constants with their intervals, and how well they meet the data."""
+    """Return a table of the constants with confidence intervals, and of the residuals."""
     title = f"{name_of_law(found.material.law)}, {len(found.predicted)} points"
     table = Table(box=box.SIMPLE_HEAD, title=Text(title), title_justify="left")
-    interval = "95 % interval" + ", approximate" * found.approximate
+    interval = "95 % confidence interval" + ", approximate" * found.approximate
     for name in ("", "value", interval):
         table.add_column(name)
     for each in found.constants:
@@ -31,7 +31,9 @@ def fit_table(found: FittedLaw) -> Table:
     table.add_row("R²", f"{found.r_squared:.4f}", "")
     for (one, other), value in found.correlations.items():
         if abs(value) > CLOSE:
-            table.add_row(f"{one}, {other}", f"{value:+.3f}", "correlation: they trade off")
+            table.add_row(
+                f"{one}, {other}", f"{value:+.3f}", "correlation; not determined separately"
+            )
     low, high = found.data.strain_range
     table.add_row("stretches", f"{low:.4g} to {high:.4g}", "")
     table.add_row("stable", "no" if found.unstable else "yes", found.unstable)

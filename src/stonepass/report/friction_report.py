@@ -8,7 +8,7 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["friction_table"]
 
@@ -16,7 +16,7 @@ MICRO = 1e6  # µm per m
 
 
 def friction_table(found: SurfaceFriction, image: str) -> Table:
-    """The result, what it was computed from, and how it moves with what was chosen."""
+    """Return a table of the result, of its inputs, and of its spread over the analysis choices."""
     table = Table(box=box.SIMPLE_HEAD, title=Text(f"Friction of {image}"), title_justify="left")
     for name in ("", "value", ""):
         table.add_column(name)
@@ -31,43 +31,47 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
     first, rest, rough, spread = (
         found.baseline, found.deviation_baseline, found.roughness, found.spread,
     )  # fmt: skip
-    sd = "spread not known" if spread.sd is None else f"± {spread.sd:.2g} by what was chosen"
+    sd = (
+        "spread unknown"
+        if spread.sd is None
+        else f"± {spread.sd:.2g} (spread over analysis choices)"
+    )
     pixel = f"{across:.4g} µm" if across == down else f"{across:.4g} × {down:.4g} µm"
     rows = [
         ("friction coefficient", f"{found.friction:.3f}", sd),
         ("slope k0", f"{found.k0:.3f}",
-         f"of waves over {first.wavelength * MICRO:.3g} µm (order {first.order})"),
+         f"wavelengths above {first.wavelength * MICRO:.3g} µm (order {first.order})"),
         ("slope k1", f"{found.k1:.3f}",
-         f"of waves over {rest.wavelength * MICRO:.3g} µm (order {rest.order})"),
-        ("friction by RMS slope", f"{rough.RdeltaQ:.3f}", "of single profiles, pixel by pixel"),
-        ("Ra, Rq", f"{rough.Ra * MICRO:.3g}, {rough.Rq * MICRO:.3g} µm", "of single profiles"),
+         f"wavelengths above {rest.wavelength * MICRO:.3g} µm (order {rest.order})"),
+        ("friction by RMS slope", f"{rough.RdeltaQ:.3f}", "single profiles, from pixel to pixel"),
+        ("Ra, Rq", f"{rough.Ra * MICRO:.3g}, {rough.Rq * MICRO:.3g} µm", "single profiles"),
         ("height range", _height_range(found), ""),
         ("tilt", f"{degrees(found.tilt):.2f}°", _levelled(found)),
         ("pixel", pixel, "; ".join((found.picture.pixel_source, *found.picture.notes))),
-        ("paths", f"{len(found.paths)}", f"of {found.distance[-1] * MICRO:.4g} µm"),
+        ("profiles", f"{len(found.paths)}", f"each {found.distance[-1] * MICRO:.4g} µm long"),
     ]  # fmt: skip
     if spread.paths:
-        rows.append(("without one path", _between(spread.paths), ""))
+        rows.append(("leaving out one profile", _between(spread.paths), ""))
     orders = ", ".join(f"{order}: {_shown(mu)}" for order, mu in spread.orders)
-    rows.append(("by baseline order", _between([mu for _, mu in spread.orders]), orders))
+    rows.append(("range over baseline orders", _between([mu for _, mu in spread.orders]), orders))
     if spread.height_range:
         scalings = ", ".join(f"{how}: {_shown(mu)}" for how, mu in spread.height_range)
         rows.append(
-            ("by scaling of grey", _between([mu for _, mu in spread.height_range]), scalings)
+            ("range over grey scalings", _between([mu for _, mu in spread.height_range]), scalings)
         )
     margins = ", ".join(f"{margin:g}: {_shown(mu)}" for margin, mu in spread.margins)
-    rows.append(("by margin at the ends", _between([mu for _, mu in spread.margins]),
+    rows.append(("range over end margins", _between([mu for _, mu in spread.margins]),
                  f"{margins} (in shortest waves; used: {first.margin:g})"))  # fmt: skip
     return rows
 
 
 def _levelled(found: SurfaceFriction) -> str:
-    """Say whether the surface was levelled, and what that does to the friction coefficient."""
+    """Say whether the surface was levelled, and how that changes the friction coefficient."""
     if found.levelled:
         return "the least-squares plane is subtracted"
     if found.friction_levelled is None:
         return "not levelled"
-    return f"not levelled; with --level the friction coefficient is {found.friction_levelled:.3f}"
+    return f"not levelled; --level gives a friction coefficient of {found.friction_levelled:.3f}"
 
 
 def _between(values: list[float] | tuple[float, ...]) -> str:
@@ -80,4 +84,8 @@ def _shown(value: float) -> str:
 
 
 def _height_range(found: SurfaceFriction) -> str:
-    return "its own" if found.height_range is None else f"{found.height_range * MICRO:.4g} µm"
+    return (
+        "given by the file"
+        if found.height_range is None
+        else f"{found.height_range * MICRO:.4g} µm"
+    )

@@ -1,4 +1,4 @@
-"""A measured series beside the model as tables."""
+"""A measured series and the model as tables."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from stonepass.report.table import significant
 
 __all__ = ["invitro_table"]
 
-CLOSE = 0.9  # correlation of two estimates that trade off
-ROWS = 40  # of points in a terminal
+CLOSE = 0.9  # correlation from which two estimates are not determined separately
+ROWS = 40  # points that a terminal shows
 
 
 def invitro_table(found: InVitro) -> list[Table]:
-    """The points beside the model, and what the series says of friction and stiffness."""
+    """Return a table of the points and the model, and one of the fitted numbers."""
     return [_points(found), _fits(found)]
 
 
@@ -24,7 +24,14 @@ def _points(found: InVitro) -> Table:
     comparison = found.comparison
     title = f"{escape(found.setting.material.name)} · friction {comparison.friction:.3g}"
     table = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left")
-    for name in ("ξ", "η", "P_out kPa", "measured kPa", "model kPa", "model/measured − 1"):
+    for name in (
+        "ξ",
+        "η",
+        "P_out kPa",
+        "measured kPa",
+        "model kPa",
+        "(model − measured) / measured",
+    ):
         table.add_column(name, justify="right")
     pairs = list(zip(comparison.points, comparison.answers, strict=True))
     for point, answer in pairs[:ROWS]:
@@ -45,26 +52,26 @@ def _points(found: InVitro) -> Table:
 
 def _fits(found: InVitro) -> Table:
     table = Table(box=box.SIMPLE_HEAD)
-    for name in ("", "value", "95 % interval"):
+    for name in ("", "value", "95 % confidence interval"):
         table.add_column(name)
     here = found.comparison
     share = f"{here.compared} of {len(here.points)} points"
     if here.bias is not None and here.rmse is not None:
-        table.add_row("bias, model less measured", f"{here.bias / 1e3:+.3g} kPa", share)
+        table.add_row("mean residual (model − measured)", f"{here.bias / 1e3:+.3g} kPa", share)
         table.add_row("RMSE", f"{here.rmse / 1e3:.3g} kPa", "")
     if here.r_squared is not None:
         table.add_row("R²", f"{here.r_squared:.4f}", "")
-    table.add_row("friction that fits", f"{found.friction.value:.3g}", _interval(found.friction))
+    table.add_row("fitted friction", f"{found.friction.value:.3g}", _interval(found.friction))
     joint = found.joint
     if joint is None:
         return table
     table.add_section()
-    table.add_row("with stiffness unknown: friction", f"{joint.friction.value:.3g}",
+    table.add_row("friction, fitted with stiffness", f"{joint.friction.value:.3g}",
                   _interval(joint.friction))  # fmt: skip
-    table.add_row("stiffness, times the material's", f"{joint.stiffness.value:.3g}",
+    table.add_row("stiffness over the material's", f"{joint.stiffness.value:.3g}",
                   _interval(joint.stiffness))  # fmt: skip
     if joint.correlation is not None:
-        told = "they trade off" if abs(joint.correlation) > CLOSE else ""
+        told = "not determined separately" if abs(joint.correlation) > CLOSE else ""
         table.add_row("correlation of the two", f"{joint.correlation:+.3f}", told)
     return table
 

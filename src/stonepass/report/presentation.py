@@ -36,7 +36,7 @@ from stonepass.records.size import size_record
 from stonepass.report import plots
 from stonepass.report.answer_figure import answer_figure
 from stonepass.report.assess_figure import pressures_figure
-from stonepass.report.assess_report import assess_tables
+from stonepass.report.assess_report import assess_summary, assess_tables
 from stonepass.report.closures_report import closures_figure, closures_table
 from stonepass.report.curve_figure import curve_figure
 from stonepass.report.fit_figure import fit_figure
@@ -49,11 +49,17 @@ from stonepass.report.printing import Part, as_html, as_text
 from stonepass.report.rising_report import rising_figure, rising_table
 from stonepass.report.style import FORMATS
 from stonepass.report.style import save as save_figure
-from stonepass.report.table import curve_table, grouped_warnings, pressure_table, size_table
+from stonepass.report.table import (
+    curve_table,
+    grouped_warnings,
+    pressure_tables,
+    size_message,
+    size_tables,
+)
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["SHOWN", "Shown", "figure", "html", "plot", "record", "rows", "save", "text"]
 
@@ -204,7 +210,7 @@ def _without(document: Row, key: str) -> Row:
     return {name: value for name, value in document.items() if name != key}
 
 
-def _sentence(answer: Answer | SizeAnswer) -> str:
+def _sentence(answer: Answer) -> str:
     return f"{answer.outcome.name}: {answer.message}"
 
 
@@ -226,7 +232,7 @@ def _series_figure(found: InVitro) -> Figure:
 SHOWN: dict[type, Shown] = {
     Answer: Shown(
         record=lambda found: answer_record(found).to_dict(),
-        parts=lambda found: [pressure_table(found), _sentence(found)],
+        parts=lambda found: [*pressure_tables(found), _sentence(found)],
         warnings=_own,
         plot=plots.plot_answer,
         figure=answer_figure,
@@ -234,7 +240,10 @@ SHOWN: dict[type, Shown] = {
     ),
     SizeAnswer: Shown(
         record=lambda found: size_record(found).to_dict(),
-        parts=lambda found: [size_table(found), _sentence(found)],
+        parts=lambda found: [
+            *size_tables(found),
+            f"{found.outcome.name}: {size_message(found)}",
+        ],
         warnings=_own,
         plot=plots.plot_size,
         figure=_size_figure,
@@ -288,7 +297,7 @@ SHOWN: dict[type, Shown] = {
     ),
     Assessment: Shown(
         record=lambda found: assess_record(found, "").to_dict(),
-        parts=lambda found: [*assess_tables(found), found.message],
+        parts=lambda found: [*assess_summary(found), *assess_tables(found), found.message],
         warnings=_own,
         plot=plots.plot_assessment,
         figure=pressures_figure,

@@ -1,4 +1,4 @@
-"""A held stone under rising pressure: a table, a picture, an animation."""
+"""A held stone under rising urine pressure: table, figure and animation."""
 
 from __future__ import annotations
 
@@ -46,9 +46,17 @@ NEARLY_WHITE = 248  # of 255; the ground of the figure stays white
 
 
 def rising_table(rising: Rising) -> Table:
-    """A held stone under rising pressure: one row per pressure."""
+    """Return a table of a held stone with one row for each urine pressure."""
     table = Table(box=box.SIMPLE_HEAD, title=case_title(rising.critical.case), title_justify="left")
-    for name in ("urine kPa", "net force kPa", "contact", "seal", "peak kPa", "r_a/R_a", "σ − σ⁰"):
+    for name in (
+        "urine kPa",
+        "net force kPa",
+        "contact",
+        "seal",
+        "peak kPa",
+        "upstream radius ratio",
+        "deviation from seated",
+    ):
         table.add_column(name, justify="right")
     for state, deviation in zip(rising.states, rising.deviation, strict=True):
         table.add_row(

@@ -1,4 +1,4 @@
-"""Quantities with an uncertainty, such as ``"5 mm ± 1 mm"`` and ``"0.05 to 0.5"``."""
+"""Quantities with an uncertainty: ``"5 mm ± 1 mm"``, ``"5 mm ± 20 %"``, ``"0.05 to 0.5"``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import lognorm, truncnorm, uniform
 
 from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
@@ -19,7 +18,10 @@ __all__ = ["UncertainQuantity", "measured_length", "measured_number"]
 _PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
 _UNIT = re.compile(r"[A-Za-zµμ%°][^\s]*$")
-EXAMPLE = {True: "'5 mm ± 1 mm' or '3 mm to 4 mm'", False: "'0.3 ± 0.1' or '0.05 to 0.5'"}
+EXAMPLE = {
+    True: "'5 mm ± 1 mm', '5 mm ± 20 %' or '3 mm to 4 mm'",
+    False: "'0.3 ± 0.1', '0.3 ± 30 %' or '0.05 to 0.5'",
+}
 LONGEST = 100  # largest number of characters of a text
 FARTHEST = 6.0  # largest distance from the mean in standard deviations
 
@@ -62,6 +64,8 @@ class UncertainQuantity:
     @property
     def distribution(self) -> Any:
         """Distribution as a frozen distribution of `scipy.stats`; not for an exact value."""
+        from scipy.stats import lognorm, truncnorm, uniform  # takes a second to load
+
         if self.sd is None:
             return uniform(self.low, self.high - self.low)
         if self.factor:
@@ -100,7 +104,7 @@ def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Un
     Parameters
     ----------
     text : str
-        A text such as ``"5 mm ± 1 mm"`` or ``"3 mm to 4 mm"``.
+        A text such as ``"5 mm ± 1 mm"``, ``"5 mm ± 20 %"`` or ``"3 mm to 4 mm"``.
     argument : str
         Name of the quantity in messages.
     bounds : (float, float)
@@ -126,7 +130,7 @@ def measured_number(
     Parameters
     ----------
     text : str
-        A text such as ``"0.3 ± 0.1"`` or ``"0.05 to 0.5"``.
+        A text such as ``"0.3 ± 0.1"``, ``"0.3 ± 30 %"`` or ``"0.05 to 0.5"``.
     argument : str
         Name of the quantity in messages.
     bounds : (float, float)
@@ -170,13 +174,12 @@ def _read(
     if found is None:
         raise _unreadable(argument, text, lengths=lengths)
     parts = [part.strip() for part in found.groups()]
+    relative = spread is not None and parts[1].endswith("%")
     unit = _UNIT.search(parts[1])
-    if lengths and unit is not None and _UNIT.search(parts[0]) is None:
+    if lengths and not relative and unit is not None and _UNIT.search(parts[0]) is None:
         parts[0] += f" {unit[0]}"  # 5 ± 1 mm
-    if spread and parts[1].endswith("%"):
-        raise BadInput(argument, text, "a value with an absolute uncertainty, not in per cent",
-                       f"write it like {EXAMPLE[lengths]}")  # fmt: skip
-    first, second = (read(part) for part in parts)
+    first = read(parts[0])
+    second = first * _percentage(parts[1], argument, text) if relative else read(parts[1])
     low, high = bounds
     shown = [format_length(bound) if lengths else f"{bound:g}" for bound in bounds]
     allowed = f"from {shown[0]} to {shown[1]}"
@@ -186,6 +189,14 @@ def _read(
         return UncertainQuantity(first, second, low, high)
     require(first <= second <= high, argument, text, f"a rising range {allowed}")
     return UncertainQuantity((first + second) / 2.0, None, first, second)
+
+
+def _percentage(part: str, argument: str, text: str) -> float:
+    """Read ``20 %`` as 0.2."""
+    try:
+        return float(part.removesuffix("%")) / 100.0
+    except ValueError:
+        raise BadInput(argument, text, "followed by a number in percent, e.g. ± 20 %") from None
 
 
 def _unreadable(argument: str, text: str, *, lengths: bool) -> BadInput:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from stonepass.export.contract import Export, Limit, Writer
+from stonepass.export.input_options import FROM_CONTACT
 
 if TYPE_CHECKING:  # these modules load NumPy and SciPy
     from stonepass.model.answer import Answer
@@ -41,4 +42,5 @@ VTU = Writer(
     description="solved wall with its stress, for ParaView",
     write=_write,
     limits={"model": Limit(("paper", "direct"), "a beam has no solved wall")},
+    ignores=FROM_CONTACT,
 )

@@ -70,7 +70,7 @@ class ElasticFoundation:
     circumferential_modulus: Pressure | str | None = declared(
         Kind.PRESSURE,
         "--E1",
-        "Young's modulus of the fibres round the tube.",
+        "Young's modulus of the wall around the tube.",
         default=None,
         bounds=MODULUS,
         metavar="PRESSURE",
@@ -78,7 +78,7 @@ class ElasticFoundation:
     longitudinal_modulus: Pressure | str | None = declared(
         Kind.PRESSURE,
         "--E2",
-        "Young's modulus of the fibres along the tube.",
+        "Young's modulus of the wall along the tube.",
         default=None,
         bounds=MODULUS,
         metavar="PRESSURE",
@@ -86,7 +86,7 @@ class ElasticFoundation:
     secant_stretch: float | None = declared(
         Kind.NUMBER,
         "--secant-stretch",
-        "Take both moduli as secants of the wall's law at this stretch.",
+        "Take both moduli as secant moduli of the material at this stretch.",
         default=None,
         bounds=STRETCH,
     )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -13,18 +11,16 @@ from stonepass.caution import caution
 from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.materials.protocol import Law
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.answer import Answer, Quantity, unanswered
 from stonepass.model.closure import (
     ORDER,
-    Series,
+    Closure,
     first_radius,
     fit_series,
-    linear_closure,
     series_through,
 )
-from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
+from stonepass.model.far_field import far_field_law, lumen_ratio
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
@@ -37,7 +33,7 @@ from stonepass.model.stone import FRICTION
 from stonepass.model.validity import ring_buckling, soft_law, strain_range
 from stonepass.units import Values
 
-__all__ = ["Closure", "SeatedBalance", "SeatedBalanceDetail", "balance", "balance_pressure"]
+__all__ = ["SeatedBalance", "SeatedBalanceDetail", "balance", "balance_pressure"]
 
 # Range of an admissible series closure: smallest r_a/R_a and largest r_a/R_s.
 SMALLEST_OPENING, LARGEST_OPENING = 0.5, 2.0
@@ -91,7 +87,8 @@ class SeatedBalance:
     seating: str = declared(
         Kind.CHOICE,
         "--seating",
-        "How the stone is brought into the wall.",
+        "How the stone was seated: pressed in along the ureter, without friction, or by growing in "
+        "its place.",
         default="pressed",
         choices=SEATINGS,
     )
@@ -121,19 +118,20 @@ class SeatedBalance:
     closure: str = declared(
         Kind.CHOICE,
         "--closure",
-        "Eq. 15 (linear), or the series of Eqs 13-14, fitted.",
+        "Closure of the opening wall: linear in the width of the stone (Eq. 15), or a fitted "
+        "series (Eqs 13-14).",
         default="linear",
         choices=("linear", "series"),
     )
     series_order: int = declared(
-        Kind.WHOLE, "--series-order", "Order of the series closure.", default=3, bounds=ORDER
+        Kind.WHOLE, "--series-order", "Order of the fitted series.", default=3, bounds=ORDER
     )
     opening_curve: OpeningCurve | None = declared(
         Kind.OPENING_CURVE,
         "--opening-curve",
-        "Table with the angles and radii to which the series is fitted: alpha_deg, radius_ratio.",
+        "Points that the series is fitted to, in the columns alpha_deg and radius_ratio.",
         default=None,
-        shown_default="loaded states of the case",
+        shown_default="computed loaded states",
         metavar="FILE.csv",
     )
     far_field_ground: bool = declared(
@@ -206,46 +204,6 @@ class SeatedBalance:
                                   seconds=did.seconds)  # fmt: skip
             closure = found
         return balance(self, case, numerics, seated, closure)
-
-
-@dataclass(frozen=True)
-class Closure:
-    """The urine pressure as a function of the angle up to which the contact has opened.
-
-    Attributes
-    ----------
-    law : Law
-        The law of the far field.
-    start : float
-        r_a/R_a at α₀ in Eq. 15.
-    series : Series or None
-        Fitted series that replaces Eq. 15; None for Eq. 15.
-    """
-
-    law: Law
-    start: float = 1.0
-    series: Series | None = None
-
-    def pressure(self, contact: Contact, alpha: Values) -> Values:
-        """Return the urine pressure P_u(α) in Pa of the far field at the radius r_a(α) (Eq. 16).
-
-        Parameters
-        ----------
-        contact : Contact
-            The seated contact; it supplies α₀ and the case.
-        alpha : float or array
-            Angle in rad up to which the contact has opened, from α₀ to π/2.
-        """
-        case, width = contact.case, contact.case.stone.shape.width
-        shape: Callable[[Values, float, float], Values]
-        shape = self.series or partial(linear_closure, start=self.start)
-        first = float(width(np.array(contact.contact_angle)))
-        radius = shape(width(np.asarray(alpha)), first, case.size_ratio)
-        return urine_pressure(radius, case.wall_ratio, self.law, case.load)
-
-    def end_pressure(self, contact: Contact) -> float:
-        """Return P_u(π/2) in Pa, at which the closure ends; this is not a physical bound."""
-        return float(self.pressure(contact, np.array(np.pi / 2)))
 
 
 @dataclass(frozen=True)

@@ -93,7 +93,8 @@ def _command(name, command, context, level):
     for parameter in command.get_params(context):
         if (record := parameter.get_help_record(context)) is not None:
             panel = getattr(parameter, "rich_help_panel", None) or "Options"
-            panels.setdefault(panel, []).append(record)
+            option, meaning = record
+            panels.setdefault(panel, []).append((option.split(" <")[0], meaning))
     for panel, records in panels.items():
         yield from (f"| {panel.lower()} | meaning |", "| --- | --- |")
         yield from (f"| {_code(option)} | {_cell(meaning)} |" for option, meaning in records)

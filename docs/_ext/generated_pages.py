@@ -141,7 +141,14 @@ def write(app):
             path.write_text(text, encoding="utf-8")
 
 
+def link_pages(app, what, name, thing, options, lines):
+    """Link the pages that a docstring names as its source."""
+    for index, line in enumerate(lines):
+        lines[index] = re.sub(r"(?<![`\w])docs/([\w/-]+)\.md", r":doc:`docs/\1.md </\1>`", line)
+
+
 def setup(app):
     """Write the pages before anything is read."""
     app.connect("builder-inited", write)
+    app.connect("autodoc-process-docstring", link_pages)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

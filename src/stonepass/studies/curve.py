@@ -134,7 +134,7 @@ def critical_curve(
     >>> case = sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3), model=beam)
     >>> curve = sp.critical_curve(case, [1.05, 1.1])
     >>> [round(each.pressure_kPa, 2) for each in curve]
-    [1.59, 4.05]
+    [2.33, 4.86]
     """
     require_kind("case", case, Case, "Case(stone, ureter)")
     sizes = tuple(float(each) for each in size_ratios)

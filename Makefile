@@ -9,7 +9,7 @@ SPHINX = $(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --nitpicky -
 # Tests that touch every library that is depended on.
 LOWEST := cli fit imports micrograph new_laws records user_law
 
-.PHONY: help run test test-slow test-all test-lowest lint docs docs-links verify bench lock clean
+.PHONY: help run test test-slow test-all test-lowest lint docs figures docs-links verify bench lock clean
 
 help: ## list the commands
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 11
@@ -38,6 +38,9 @@ docs: $(VENV)/.dev ## build the documentation site in docs/_build/html; runs its
 	$(SPHINX) -b html docs docs/_build/html
 	$(SPHINX) -b doctest docs docs/_build/doctest
 	$(BIN)/python docs/check_offline.py docs/_build/html
+
+figures: $(VENV)/.dev ## draw the figures of the documentation that are out of date; takes minutes for the paper's
+	$(BIN)/python docs/make_figures.py
 
 docs-links: $(VENV)/.dev ## check the links of the documentation to other sites
 	$(SPHINX) -b linkcheck docs docs/_build/links

@@ -51,8 +51,15 @@ autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 default_role = "code"
+smartquotes = False  # --option stays --option
 # The names that a docstring of the package finds in its own module.
-doctest_global_setup = "import numpy as np; import stonepass as sp; from stonepass import *"
+doctest_global_setup = """
+from pathlib import Path
+import numpy as np
+import stonepass as sp
+from stonepass import *
+from stonepass.export import *
+"""
 
 html_theme = "furo"
 html_title = f"stonepass {version}"

@@ -36,6 +36,7 @@ from stonepass.report import (
     invitro_figure,
     push_figure,
     revolve,
+    rising_report,
     section,
     stone,
     style,
@@ -67,6 +68,7 @@ class Figure:
         Name of the figure in the folder of a paper.
     before : tuple of commands
         Commands that write what the command reads.
+    ending : {"svg", "gif"}
     """
 
     command: tuple[str, ...]
@@ -74,6 +76,7 @@ class Figure:
     inputs: tuple[str, ...] = ()
     made: str = ""
     before: tuple[tuple[str, ...], ...] = ()
+    ending: str = "svg"
 
 
 FIGURES = {
@@ -82,6 +85,11 @@ FIGURES = {
     ),
     "push": Figure(
         ("pressure", *EXAMPLE, "--model", "direct", "--figure", "OUT"), (push_figure, *SECTIONS)
+    ),
+    "rise": Figure(
+        ("push", *TUBE, "--animation", "OUT"),
+        (rising_report.animation_frames, rising_report._palette, push_figure, *SECTIONS),
+        ending="gif",
     ),
     "fit": Figure(
         ("fit", "tensile", "examples/ureter_tensile.csv", "--law", "fung", "--fix", "G=12kPa",
@@ -141,9 +149,14 @@ def digest(figure):
     return hashlib.sha256("\0".join((*parts, code_digest(sources))).encode()).hexdigest()
 
 
+def file_of(name):
+    """Return the file of a figure."""
+    return IMAGES / f"{name}.{FIGURES[name].ending}"
+
+
 def entry(name):
     """Return what the manifest says of a figure: the digests of its origin and of its file."""
-    drawn = hashlib.sha256((IMAGES / f"{name}.svg").read_bytes()).hexdigest()
+    drawn = hashlib.sha256(file_of(name).read_bytes()).hexdigest()
     return {"drawn_from": digest(FIGURES[name]), "file": drawn}
 
 
@@ -151,9 +164,7 @@ def stale():
     """Return the names of the figures whose files are missing, changed, or drawn by older code."""
     known = json.loads(MANIFEST.read_text(encoding="utf-8"))
     return [
-        name
-        for name in FIGURES
-        if not (IMAGES / f"{name}.svg").is_file() or known.get(name) != entry(name)
+        name for name in FIGURES if not file_of(name).is_file() or known.get(name) != entry(name)
     ]
 
 
@@ -161,7 +172,7 @@ def draw(name):
     """Draw a figure by its command."""
     figure = FIGURES[name]
     with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / ((figure.made and "paper") or f"{name}.svg")
+        out = Path(folder) / ("paper" if figure.made else file_of(name).name)
         if figure.command:
             words = {
                 "OUT": str(out),
@@ -176,7 +187,7 @@ def draw(name):
         else:
             _draw_map(ROOT / figure.inputs[0], out)
         drawn = out / figure.made if figure.made else out
-        shutil.copyfile(drawn, IMAGES / f"{name}.svg")
+        shutil.copyfile(drawn, file_of(name))
 
 
 def _draw_map(table, out):
@@ -196,9 +207,11 @@ def _draw_map(table, out):
 def main():
     """Draw the figures that are named, or those that are out of date."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)}")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="default: all stale ones")
     parser.add_argument("--check", action="store_true", help="draw nothing; name what is stale")
     given = parser.parse_args()
+    if unknown := sorted(set(given.names) - set(FIGURES)):
+        parser.error(f"no figure is named {', '.join(unknown)}; known: {', '.join(FIGURES)}")
     outdated = stale()
     if given.check:
         print("\n".join(outdated) or "all figures are up to date")

@@ -148,7 +148,7 @@ def test_lines_before_the_table_and_a_row_of_units(tmp_path, text):
             "stretch,stress_kPa\n-,MPa\n1,0\n",
             "row 2, the unit of column 'stress_kPa' is MPa, but must be kPa; convert the values",
         ),
-        ("stretch,stress_kPa\n%,kPa\n1,0\n", "column 'stretch' is %, but must be none, as the"),
+        ("stretch,stress_kPa\n%,kPa\n1,0\n", "column 'stretch' is %, but must be empty, since the"),
         ("report\nLoad_N;Extension_mm\nN;mm\n1;2\n", "column is Load_N, but must be one of"),
         ("a report\nwithout a table\n", "column is a report, but must be one of"),
         ("stretch,stress_kPa\n-,-\n1,0\n", "row 2, column 'stretch' is -, but must be a number"),

@@ -137,7 +137,7 @@ def test_a_header_alone(tmp_path, kind):
         ("inflation", "3.64", "0", ("row 3, column 'inner_diameter_mm' is 0", "a number from 0.001 to 1000")),
         ("inflation", "3.64", "0x3", ("row 3, column 'inner_diameter_mm' is 0x3",)),
         ("outer diameters", "4.7,1", "4.7,0.4", ("row 4, column 'axial_stretch' is 0.4", "a number from 0.5 to 3")),
-        ("outer diameters", "4.7,1", "2.5,1", ("row 4", "outer_diameter_mm", "2.5", "the wall has room inside it")),
+        ("outer diameters", "4.7,1", "2.5,1", ("row 4", "outer_diameter_mm", "2.5", "large enough for the volume of the wall")),
         ("points", "1.2,1.5,0,44.3597", "1.2,1.5,0,1e400", ("row 3, column 'pressure_kPa' is 1e400", "a number from 0 to 1000")),
         ("points", "1.2,1.5,0", "1.2,1.01,0", ("row 3, column 'eta' is 1.01", "a number from 1.02 to 10")),
         ("points", "1.2,1.5,0", "-1.2,1.5,0", ("row 3, column 'xi' is -1.2", "a number from 0.1 to 3")),
@@ -179,7 +179,7 @@ def test_a_row_that_is_there_twice(tmp_path, kind, ends):
     row, same = len(lines) + 2, len(lines) - 1
     has(
         sentence,
-        f"in {KINDS[kind].file}, row {row} is the same as row {same}",
+        f"in {KINDS[kind].file}, row {row} is equal to row {same}",
         "leave one of them out",
     )
 
@@ -279,7 +279,7 @@ def test_line_ends_and_a_byte_order_mark_are_read(tmp_path, kind, ends):
         ("yeoh law", 'source = "a test"', "", ("'source' is missing",)),
         ("yeoh law", 'source = "a test"', 'source = ""', ("'source' is empty", "not empty")),
         ("patient", 'diameter = "5 mm ± 1 mm"', "", ("'stone.diameter' is missing",)),
-        ("patient", 'wall_thickness = "0.7 ± 0.15 mm"', "", ("wall of the ureter is missing", "as outer_diameter or wall_thickness")),
+        ("patient", 'wall_thickness = "0.7 ± 0.15 mm"', "", ("wall of the ureter is missing", "as either outer_diameter or wall_thickness")),
         ("patient", "[assessment]", "[assessment]\nlimit = '1 kPa'", ("valid TOML", "line")),
         # Units
         ("case", "4.2 mm", "4.2", ("'stone.diameter' is 4.2", "a length with its unit")),

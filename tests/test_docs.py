@@ -83,13 +83,13 @@ def test_the_code_names_sections_that_exist():
         for page, title in after + before:
             found += 1
             assert title in headings(DOCS / page), f"{path.name}: {page} has no section {title!r}"
-    assert found >= 3
+    assert found > 50
 
 
 def test_links_lead_somewhere():
     """Files and anchors of relative links; the build of the site checks its own pages too."""
     found = 0
-    for path in [*PAGES, *(each for each in READ_FIRST if each.exists())]:
+    for path in [*PAGES, *READ_FIRST]:
         for target in re.findall(r"\]\(([^)\s]+)\)", text_of(path)):
             if re.match(r"[a-z]+:", target) or "generated/" in target:
                 continue
@@ -104,7 +104,7 @@ def test_links_lead_somewhere():
 
 def test_the_pages_use_standard_words():
     assert len(PAGES) >= 15
-    for path in [*PAGES, *(each for each in READ_FIRST if each.exists())]:
+    for path in [*PAGES, *READ_FIRST]:
         if path.name in WRITTEN_BY_RUNS:
             continue
         text = " ".join(text_of(path).lower().split())
@@ -128,7 +128,7 @@ def test_the_glossary_is_sorted_and_its_words_are_in_use():
     elsewhere = " ".join(
         text_of(path)
         for path in [*PAGES, *READ_FIRST, *Path(stonepass.__file__).parent.rglob("*.py")]
-        if path.name != "glossary.md" and path.exists()
+        if path.name != "glossary.md"
     ).lower()
     elsewhere = " ".join(elsewhere.split())
     for term in (word for each in terms for word in each.split(", ")):

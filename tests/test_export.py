@@ -26,8 +26,9 @@ from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.protocol import Material
 from stonepass.materials.yeoh import Yeoh
+from stonepass.model.closure import Closure
 from stonepass.model.far_field import far_field_law, lumen_ratio
-from stonepass.model.models.seated_balance import Closure, balance_pressure
+from stonepass.model.models.seated_balance import balance_pressure
 from stonepass.model.states.nondimensional import profile_of
 
 pytestmark = pytest.mark.usefixtures("shared_solutions")

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from options import asking
+from scipy.stats import t as student
 
 import stonepass as sp
 from stonepass.bench.law_fit import fit_law
@@ -252,7 +253,7 @@ def test_the_command(tmp_path, capsys):
     assert "C, a1111" in shown
     assert "given" in shown
     for more, sentence in (
-        (["--fix", "G"], "written NAME=VALUE"),
+        (["--fix", "G"], "written as NAME=VALUE"),
         (["--fix", "Q=1"], "constant of law 'fung' is Q"),
         (["--fix", "a2222=x"], "--fix a2222 is x, but must be a number"),
         (["--fix", "C=3"], "--fix C"),
@@ -292,6 +293,18 @@ def test_what_is_in_the_figure():
     }
     drawn = np.concatenate([line.get_ydata() for line in right.lines[:2]])
     np.testing.assert_allclose(np.sort(drawn), np.sort(found.residuals / 1e3))
+
+
+def test_the_band_of_a_law_that_is_linear_in_its_constant_is_exact():
+    """σ = C10 g(λ): the variance of the fitted stress is s² g²/Σ g², with n − 1 degrees of freedom."""
+    found = fit_law(tension(RUBBER, noise=0.02), "neo-hookean")
+    per_constant, count = found.predicted / found.material.law.C10, len(found.predicted)
+    scatter = np.sqrt(np.sum(found.residuals**2) / (count - 1))
+    exact = per_constant / np.linalg.norm(per_constant) * scatter * student.ppf(0.975, count - 1)
+    np.testing.assert_allclose(found.band, np.abs(exact), rtol=1e-5)
+    constant = found.constants[0]
+    half = (constant.high - constant.low) / 2.0
+    np.testing.assert_allclose(found.band, np.abs(half * per_constant), rtol=1e-2)
 
 
 @pytest.mark.slow
@@ -358,7 +371,7 @@ def test_constants_that_are_no_solid_are_given_as_such(tmp_path, capsys, fix):
         assert constant["value"] == pytest.approx(true, rel=1e-6)
         assert constant["given"] or constant["low"] <= true * (1.0 + 1e-6 * np.sign(true))
     assert record["strain_range"] == [1.1, 3.5]
-    assert "these constants, C10 0.16 MPa, C01 -0.028 MPa, are not a solid" in told
+    assert "the constants C10 0.16 MPa, C01 -0.028 MPa describe no stable solid" in told
     assert not out.exists()
 
 
@@ -529,8 +542,10 @@ def test_yeoh_without_its_third_constant_has_two(tmp_path):
 def test_stresses_in_the_wrong_unit_are_asked_about():
     """Data in MPa read as kPa: a shear modulus of 240 Pa."""
     found = fit_law(tension(NeoHookean(120.0), noise=0.01), "neo-hookean")
-    assert "the shear modulus is 24" in str(found.warnings[0])
-    assert "was the nominal stress given in MPa instead of kPa" in str(found.warnings[0])
+    assert "the fitted shear modulus is 24" in str(found.warnings[0])
+    assert "check whether the nominal stress was given in MPa instead of kPa" in str(
+        found.warnings[0]
+    )
 
 
 def test_sixty_points_at_as_many_axial_stretches_are_one_pass():

@@ -262,7 +262,7 @@ def test_constants_from_a_file(tmp_path):
         (GOOD.replace("0.4 MPa", "0.4 mm"), "must be a pressure"),
         (GOOD.replace("0.4 MPa", "-0.4 MPa"), "a positive modulus"),
         (GOOD.replace("0.7", '"0.7"'), "in law.toml, 'a1111' is 0.7"),
-        (GOOD + 'C10 = "1 kPa"\n', "absent for law 'fung'"),
+        (GOOD + 'C10 = "1 kPa"\n', "left out for law 'fung'"),
         (GOOD.replace("[1, 1.3]", "[1.3, 1]"), "low <= 1 < high"),
         ("law = \n", "valid TOML"),
     ],

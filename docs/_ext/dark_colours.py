@@ -15,6 +15,8 @@ DARK = {
     COLOURS["orange"].lower(): "#f0883e",
     COLOURS["green"].lower(): "#2fb592",
     COLOURS["pink"].lower(): "#e07fb8",
+    "#e7b9a5": "#8a5a48",  # the wall in the diagram of symbols
+    "#eef2f7": "#1f2937",  # the boxes of the map of the packages
 }
 LEAST_CONTRAST = 3.0  # of a line against the ground
 STEP = 8  # by which a colour is lightened at a time, of 255

@@ -1,4 +1,4 @@
-"""A dark version of every figure of docs/img that a page shows, for the dark theme of the site.
+"""A dark version of every figure and diagram that a page shows, for the dark theme of the site.
 
 The pages name one figure. This extension recolours it and shows the result in the dark theme alone,
 and the figure itself in the light theme alone.
@@ -20,10 +20,11 @@ class DarkFigures(SphinxTransform):
     def apply(self):
         """Write the dark versions and refer to them."""
         page = Path(self.env.doc2path(self.env.docname))
-        images, made = (Path(self.env.srcdir) / name for name in ("img", "generated/img"))
+        site = Path(self.env.srcdir).resolve()
+        folders, made = [site / name for name in ("img", "figures")], site / "generated" / "img"
         for image in list(self.document.findall(nodes.image)):
             source = (page.parent / image["uri"]).resolve()
-            if source.suffix != ".svg" or source.parent != images.resolve():
+            if source.suffix != ".svg" or source.parent not in folders:
                 continue
             made.mkdir(parents=True, exist_ok=True)
             target = made / f"{source.stem}-dark.svg"

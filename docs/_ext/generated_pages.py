@@ -4,14 +4,13 @@ import re
 from pathlib import Path
 from types import ModuleType
 
-from typer.cli import get_docs_for_click
+from typer import Context
+from typer.core import TyperGroup
 from typer.main import get_command
 
 import stonepass
 from stonepass.cli.app import app as command_line
 
-# The examples at the end of a command's help; "\b" keeps their lines apart in a terminal.
-EXAMPLES = re.compile(r"\x08\nExamples:\n((?: +\S.*\n)+)")
 # Groups of the Python interface: title, and the packages whose public names it has.
 GROUPS = {
     "Questions, cases and answers": ("model",),
@@ -80,20 +79,56 @@ def _directive(name):
 
 
 def command_line_page():
-    """Return the page of the command line, written by Typer from the application itself."""
+    """Return the page of the command line: help, options and examples of every command."""
     command = get_command(command_line)
-    with command.make_context("stonepass", ["--help"], resilient_parsing=True) as context:
-        context.resilient_parsing = False
-        text = get_docs_for_click(obj=command, ctx=context, name="stonepass", title="Command line")
-    return EXAMPLES.sub(_examples, text.replace("* `", "- `"))
+    context = Context(command, None, "stonepass")
+    return "\n".join(["# Command line", "", *_command("stonepass", command, context, 2)])
 
 
-def _examples(found):
-    """Return the examples of a command as a block of code, each after what it answers."""
-    lines = [line.strip() for line in found[1].strip().splitlines()]
-    pairs = zip(lines[::2], lines[1::2], strict=True)
-    shown = "\n".join(f"# {meaning}\n$ {command}" for command, meaning in pairs)
-    return f"**Examples**:\n\n```console\n{shown}\n```\n"
+def _command(name, command, context, level):
+    """Yield the lines of a command, and those of its sub-commands."""
+    usage = " ".join([name, *command.collect_usage_pieces(context)])
+    yield from (_paragraphs(command.help), f"```text\n{usage}\n```", "")
+    panels = {}
+    for parameter in command.get_params(context):
+        if (record := parameter.get_help_record(context)) is not None:
+            panel = getattr(parameter, "rich_help_panel", None) or "Options"
+            option, meaning = record
+            panels.setdefault(panel, []).append((option.split(" <")[0], meaning))
+    for panel, records in panels.items():
+        yield from (f"| {panel.lower()} | meaning |", "| --- | --- |")
+        yield from (f"| {_code(option)} | {_cell(meaning)} |" for option, meaning in records)
+        yield ""
+    yield _paragraphs(command.epilog)
+    for each in command.list_commands(context) if isinstance(command, TyperGroup) else ():
+        inner = command.get_command(context, each)
+        yield from ("#" * level + f" `{name} {each}`", "")
+        yield from _command(f"{name} {each}", inner, Context(inner, context, each), level + 1)
+
+
+def _paragraphs(text):
+    """Return the help of a command as Markdown; lines that are to stay as they are become code."""
+    found = []
+    for paragraph in (text or "").split("\n\n"):
+        if paragraph.startswith("\b"):
+            found.append("```text\n" + paragraph.removeprefix("\b").strip("\n") + "\n```")
+        else:
+            found.append(_prose(" ".join(paragraph.split())))
+    return "\n\n".join(found) + "\n"
+
+
+def _prose(text):
+    """Return a text with its options as code, and without anything that Markdown would read."""
+    plain = re.sub(r"([*_<>\[\]])", r"\\\1", text)
+    return re.sub(r"(?<![\w`-])(--?[a-zA-Z][\w-]*)", r"`\1`", plain)
+
+
+def _cell(text):
+    return _prose(" ".join(text.split())).replace("|", "\\|")
+
+
+def _code(text):
+    return "`" + text.replace("|", "\\|") + "`"
 
 
 def write(app):
@@ -106,7 +141,14 @@ def write(app):
             path.write_text(text, encoding="utf-8")
 
 
+def link_pages(app, what, name, thing, options, lines):
+    """Link the pages that a docstring names as its source."""
+    for index, line in enumerate(lines):
+        lines[index] = re.sub(r"(?<![`\w])docs/([\w/-]+)\.md", r":doc:`docs/\1.md </\1>`", line)
+
+
 def setup(app):
     """Write the pages before anything is read."""
     app.connect("builder-inited", write)
+    app.connect("autodoc-process-docstring", link_pages)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

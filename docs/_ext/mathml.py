@@ -1,7 +1,16 @@
-"""Equations as MathML, which browsers show without a script and without another machine."""
+"""Equations as MathML, which browsers show without a script and without another machine.
 
+Few systems have a font with the measures that subscripts and fractions need, so the site has one.
+"""
+
+import shutil
+from pathlib import Path
+
+import ziamath
 from docutils import nodes
 from latex2mathml.converter import convert
+
+FONT = Path(ziamath.__file__).parent / "fonts" / "STIXTwoMath-Regular.ttf"
 
 
 def inline(translator, node):
@@ -19,6 +28,10 @@ def block(translator, node):
 
 
 def setup(app):
-    """Register the renderer."""
+    """Register the renderer, and put the font where the site finds it."""
+    folder = Path(app.srcdir) / "generated" / "fonts"
+    folder.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(FONT, folder / FONT.name)
+    app.config.html_static_path.append("generated/fonts")
     app.add_html_math_renderer("mathml", (inline, None), (block, None))
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

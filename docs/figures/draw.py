@@ -11,7 +11,9 @@ HEAD = (
     'font-family="DejaVu Sans, Verdana, sans-serif" font-size="15">\n'
     '<rect width="{width}" height="{height}" rx="6" fill="#ffffff"/>\n'
 )
-INK, WALL, STONE, FLUID, SOFT = "#22313f", "#e7b9a5", "#c9ced6", "#2b6cb0", "#7b8794"
+# The colours of stonepass.report.style, of which the site makes those of the dark theme.
+INK, WALL, STONE, FLUID, SOFT = "#1F2937", "#E7B9A5", "#D6CFC4", "#0072B2", "#6B7280"
+CONTACT = "#D55E00"
 
 # The diagram of symbols, in inner radii; z points downstream, to the right.
 UNIT, CENTRE = 82.0, (430.0, 225.0)
@@ -141,10 +143,10 @@ def _pressures():
     for degrees in (62.0, 80.0, 98.0, 116.0):
         angle = math.radians(degrees)
         ends = [(f * math.cos(angle), f * math.sin(angle)) for f in (1.64, STONE_RADIUS + 0.02)]
-        text += arrow(*ends, "#9b2c2c")
+        text += arrow(*ends, CONTACT)
     return (
         text
-        + label("σ", 0.0, 1.85, "#9b2c2c", size=18)
+        + label("σ", 0.0, 1.85, CONTACT, size=18)
         + label("stone", 0.62, 0.35, size=13)
         + label("wall", -3.6, 1.32, size=13)
     )
@@ -197,7 +199,7 @@ def _box(x, y, wide, high, name, neighbours):
     middle = x + wide / 2
     text = (
         f'<rect x="{x + 3:.1f}" y="{y + 3}" width="{wide - 6:.1f}" height="{high - 6}" rx="4" '
-        f'fill="#eef2f7" stroke="{SOFT}"/>\n'
+        f'fill="#EEF2F7" stroke="{SOFT}"/>\n'
         f'<text x="{middle:.1f}" y="{y + 21}" text-anchor="middle" font-weight="bold" '
         f'font-size="14" fill="{INK}">{name}</text>\n'
     )

@@ -87,7 +87,8 @@ if TYPE_CHECKING:
     from stonepass.studies.rising import Rising, raise_pressure
     from stonepass.studies.solution_cache import SolutionCache, default_folder
     from stonepass.studies.study import Study, run_study
-    from stonepass.surface.friction import SurfaceFriction, surface_friction
+    from stonepass.surface.friction import surface_friction
+    from stonepass.surface.friction_result import SurfaceFriction
     from stonepass.surface.paths import StraightPath
     from stonepass.surface.readers import read_surface_image
     from stonepass.surface.surface_image import SurfaceImage
@@ -158,7 +159,7 @@ _HOME = {
     "StonepassError": "errors",
     "StraightPath": "surface.paths",
     "Study": "studies.study",
-    "SurfaceFriction": "surface.friction",
+    "SurfaceFriction": "surface.friction_result",
     "SurfaceImage": "surface.surface_image",
     "Tension": "bench.test_data",
     "UnstableLaw": "errors",

@@ -1,4 +1,4 @@
-"""What every output says of where it comes from."""
+"""The version of the software and the disclaimer that every output contains."""
 
 __all__ = ["DISCLAIMER", "VERSION"]
 

@@ -1,4 +1,4 @@
-"""Dataclasses that hold arrays: an equality that Python's own lack, and a short description."""
+"""Equality and a short description for dataclasses that contain arrays."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ import numpy as np
 __all__ = ["abridged", "array_dataclass", "equal"]
 
 Class = TypeVar("Class", bound=type)
-LONGEST_VALUE = 60  # characters of one value in a short description
+LONGEST_VALUE = 60  # largest number of characters of one value in a short description
 
 
 def array_dataclass(kind: Class) -> Class:
-    """Give a dataclass that holds arrays an equality and a short description.
+    """Decorate a dataclass that contains arrays with equality and a short description.
 
-    Two values are equal where their class and all their fields are, arrays element by element; NaN
-    equals NaN. They cannot be hashed, since arrays cannot. The description (``repr``) gives arrays
-    and long sequences by their size; a dataclass with ``repr=False`` keeps its own.
+    Two objects are equal if they have the same class and all their fields are equal. Arrays are
+    compared element by element, and NaN is equal to NaN. The objects cannot be hashed, since arrays
+    cannot be hashed. The description (``repr``) replaces arrays and long sequences by their size; a
+    dataclass with ``repr=False`` keeps its own description.
     """
 
     def __eq__(self: Any, other: object) -> bool:  # noqa: N807
@@ -34,7 +35,15 @@ def array_dataclass(kind: Class) -> Class:
 
 
 def equal(one: Any, other: Any) -> bool:
-    """Whether two values are equal, looking into dataclasses, sequences, mappings and arrays."""
+    """Return whether two values are equal, including the arrays inside them.
+
+    Dataclasses, tuples, lists and dictionaries are compared element by element.
+
+    Parameters
+    ----------
+    one, other : object
+        The values to be compared.
+    """
     if one is other:
         return True
     if type(one) is not type(other):
@@ -53,8 +62,10 @@ def equal(one: Any, other: Any) -> bool:
 
 
 def abridged(value: Any) -> str:
-    """Describe a dataclass by its fields in one line; arrays and long sequences by their size.
+    """Return a description of a dataclass in one line, with the sizes of arrays and long sequences.
 
+    Examples
+    --------
     >>> from dataclasses import dataclass
     >>> @dataclass
     ... class Series:

@@ -1,4 +1,4 @@
-"""What can go wrong: errors for a wrong request, outcomes for physics without an answer."""
+"""Errors for invalid requests, and outcomes of valid calculations with or without an answer."""
 
 from __future__ import annotations
 
@@ -30,11 +30,14 @@ _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 200
 
 
 class StonepassError(Exception):
-    """Root of every error this package raises on purpose."""
+    """Base class of all errors that this package raises on purpose."""
 
 
 class CacheWarning(UserWarning):
-    """The solution cache held a damaged result, or could not be written; answers are unaffected."""
+    """The solution cache contained a damaged result, or it cannot be written.
+
+    The answers are not affected.
+    """
 
 
 class CacheNotWritten(CacheWarning):
@@ -42,18 +45,32 @@ class CacheNotWritten(CacheWarning):
 
 
 class BadInput(StonepassError, ValueError):
-    """The request is wrong: one sentence says what, which value, what is allowed, what to do."""
+    """A request is invalid.
+
+    The message is one sentence: "ARGUMENT is VALUE, but must be ALLOWED; REMEDY."
+
+    Attributes
+    ----------
+    argument : str
+        Name of the input, or of the place in a file.
+    value : object
+        The invalid value.
+    allowed : str
+        What is allowed.
+    remedy : str
+        What the user can do; may be empty.
+    """
 
     def __init__(self, argument: str, value: Any, allowed: str, remedy: str = "") -> None:
         super().__init__(argument, value, allowed, remedy)
         self.argument, self.value, self.allowed, self.remedy = argument, value, allowed, remedy
 
     def within(self, file: str) -> Self:
-        """Return the same refusal, of something that stands in a file."""
+        """Return the error with the name of the file in which the value was found."""
         return self.named(f"in {file}, {self.argument}")
 
     def named(self, argument: str) -> Self:
-        """Return the same refusal with another name of the argument, as the door calls it."""
+        """Return the error with another name of the argument."""
         return type(self)(argument, self.value, self.allowed, self.remedy)
 
     def __str__(self) -> str:
@@ -63,8 +80,8 @@ class BadInput(StonepassError, ValueError):
 
 
 def _shown(value: Any) -> str:
-    """Value in a sentence; what a file says may be nested or long beyond what can be written."""
-    if isinstance(value, PurePath):  # its end says more than its beginning
+    """Return a value as text for a message; a long or deeply nested value is shortened."""
+    if isinstance(value, PurePath):  # the end of a path is more informative than its beginning
         text = str(value)
         return text if len(text) <= LONGEST else "..." + text[3 - LONGEST :]
     if not isinstance(value, str):
@@ -80,12 +97,12 @@ def _cut(text: str, longest: int) -> str:
 
 
 def _clean(sentence: str) -> str:
-    """Without the control characters of a terminal, which a file may hold."""
+    """Replace control characters, which could change the state of a terminal."""
     return "".join(each if each.isprintable() else "?" for each in sentence)
 
 
 class UnstableLaw(BadInput):
-    """The material law lets some strain lower the energy, so it describes no solid."""
+    """A material law is unstable: some strain lowers its energy."""
 
     def __str__(self) -> str:
         tail = f"; {self.remedy}" if self.remedy else ""
@@ -94,9 +111,11 @@ class UnstableLaw(BadInput):
 
 
 class Misplaced(BadInput):
-    """An input was given that the rest of the request leaves no place for.
+    """An input cannot be used together with other inputs.
 
-    `value` says what it does not go with, e.g. "the model 'paper'"; `allowed` says where it does.
+    The message is one sentence: "ARGUMENT cannot be used with VALUE: it ALLOWED; REMEDY." The
+    attribute `value` names the other input, e.g. "the model 'paper'", and `allowed` says where the
+    input can be used, e.g. "belongs to 'direct'".
     """
 
     def __str__(self) -> str:
@@ -106,7 +125,7 @@ class Misplaced(BadInput):
 
 
 class Outcome(enum.Enum):
-    """How a question ended; the value says it in words, without the period of a sentence."""
+    """The outcome of a calculation; its value is a sentence without the period."""
 
     MOVES = "The stone moves once the urine pressure above it reaches the critical pressure"
     SOLVED = "The critical size was found"
@@ -122,11 +141,11 @@ class Outcome(enum.Enum):
 
     @property
     def answered(self) -> bool:
-        """Whether the outcome is an answer (exit code 0) rather than the lack of one."""
+        """Whether the calculation has an answer; the exit code of a command is then 0."""
         return self in (Outcome.MOVES, Outcome.SOLVED, Outcome.LOOSE, Outcome.LEAKS)
 
     def sentence(self, reason: str = "") -> str:
-        """The outcome as a sentence, with the reason where there is one."""
+        """Return the outcome as a sentence, with the reason if one is given."""
         return f"{self.value}: {reason}." if reason else f"{self.value}."
 
 

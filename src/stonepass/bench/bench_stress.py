@@ -55,7 +55,7 @@ def strip_stress(
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The fit".
     """
     log_a = np.log(np.asarray(stretch, dtype=float))
     log_b, near = -0.5 * log_a, np.array([[0.0], [NEARBY]])

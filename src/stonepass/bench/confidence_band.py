@@ -1,4 +1,4 @@
-"""How far a fitted law is uncertain at each measured point."""
+"""Confidence band of a fitted law."""
 
 from __future__ import annotations
 
@@ -17,25 +17,30 @@ __all__ = ["confidence_band"]
 def confidence_band(
     objective: Objective, values: Mapping[str, float], free: Sequence[str]
 ) -> Float[np.ndarray, " n"]:
-    """Return half the width of the pointwise 95 % confidence band of the fitted law.
+    """Compute the half-width of the pointwise 95 % confidence band of a fitted law.
 
-    The law is taken as linear in its constants about the best fit, and the scatter is that of the
-    residuals: Student's t times s √h times the expected error of the point, with h the diagonal of
-    J (JᵀJ)⁻¹ Jᵀ, and J the sensitivities of the residuals. It is the uncertainty of the curve, not
-    that of another measurement.
+    The law is linearised in its constants at the best fit. The half-width is t s √h times the
+    expected error of the point. Here t is the quantile of Student's distribution, s² the variance
+    of the residuals, and h the diagonal of J (JᵀJ)⁻¹ Jᵀ with the sensitivities J of the residuals.
+    The band is the uncertainty of the fitted curve, not that of a further measurement.
 
     Parameters
     ----------
     objective : Objective
-    values : mapping
-        The constants of the best fit.
+        Data, law and expected errors of the fit.
+    values : mapping of str to float
+        Constants of the best fit in SI units.
     free : sequence of str
-        Names of those that were fitted; without any the band has no width.
+        Names of the fitted constants; without any the width is 0.
 
     Returns
     -------
     array (n)
-        In Pa, for each point of the data.
+        Half-width in Pa at each point of the data.
+
+    References
+    ----------
+    docs/bench.md, "The fit".
     """
     count = len(objective.spread)
     if not free or count <= len(free):

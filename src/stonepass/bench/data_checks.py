@@ -59,7 +59,7 @@ def check_tension(
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The data".
     """
     _check_stretches(file, columns, along, stretch)
     measured = "force_N" if "force_N" in columns else "nominal_stress_kPa"
@@ -143,7 +143,7 @@ def check_inflation(
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The data".
     """
     ratio = inner_ratio(columns[given], given, ureter, axial)
     doubled = inner_ratio(2.0 * columns[given], given, ureter, axial)

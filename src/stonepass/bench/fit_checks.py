@@ -75,7 +75,7 @@ def check_told(objective: Objective, search: Search) -> None:
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "Identifiability".
     """
     smallest: Float[np.ndarray, " free"] | None = None
     for start in STARTS:
@@ -116,7 +116,7 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The fit".
     """
     law, data, told = search.law, objective.data, []
     values = {each: float(value) for each, value in result.params.valuesdict().items()}

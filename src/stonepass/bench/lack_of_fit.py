@@ -9,7 +9,7 @@ variance explain.
 
 The mistake with the smallest Schwarz criterion (BIC) is accepted, its vector is kept, and the
 other mistakes are tested again. In this way one outlier is not reported as an offset as well. The
-method is described in docs/bench.md, "Constants of a wall".
+method is described in docs/bench.md, "Lack of fit".
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def lack_of_fit(
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "Lack of fit".
     """
     scale = float(np.abs(data.observed).max())
     if np.sqrt(np.mean((off * spread) ** 2)) < NEGLIGIBLE * scale:

@@ -96,7 +96,7 @@ class FittedLaw(Result):
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The fit".
     """
 
     material: Material
@@ -176,7 +176,7 @@ def fit_law(
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The fit".
     """
     search = search_for(data, law, given or {}, free)
     check_enough(data, search.free)

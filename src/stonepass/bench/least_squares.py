@@ -77,7 +77,7 @@ def intervals(
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The fit".
     """
     told: list[Caution] = []
     bounds = _by_parabola(minimizer, result, free)

@@ -84,7 +84,7 @@ class Objective:
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The fit".
     """
 
     data: Data

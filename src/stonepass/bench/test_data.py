@@ -40,7 +40,7 @@ class Tension:
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The data".
     """
 
     stretch: Float[np.ndarray, " n"]
@@ -210,7 +210,7 @@ def read_tension(
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The data".
     """
     path = Path(path)
     along = "stretch" if gauge_length is None else "extension_mm"
@@ -304,7 +304,7 @@ def read_inflation(path: str | Path, ureter: Ureter) -> Inflation:
 
     References
     ----------
-    docs/bench.md, "Constants of a wall".
+    docs/bench.md, "The data".
     """
     path = Path(path)
     columns = read_columns(

@@ -1,8 +1,8 @@
-"""The assessment of one patient by Monte Carlo samples (docs/assess.md).
+"""Assessment of one patient's stone by Monte Carlo samples of the measured quantities.
 
-Inputs are drawn from the measurements by a scrambled Sobol sequence with a fixed seed; draws of
-impossible walls are left out. A response surface through solved cases gives the critical pressure
-of every sample.
+Samples of the inputs follow a scrambled Sobol sequence with a fixed seed. Samples that describe no
+possible wall are rejected. A response surface through solved cases gives the critical pressure of
+the other samples (docs/assess.md).
 """
 
 from __future__ import annotations
@@ -30,33 +30,46 @@ from stonepass.studies.sensitivity_indices import SensitivityIndex, rank_sensiti
 
 __all__ = ["assess"]
 
-WIDEST = 1.0 + OVERSIZE[1]  # opening above which only a lower bound of the pressure is known
-SIZES = np.arange(1.0, 10.01, 0.5)  # mm, stone diameters of the fractions by size
-SAMPLES = "the simulated input combinations"
+# Opening r_a/R_a up to which the present pressure is computed; beyond it is a lower bound.
+WIDEST = 1.0 + OVERSIZE[1]
+SIZES = np.arange(1.0, 10.01, 0.5)  # stone diameters in mm at which the fraction is computed
+SAMPLES = "the simulated input combinations"  # name of the samples in sentences
+# Inputs without influence on the critical pressure.
 NOT_OF_RESISTANCE = ("dilated_inner_diameter", "dilated_outer_diameter")
-MOST_LOST = 0.5  # largest fraction of samples next to a case without an answer
+MOST_LOST = 0.5  # largest fraction of samples whose nearest case has no answer
 
 
 def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
-    """Assess one patient.
+    """Assess the stone of one patient.
 
     Parameters
     ----------
     patient : Patient
+        Measured quantities with their uncertainties, and the pressure limit.
     solver : CaseSolver, optional
-        Solver of the cases; by default they are solved in this process, without a cache.
+        Solves about fifty cases; by default in this process, without a cache.
+
+    Returns
+    -------
+    Assessment
+        Its outcome is NO_SOLUTION if the model has an answer for too few of the possible cases.
 
     Raises
     ------
     BadInput
-        The material is unstable, or almost no wall is compatible with the measurements.
+        The material is unstable, or almost no sample of the measurements is consistent with a wall
+        of constant volume.
+
+    References
+    ----------
+    Liu et al. 2022, section 4; docs/assess.md, "What is done".
     """
     solver = solver or JobSolver(progress=True)
     check(patient.material)
     case = patient.case()
     draws, possible = draw_patient(patient)
     at_values = solver.answers([case])[0]
-    under_load = replace(case, load=patient.load)  # each sample divides it by its own stiffness
+    under_load = replace(case, load=patient.load)  # samples divide the load by their own stiffness
     present = _present(patient, under_load, draws)
     surface = response_surface(under_load, conditions(draws), solver)
     known = Assessment(
@@ -91,7 +104,7 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
 
 
 def _headline(found: Assessment, below: Fraction) -> str:
-    """Return the sentence about the fraction of samples below the limit."""
+    """Return the outcome as a sentence: the fraction below the limit where the stone is held."""
     pressure = f"{found.patient.limit / 1e3:.4g} kPa"
     limit = f"the critical pressure is below the limit of {pressure}"
     if found.loose == 0.0:
@@ -106,17 +119,18 @@ def _headline(found: Assessment, below: Fraction) -> str:
 
 
 def _lost(surface: ResponseSurface) -> str:
-    """Return the sentence that explains why too few cases have an answer."""
-    lost = f"{len(surface.lost.friction)} of {surface.tried} cases that the inputs span"
+    """Return the outcome as a sentence if too few cases have an answer."""
+    lost = f"{len(surface.lost.friction)} of {surface.tried} cases in the range of the inputs"
     return f"{Outcome.NO_SOLUTION.value} for {lost}; the most frequent reason: {surface.reason}."
 
 
 def _critical(
     surface: ResponseSurface, draws: Draws
 ) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
-    """Return P_ucr in Pa of many draws, and True where it is only a lower bound.
+    """Return P_ucr in Pa of n samples, and which values are only lower bounds.
 
-    A wall s times as stiff has the critical pressure s P_ucr(P_out/s).
+    For a wall that is s times as stiff P_ucr is s P_ucr(P_out/s), see "A stiffer wall" in
+    docs/theory.md.
     """
     found, censored = surface(conditions(draws))
     return draws["stiffness"] * found, censored
@@ -131,7 +145,10 @@ def _samples(surface: ResponseSurface, draws: Draws) -> Samples:
 
 
 def _present(patient: Patient, case: Case, draws: Draws) -> Present | None:
-    """Return the urine pressure by the far field; None without a measured dilated diameter."""
+    """Return the present urine pressure of the samples from the dilated diameter and the far field.
+
+    None is returned if the dilated segment was not measured.
+    """
     if not patient.dilated:
         return None
     wall = held_wall_ratio(draws)
@@ -139,15 +156,15 @@ def _present(patient: Patient, case: Case, draws: Draws) -> Present | None:
     held = np.minimum(opening, WIDEST)
     across = draws["stiffness"] * transmural(case, held, wall)
     outside = np.asarray(confining_traction(held, wall, patient.load))
-    # A negative transmural pressure would close the tube, so a negative value is an error of the
-    # measured diameters.
+    # A dilated segment that is narrower than the tube at rest is a measuring error, so that the
+    # transmural pressure is at least 0.
     return Present(np.maximum(across, 0.0) + outside, opening > WIDEST, opening)
 
 
 def _sensitivity(
     patient: Patient, surface: ResponseSurface, samples: Samples
 ) -> tuple[SensitivityIndex, ...]:
-    """Return Sobol' total indices of the inputs of the resistance, for the rank of P_ucr."""
+    """Return the total sensitivity indices of the inputs for the rank of P_ucr."""
     uncertain = {
         name: each
         for name, each in patient.measured.items()

@@ -1,6 +1,7 @@
-"""The assessment of one patient as a value; `clinic.assess` computes it.
+"""The result of an assessment: intervals of pressures, fractions of samples, published cohorts.
 
-Its results are intervals of pressures and fractions of Monte Carlo samples, never a verdict.
+The result is never a yes or no, but an interval and a fraction of the Monte Carlo samples. The
+function `clinic.assess.assess` computes it.
 """
 
 from __future__ import annotations
@@ -22,46 +23,60 @@ from stonepass.studies.sensitivity_indices import SensitivityIndex
 
 __all__ = ["Assessment"]
 
-FEWEST_OF_A_CLASS = 30  # samples
+FEWEST_OF_A_CLASS = 30  # smallest number of samples for which a fraction is computed
 
 
 @array_dataclass
 @dataclass(frozen=True, repr=False)
 class Assessment(Result):
-    """The assessment of one patient.
+    """The assessment of one patient's stone.
 
     Attributes
     ----------
     patient : Patient
+        The measured quantities.
     outcome : Outcome
-        MOVES; NO_SOLUTION if the model answers too few of the possible cases.
+        MOVES, or NO_SOLUTION if the model has an answer for too few of the possible cases.
     message : str
+        The outcome as a sentence.
     at_values : Answer
-        The answer at the measured values, with its discretisation error, for the material's own
-        stiffness under P_out over the given stiffness.
+        Answer at the measured values, for the stiffness of the material and the confining pressure
+        divided by the measured relative stiffness.
     cohorts : tuple of Row
-        Rates of published cohorts for such stones.
-    critical, present : Range or None
-        P_ucr, and the present urine pressure if the dilated segment was measured.
-    below_limit, below_present : Fraction or None
-        Fractions of samples with P_ucr below the pressure limit, and below the present pressure.
+        Published passage rates of stones of this size and place.
+    critical : Range or None
+        Median and 90 % interval of the critical pressure P_ucr in Pa.
+    present : Range or None
+        Median and 90 % interval of the present urine pressure in Pa; None if the dilated segment
+        was not measured.
+    below_limit : Fraction or None
+        Fraction of samples with P_ucr below the pressure limit.
+    below_present : Fraction or None
+        Fraction of samples with P_ucr below the present pressure.
     loose : float
-        Fraction of samples in which the stone is no larger than the lumen; they count with
-        P_ucr = 0.
+        Fraction of samples in which the stone is not larger than the lumen, so that P_ucr = 0.
     sensitivity : tuple of SensitivityIndex
-        Sensitivity indices of the rank of P_ucr, by the names in `patient.INPUTS`; largest first.
+        Sobol' total indices for the rank of P_ucr, in descending order.
     by_size : tuple of (float, Fraction)
-        Stone diameters in mm, and the fraction below the limit if the stone had that size.
+        Stone diameters in mm, and the fraction below the limit if the stone had this diameter.
     median_noise : float or None
-        Standard error in Pa of the median of P_ucr due to the number of samples.
+        Standard error of the median of P_ucr in Pa that is due to the number of samples.
     samples : Samples or None
+        The samples; None without a response surface.
     at_present : Present or None
+        Present urine pressure of the samples.
     possible : float
-        Fraction of the draws that describe a possible wall.
+        Fraction of the drawn samples that describe a possible wall, 0 to 1.
     solves : int
+        Number of solved cases.
     surface_error : float
-        95th percentile of the surface's relative error, from leaving out one solve at a time.
+        95th percentile of the relative cross-validation error of the response surface.
     warnings : tuple of Caution
+        Warnings about assumptions, extrapolation and contradictions.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
 
     patient: Patient
@@ -96,10 +111,10 @@ class Assessment(Result):
         return f"{self.outcome.name}, P_ucr {median} kPa in the median, {low} to {high} kPa"
 
     def beside(self, row: Row) -> Fraction | None:
-        """Return the model's fraction below the limit for the stones of a cohort's row.
+        """Return the fraction of samples below the limit that corresponds to a row of a cohort.
 
-        For a size class it is the fraction among the samples whose stone belongs to the class, or
-        None if they are too few. For a place it is the fraction of all samples.
+        For a size class only samples with a stone of this class count; None is returned for fewer
+        than 30 of them. For a place in the ureter all samples count.
         """
         if row.sizes is None or self.samples is None:
             return self.below_limit
@@ -110,9 +125,9 @@ class Assessment(Result):
 
     @property
     def below_limit_held(self) -> Fraction | None:
-        """Fraction below the limit among the samples whose stone is larger than the lumen.
+        """Fraction below the limit among the samples in which the stone is larger than the lumen.
 
-        It is None if these samples are too few.
+        It is None if there are fewer than 30 such samples.
         """
         return None if self.samples is None else self._below_limit_among(~self.samples.loose)
 
@@ -124,11 +139,11 @@ class Assessment(Result):
 
     @property
     def fraction_noise(self) -> float:
-        """Standard error of the fraction below the limit due to the number of samples."""
+        """Standard error of the fraction below the limit that is due to the number of samples."""
         return 0.0 if self.below_limit is None else self.below_limit.noise(self.patient.samples)
 
     @property
     def central(self) -> float | None:
-        """P_ucr in Pa at the measured values."""
+        """P_ucr in Pa at the measured values; None if the model has no answer there."""
         pressure = self.at_values.pressure
         return None if pressure is None else self.patient.measured["stiffness"].value * pressure

@@ -1,4 +1,4 @@
-"""The warnings of an assessment, as cautions."""
+"""The warnings of an assessment."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from stonepass.clinic.assessment import Assessment
 
 __all__ = ["assessment_warnings"]
 
-LARGE_ERROR = 0.05
-SMALL_FRACTION = 0.005  # a smaller fraction of the samples has no caution
-FEW_POSSIBLE = 0.5
+LARGE_ERROR = 0.05  # relative error of the response surface above which a warning is given
+SMALL_FRACTION = 0.005  # fraction of samples up to which no warning is given
+FEW_POSSIBLE = 0.5  # fraction of possible samples below which a warning is given
 
 
 def assessment_warnings(found: Assessment) -> tuple[Caution, ...]:
-    """Return the cautions of an assessment about assumptions, extrapolation and accuracy."""
+    """Return the warnings of an assessment about assumptions, extrapolation and contradictions."""
     return (
         *found.patient.assumed,
         *_of_inputs(found),
@@ -71,12 +71,12 @@ def _of_accuracy(found: Assessment) -> list[Caution]:
 
 
 def _strain_limit(found: Assessment) -> dict[str, Any]:
-    """Return the largest stretch that the material's constants were used for, and its name."""
+    """Return the largest stretch for which the material was measured, and its name."""
     material = found.patient.material
     return {"highest": material.strain_range[1], "material": material.name}
 
 
 def _where(chosen: Bool[np.ndarray, " n"], code: str, **values: Any) -> list[Caution]:
-    """Return the caution where it concerns more than a few samples."""
+    """Return the caution with this code if it concerns more than 0.5 % of the samples."""
     fraction = float(np.mean(chosen))
     return [caution(code, fraction=fraction, **values)] if fraction > SMALL_FRACTION else []

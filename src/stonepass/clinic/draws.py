@@ -1,4 +1,4 @@
-"""Random draws of the measurements of a patient; draws of impossible walls are left out."""
+"""Monte Carlo samples of a patient's measurements that describe a possible wall."""
 
 from __future__ import annotations
 
@@ -13,28 +13,37 @@ from stonepass.studies.sampling import Draws, draw
 
 __all__ = ["conditions", "draw_patient", "held_wall_ratio"]
 
-FEWEST = 100  # samples that are possible
+FEWEST = 100  # smallest number of accepted samples
 
 
 def draw_patient(patient: Patient) -> tuple[Draws, float]:
-    """Draw every input of a patient.
+    """Draw samples of all inputs of a patient.
 
-    If both diameters of the dilated segment were measured, a draw is kept with the likelihood of
-    its outer diameter, which the volume of the wall determines. If few draws are kept, more are
-    made.
+    If both diameters of the dilated segment were measured, a sample is accepted with a probability
+    proportional to the likelihood of its outer diameter, given the constant volume of the wall. If
+    few samples are accepted, more are drawn.
+
+    Parameters
+    ----------
+    patient : Patient
+        The measured quantities, the number of samples and the seed.
 
     Returns
     -------
     draws : mapping of str to array (n)
-        The inputs by their names in `patient.INPUTS`, in SI units; n is at most
+        The inputs by their names in `patient.INPUTS`, in SI units. n is at most
         `patient.samples`.
     possible : float
-        Fraction of all draws whose wall ratio a ureter can have.
+        Fraction of all drawn samples whose wall ratio is possible, 0 to 1.
 
     Raises
     ------
     BadInput
-        Almost no wall is compatible with these measurements.
+        Fewer than 100 samples are accepted.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
 
     def keep(draws: Draws, chance: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
@@ -45,20 +54,21 @@ def draw_patient(patient: Patient) -> tuple[Draws, float]:
     draws, kept = draw(patient.measured, patient.samples, patient.seed, keep)
     if kept.sum() < FEWEST:
         raise BadInput(
-            "diameters",
-            f"such that {kept.sum()} of {len(kept)} draws agree with one another",
-            f"such that a wall of constant volume may have them, in at least {FEWEST} draws",
-            "check them and their uncertainties",
+            "number of Monte Carlo samples whose diameters are consistent with a constant volume "
+            "of the wall",
+            f"{kept.sum()} of {len(kept)}",
+            f"at least {FEWEST}",
+            "check the diameters and their uncertainties",
         )
     chosen = {name: values[kept][: patient.samples] for name, values in draws.items()}
     return chosen, float(_possible(draws).mean())
 
 
 def conditions(draws: Draws) -> Conditions:
-    """Return ξ, η, friction and load factor of draws.
+    """Return size ratio, wall ratio, friction and load factor of samples.
 
-    A wall s times as stiff under P_out is answered as one of the material's own stiffness under
-    P_out/s, so the load factor is 1/s.
+    A wall that is s times as stiff as the material is computed with the stiffness of the material
+    under the load P_out/s, so that the load factor is 1/s (docs/theory.md, "A stiffer wall").
     """
     return Conditions(
         draws["stone_diameter"] / draws["inner_diameter"],
@@ -69,7 +79,7 @@ def conditions(draws: Draws) -> Conditions:
 
 
 def held_wall_ratio(draws: Draws) -> Float[np.ndarray, " n"]:
-    """Return the wall ratio η, held to the bounds that a case may have."""
+    """Return the wall ratio η of samples, clipped to the bounds of a case."""
     return np.clip(_wall_ratio(draws), *WALL_RATIO)
 
 
@@ -86,10 +96,10 @@ def _wall_ratio(draws: Draws) -> Float[np.ndarray, " n"]:
 
 
 def _agreement(patient: Patient, draws: Draws) -> Float[np.ndarray, " n"]:
-    """Return the likelihood of the measured outer diameter of the dilated segment.
+    """Return the relative likelihood of the measured outer diameter of the dilated segment.
 
-    The wall's volume gives the outer diameter from the inner one. The likelihood is relative to
-    that of a perfect agreement.
+    The outer diameter of a sample follows from its inner diameter and the constant volume of the
+    wall. The likelihood is 1 if it is equal to the measured one.
     """
     inner = draws["inner_diameter"]
     section = (_wall_ratio(draws) ** 2 - 1.0) * inner**2 / patient.load.prestretch
@@ -98,6 +108,7 @@ def _agreement(patient: Patient, draws: Draws) -> Float[np.ndarray, " n"]:
     if measured.sd is None:
         return ((outer >= measured.low) & (outer <= measured.high)).astype(float)
     if measured.sd == 0.0:
-        raise BadInput("dilated outer diameter", "exact", "uncertain beside the inner one",
-                       "give its uncertainty, or leave one of the two out")  # fmt: skip
+        raise BadInput("dilated outer diameter", "exact", "uncertain if the dilated inner diameter "
+                       "is given too", "give its uncertainty, or only one of both"
+                       )  # fmt: skip
     return np.exp(-0.5 * ((outer - measured.value) / measured.sd) ** 2)

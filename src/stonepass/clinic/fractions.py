@@ -1,4 +1,4 @@
-"""Results of the Monte Carlo samples of one patient: pressure intervals, fractions of samples."""
+"""Monte Carlo samples of one patient, and intervals and fractions computed from them."""
 
 from __future__ import annotations
 
@@ -21,18 +21,24 @@ __all__ = [
     "median_noise",
 ]
 
-INTERVAL = (0.05, 0.5, 0.95)
-AGREE = 0.02  # largest relative effect of censored samples on a quantile that is stated
+INTERVAL = (0.05, 0.5, 0.95)  # quantiles of the interval and the median
+# Largest relative change of a quantile that is stated if censored values are raised to infinity.
+AGREE = 0.02
 MORE, FEWER, NEAR = "more than in the model", "fewer than in the model", "near the model"
 UNDECIDED = "undecided by the model"
-FAR_APART = 0.2  # difference of two fractions that contradict each other
+FAR_APART = 0.2  # difference of two fractions above which they contradict one another
 
 
 @dataclass(frozen=True)
 class Range:
-    """Median and 90 % interval in Pa.
+    """Median and 90 % interval of a pressure, some samples of which may be censored.
 
-    An end that the model cannot determine is None; it exceeds `at_least`.
+    Attributes
+    ----------
+    low, median, high : float or None
+        5th, 50th and 95th percentile in Pa; None if censored samples leave the percentile unknown.
+    at_least : float or None
+        Lower bound in Pa of the first percentile that is None; None if all percentiles are known.
     """
 
     low: float | None
@@ -43,17 +49,26 @@ class Range:
 
 @dataclass(frozen=True)
 class Fraction:
-    """A fraction of the samples: from `low` to `high`, which differ if some are undecided."""
+    """A fraction of the samples, which is an interval if censored samples leave it open.
+
+    Attributes
+    ----------
+    low, high : float
+        Smallest and largest possible value of the fraction, 0 to 1.
+    """
 
     low: float
     high: float
 
     def noise(self, count: int) -> float:
-        """Return the standard error for `count` independent samples, the larger of both ends."""
+        """Return the standard error of the fraction for `count` independent samples.
+
+        It is the larger one of the standard errors of both ends.
+        """
         return max((each * (1.0 - each) / count) ** 0.5 for each in (self.low, self.high))
 
     def describe(self) -> str:
-        """Write the fraction: ``60 %``, ``fewer than 1 %``, ``55 to 62 %``."""
+        """Return the fraction as text, e.g. ``60 %``, ``fewer than 1 %`` or ``55 to 62 %``."""
         low, high = (round(100.0 * each) for each in (self.low, self.high))
         if low != high:
             return f"{low} to {high} %"
@@ -65,16 +80,20 @@ class Fraction:
 @array_dataclass
 @dataclass(frozen=True)
 class Present:
-    """The present urine pressure in every sample.
+    """Present urine pressure of n samples, from the diameter of the dilated segment.
 
     Attributes
     ----------
     pressure : array (n)
-        In Pa.
-    censored : array (n)
-        True where the pressure is only a lower bound.
+        Urine pressure in Pa.
+    censored : array (n) of bool
+        Whether the pressure is only a lower bound.
     opening : array (n)
-        r_a/R_a of the dilated segment.
+        Radius ratio r_a/R_a of the dilated segment.
+
+    References
+    ----------
+    docs/theory.md, "Far field".
     """
 
     pressure: Float[np.ndarray, " n"]
@@ -85,20 +104,24 @@ class Present:
 @array_dataclass
 @dataclass(frozen=True)
 class Samples:
-    """The Monte Carlo samples of a patient.
+    """The n Monte Carlo samples of a patient.
 
     Attributes
     ----------
     critical : array (n)
-        P_ucr in Pa.
-    censored : array (n)
-        True where P_ucr is only a lower bound.
-    loose : array (n)
-        True where the stone is no larger than the lumen.
+        Critical pressure P_ucr in Pa.
+    censored : array (n) of bool
+        Whether P_ucr is only a lower bound.
+    loose : array (n) of bool
+        Whether the stone is not larger than the lumen, so that P_ucr = 0.
     size_ratio : array (n)
-        ξ.
+        Size ratio ξ.
     diameter : array (n)
         Diameter of the stone in mm.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
 
     critical: Float[np.ndarray, " n"]
@@ -110,7 +133,15 @@ class Samples:
     def below(
         self, pressure: float | Present, chosen: Bool[np.ndarray, " n"] | None = None
     ) -> Fraction:
-        """Return the fraction of all samples, or of those `chosen`, with P_ucr below a pressure."""
+        """Return the fraction of samples whose P_ucr is below a pressure.
+
+        Parameters
+        ----------
+        pressure : float or Present
+            A pressure in Pa for all samples, or one for each sample.
+        chosen : array (n) of bool, optional
+            The samples that count; by default all of them.
+        """
         some = np.ones(len(self.critical), dtype=bool) if chosen is None else chosen
         if isinstance(pressure, Present):
             less = self.critical < pressure.pressure
@@ -122,10 +153,21 @@ class Samples:
 
 
 def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) -> Range:
-    """Return median and 90 % interval of values, some of which are only lower bounds.
+    """Return the median and the 90 % interval of right-censored samples.
 
-    A quantile is stated if the true values behind the lower bounds cannot change it by more than
-    the fraction `AGREE`.
+    A quantile is None if it changes by more than 2 % when the censored values are replaced by
+    infinity.
+
+    Parameters
+    ----------
+    values : array (n)
+        Values in Pa.
+    censored : array (n) of bool
+        Whether a value is only a lower bound.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
     least = np.quantile(values, INTERVAL, method="higher")
     most = np.quantile(np.where(censored, np.inf, values), INTERVAL, method="higher")
@@ -140,10 +182,27 @@ def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) 
 
 
 def median_noise(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) -> float | None:
-    """Return the standard error in Pa of the median of independent samples; None where unknown.
+    """Return the standard error of the median of n independent samples.
 
-    The rank of the true median among n values is n/2 ± √n/2, so the error is half of the distance
-    of the values with these ranks. Samples of a Sobol sequence, as here, usually err by less.
+    The rank of the true median among the sorted values is n/2 with the standard deviation √n/2.
+    The standard error is therefore half the difference of the values with the ranks n/2 ± √n/2.
+    Samples of a Sobol sequence usually have a smaller error.
+
+    Parameters
+    ----------
+    values : array (n)
+        Values in Pa.
+    censored : array (n) of bool
+        Whether a value is only a lower bound.
+
+    Returns
+    -------
+    float or None
+        Standard error in Pa; None if it depends on censored values.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
     count = len(values)
     ordered = np.sort(np.where(censored, np.inf, values))
@@ -153,7 +212,24 @@ def median_noise(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n
 
 
 def contradiction(passed: float, fraction: Fraction | None) -> str:
-    """Compare the fraction of stones that passed with the model's fraction below the limit."""
+    """Compare a published passage rate with the fraction of samples below the pressure limit.
+
+    Parameters
+    ----------
+    passed : float
+        Fraction of the stones of a cohort that passed, 0 to 1.
+    fraction : Fraction or None
+        Fraction of the samples whose critical pressure is below the limit.
+
+    Returns
+    -------
+    str
+        The result in words; empty without a fraction.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
+    """
     if fraction is None:
         return ""
     if fraction.high - fraction.low > FAR_APART:

@@ -1,4 +1,4 @@
-"""One patient: measurements of stone and ureter from imaging, each with its uncertainty."""
+"""One patient: the measured quantities of stone and ureter with their uncertainties."""
 
 from __future__ import annotations
 
@@ -32,20 +32,21 @@ from stonepass.units import Length, Pressure, pressure
 
 __all__ = ["INPUTS", "Patient", "read_patient"]
 
-STIFFNESS = (0.05, 20.0)
-LIMIT = (100.0, 1e5)  # Pa
-SAMPLES = (256, 65_536)
-LARGEST_SEED = 2**32
-LONGEST_TITLE = 120  # characters
-# Quantities that are not measured in a patient, and the values assumed if the file has none.
+STIFFNESS = (0.05, 20.0)  # smallest and largest factor on the stiffness of the material
+LIMIT = (100.0, 1e5)  # smallest and largest pressure limit in Pa
+SAMPLES = (256, 65_536)  # smallest and largest number of samples
+LARGEST_SEED = 2**32  # seeds are smaller than this
+LONGEST_TITLE = 120  # largest number of characters of a title
+# Values that are assumed if the file does not give friction and stiffness, which are not measured
+# in patients.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
-# Names in the file of inputs whose sections are those of a case file.
+# Names in the file, by their title, of the inputs that a patient file shares with case files.
 SHARED_WORDS = {
     each.title: f"'{key}'"
     for key, each in all_inputs().items()
     if each.section in ("load", "method")
 }
-# Every number that may be uncertain, by its name in the file.
+# Names in messages of all quantities that may be uncertain, by their key.
 INPUTS = {
     "stone_diameter": "stone diameter",
     "friction": "friction",
@@ -60,29 +61,41 @@ INPUTS = {
 
 @dataclass(frozen=True)
 class Patient:
-    """The measurements of one patient.
+    """The measured quantities of one patient, and the settings of the assessment.
 
     Attributes
     ----------
-    measured : dict of str to UncertainQuantity
-        Quantities by the names in `INPUTS`, lengths in m: the diameter of the stone across the
-        ureter; friction; the inner diameter of the ureter where nothing dilates it, with the outer
-        diameter or the wall thickness; the stiffness over that of the material; and, if it was
-        measured, the diameters of the dilated segment above the stone.
+    measured : mapping of str to UncertainQuantity
+        The uncertain quantities by the keys of `INPUTS`, lengths in m. They are the diameter of the
+        stone across the ureter, the friction coefficient, the inner diameter and either the outer
+        diameter or the wall thickness of the undilated ureter, and the relative stiffness (a factor
+        on that of the material). The diameters of the dilated segment above the stone are optional.
     material : Material
+        Material of the wall.
     limit : Pressure
-        Maximum tolerable urine pressure.
+        Maximum tolerable urine pressure in Pa, 100 Pa to 100 kPa.
     place : str or None
-        Place of the stone, one of `cohorts.PLACES`.
+        Place of the stone in the ureter, one of `cohorts.PLACES`; None if it is unknown.
     shape : Shape
+        Shape of the stone.
     load : Load
+        Confining pressure and pre-stretch.
     model : Model
+        Model of the critical pressure.
     numerics : Numerics
-    samples, seed : int
+        Accuracy and length of the tube.
+    samples : int
+        Number of Monte Carlo samples, 256 to 65536.
+    seed : int
+        Seed of the samples, 0 to 2³² − 1.
     assumed : tuple of Caution
-        Cautions about values that the file does not have and that are assumed.
+        Warnings about quantities that the file does not give.
     title : str
-        Name of the case for the report.
+        Name of the case, at most 120 characters; may be empty.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
 
     measured: Mapping[str, UncertainQuantity]
@@ -104,14 +117,14 @@ class Patient:
         return "dilated_inner_diameter" in self.measured
 
     def with_limit(self, limit: str | Pressure) -> Patient:
-        """Return the same patient with another pressure limit."""
+        """Return the patient with another pressure limit, in Pa or as text with a unit."""
         return replace(self, limit=_limit(limit))
 
     def case(self) -> Case:
-        """Return the case at the measured values with the material's own stiffness.
+        """Return the case at the measured values, with the stiffness of the material.
 
-        Its confining pressure is divided by the stiffness s, so the critical pressure of the
-        patient is s times that of this case.
+        The confining pressure is divided by the measured relative stiffness s, so that the critical
+        pressure of the patient is s times that of this case (docs/theory.md, "A stiffer wall").
         """
         value = {name: each.value for name, each in self.measured.items()}
         inner = value["inner_diameter"]
@@ -167,13 +180,22 @@ _PatientFile = create_model("_PatientFile", __base__=_OwnSections, **_SHARED)
 
 
 def read_patient(path: str | Path) -> Patient:
-    """Read the file of a patient; relative paths of materials and shapes start at its folder.
+    """Read a patient file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file. Relative paths of materials and shapes in it start at its folder.
 
     Raises
     ------
     BadInput
-        The file has an unknown key (the nearest known one is named), lacks a key, or has a length
-        without uncertainty or unit, or a value out of bounds.
+        A key is unknown (the message names the nearest known one) or missing, a length has no
+        uncertainty or no unit, or a value is out of bounds. The message names the file and the key.
+
+    References
+    ----------
+    docs/assess.md, "The file".
     """
     path = Path(path)
     parsed = read_toml(path, _PatientFile)
@@ -189,7 +211,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
     if sum(wall is not None for wall in walls) != 1:
         state = "missing" if walls == [None, None] else "given twice"
         raise BadInput(
-            "wall of the ureter", state, "given once, as outer_diameter or wall_thickness"
+            "wall of the ureter", state, "given as either outer_diameter or wall_thickness"
         )
     texts = {
         "stone_diameter": stone.diameter,
@@ -219,7 +241,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
             ("friction_assumed", stone.friction, ASSUMED_FRICTION),
             ("stiffness_assumed", ureter.stiffness, ASSUMED_STIFFNESS),
         )
-        if given == default  # the assumed values may be written out in the file
+        if given == default  # the file may contain the assumed value, too
     ]
     values = section_values(parsed.method, "method")
     model, numerics = build_method(values, folder)
@@ -237,7 +259,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
         assumed=tuple(assumed),
         title=_title(parsed.assessment.title),
     )
-    patient.case()  # refuses measured values that no case can have
+    patient.case()  # checks the measured values
     return patient
 
 
@@ -271,7 +293,7 @@ def _check(measured: Mapping[str, UncertainQuantity]) -> None:
 
 def _shape(stone: _Stone, folder: Path) -> Shape:
     if stone.shape is not None and stone.aspect is not None:
-        raise BadInput("aspect", stone.aspect, "left out beside a shape, which has its own")
+        raise BadInput("aspect", stone.aspect, "left out if a shape is given")
     if stone.shape is not None:
         return read_shape(folder / stone.shape)
     aspect = 1.0 if stone.aspect is None else stone.aspect

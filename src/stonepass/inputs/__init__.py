@@ -1,1 +1,1 @@
-"""Readers of the files that describe a question: cases, materials, shapes, measurements."""
+"""Readers and writers of case files, material files, shapes and measured pressures."""

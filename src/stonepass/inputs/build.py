@@ -1,7 +1,9 @@
-"""From the values of a door to a case: files are read, parts are made, misfits are refused.
+"""Construction of cases from the raw values that case files and the command line provide.
 
-A door hands over raw values by key (``{"stone.diameter": "4.2 mm", …}``), as text, numbers and
-truth values, and the words in which it names each input, for refusals.
+Raw values are texts, numbers and booleans by the key of the input, e.g.
+``{"stone.diameter": "4.2 mm"}``. Files that they name are read here, and combinations that are not
+allowed are refused. Errors name an input by its title; `in_words` replaces the title by the name
+that the user knows, such as ``--stone`` or ``'stone.diameter'``.
 """
 
 from __future__ import annotations
@@ -37,19 +39,21 @@ _READERS: dict[Kind, Callable[[Any, Path | None], Any]] = {
 
 
 def build_case(values: Values, folder: Path | None = None) -> Case:
-    """Make a case of raw values.
+    """Make a case from raw values.
 
     Parameters
     ----------
-    values : mapping
+    values : mapping of str to value
         Raw values by key; an input that is missing has its default.
     folder : Path, optional
-        Where relative paths of materials, shapes and opening curves start.
+        Folder in which relative paths of materials, shapes and opening curves start; by default the
+        current one.
 
     Raises
     ------
     BadInput
-        In the titles of the inputs; see `in_words`.
+        A value is out of bounds, or values do not go together. The message names the inputs by
+        their titles (see `in_words`).
     """
     model, numerics = build_method(values, folder)
     stone = Stone(**_section("stone", values, folder))
@@ -58,12 +62,25 @@ def build_case(values: Values, folder: Path | None = None) -> Case:
 
 
 def build_load(values: Values) -> Load:
-    """Make the load of raw values."""
+    """Make the load of a case from raw values."""
     return Load(**_section("load", values, None))
 
 
 def build_method(values: Values, folder: Path | None = None) -> tuple[Model, Numerics]:
-    """Make model and numerics; an option that the model does not have is refused."""
+    """Make the model and the numerics from raw values.
+
+    Parameters
+    ----------
+    values : mapping of str to value
+        Raw values by key; the key ``method.model`` names the model.
+    folder : Path, optional
+        Folder in which the relative path of an opening curve starts.
+
+    Raises
+    ------
+    BadInput
+        The model is unknown, it does not have one of the options, or a value is out of bounds.
+    """
     name = values.get(MODEL, SeatedBalance.NAME)
     chosen = inputs_of(model_named(name))
     numerical = inputs_of(Numerics)
@@ -78,14 +95,32 @@ def build_method(values: Values, folder: Path | None = None) -> tuple[Model, Num
 
 
 def build_model(name: str, values: Values, folder: Path | None = None) -> Model:
-    """Make a model by its name of those values that are its own options."""
+    """Make a model from raw values; values that are no options of this model are ignored.
+
+    Parameters
+    ----------
+    name : str
+        Name of a registered model.
+    values : mapping of str to value
+        Raw values by key.
+    folder : Path, optional
+        Folder in which the relative path of an opening curve starts.
+    """
     owner = MODELS[name]
     own = _section("method", values, folder)
     return owner(**{field: own[field] for field in inputs_of(owner) if field in own})
 
 
 def in_words(problem: BadInput, words: Mapping[str, str]) -> BadInput:
-    """The same refusal with the input named as the door names it; `words` are by title."""
+    """Return an error with the title of its input replaced by the name that the user knows.
+
+    Parameters
+    ----------
+    problem : BadInput
+        The error; its argument may be the title of an input.
+    words : mapping of str to str
+        Names of the inputs by their titles, e.g. ``{"friction": "--friction"}``.
+    """
     return problem.named(words[problem.argument]) if problem.argument in words else problem
 
 

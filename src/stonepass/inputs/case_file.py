@@ -1,4 +1,4 @@
-"""Case files: TOML text to a `Case` and back, by the declared inputs."""
+"""Reader and writer of case files, TOML files that describe a `Case`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ from stonepass.units import Length, Pressure, format_length, format_pressure
 __all__ = ["WORDS", "read_case", "read_values", "values_of", "write_case"]
 
 REQUIRED = ("stone", "ureter")
-# What TOML has for an input of a kind; a table stands for what could also be a file.
+# Types of TOML values for each kind of input, and their names in messages. A table may be given
+# instead of the name of a file.
 _TYPES: dict[Kind, tuple[tuple[type, ...], str]] = {
     Kind.LENGTH: ((str,), "text in quotes"),
     Kind.PRESSURE: ((str,), "text in quotes"),
@@ -39,18 +40,23 @@ _TYPES: dict[Kind, tuple[tuple[type, ...], str]] = {
     Kind.SHAPE: ((str, dict), "text in quotes or a table"),
     Kind.OPENING_CURVE: ((str, dict), "text in quotes or a table"),
 }
-# Inputs as a case file names them, by their title in Python.
+# Names of the inputs in a case file, by their titles.
 WORDS = {each.title: f"'{each.key}'" for each in all_inputs().values()}
 
 
 def read_case(path: str | Path) -> Case:
-    """Read a case file; files of materials, shapes and opening curves are looked for beside it.
+    """Read a case file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file. Relative paths of materials, shapes and opening curves start at its folder.
 
     Raises
     ------
     BadInput
-        Naming the file and the key: missing file, broken TOML, unknown key (with the nearest
-        known one), wrong type, or a value that a `Case` refuses.
+        The file does not exist or is no valid TOML, a key is unknown or missing, or a value has the
+        wrong type or is out of bounds. The message names the file and the key.
     """
     path = Path(path)
     values = read_values(path)
@@ -61,7 +67,7 @@ def read_case(path: str | Path) -> Case:
 
 
 def read_values(path: Path) -> dict[str, Any]:
-    """The raw values of a case file by key, checked for unknown keys and types only."""
+    """Return the raw values of a case file by key; only keys and types are checked."""
     document, known = read_document(path), sections()
     for section, keys in document.items():
         if section not in known:
@@ -91,10 +97,18 @@ def _checked(
 
 
 def write_case(case: Case, path: Path) -> None:
-    """Write a case so that `read_case` gives it back.
+    """Write a case file from which `read_case` returns the same case.
 
-    Materials of the catalogue and files are written by their name, seen from the folder of the case
-    file; a law by its constants, a shape and an opening curve by their numbers.
+    A material of the catalogue is written by its name. Materials, shapes and opening curves that
+    were read from files are written as paths relative to the folder of the case file. Other laws,
+    shapes and opening curves are written by their numbers.
+
+    Parameters
+    ----------
+    case : Case
+        The case to be written.
+    path : Path
+        The case file.
 
     Raises
     ------
@@ -109,7 +123,15 @@ def write_case(case: Case, path: Path) -> None:
 
 
 def values_of(case: Case, folder: Path) -> dict[str, Any]:
-    """The raw values of a case by key, as a case file in `folder` has them."""
+    """Return the raw values of a case by key, as they are written in a case file.
+
+    Parameters
+    ----------
+    case : Case
+        The case to be described.
+    folder : Path
+        Folder of the case file, at which relative paths start.
+    """
     values: dict[str, Any] = {MODEL: case.model.NAME}
     for part in (case.stone, case.ureter, case.load, case.model, case.numerics):
         for each in inputs_of(type(part)).values():
@@ -148,5 +170,5 @@ def _raw(value: Any, folder: Path) -> Any:
 
 
 def _beside(folder: Path, reference: str) -> str:
-    """Path of a file as seen from the folder of the case file."""
+    """Return the path of a file relative to the folder of the case file."""
     return os.path.relpath(reference, folder)

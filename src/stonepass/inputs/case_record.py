@@ -1,7 +1,7 @@
-"""The canonical record of a case: one closed, versioned description in plain values and SI units.
+"""The canonical record of a case: a complete, versioned description in plain values and SI units.
 
-JSON records, fingerprints and whoever compares two cases use this description; what it leaves out
-(where a file lay) does not change an answer.
+JSON records and fingerprints follow from this description. Two cases with the same description have
+the same answer. It does not contain the paths of files.
 """
 
 from __future__ import annotations
@@ -21,17 +21,26 @@ from stonepass.model.shape import Shape
 
 __all__ = ["VERSION", "describe", "describe_material", "fingerprint"]
 
-VERSION = 1  # raised when a key changes its name or its meaning
+VERSION = 1  # raised if a key changes its name or its meaning
 
 
 def describe(case: Problem, model: Model, numerics: Numerics) -> dict[str, Any]:
-    """Describe a problem, its model and its numerics.
+    """Return the canonical record of a case.
+
+    Parameters
+    ----------
+    case : Problem
+        Stone, ureter and load.
+    model : Model
+        The model with its options.
+    numerics : Numerics
+        Accuracy and length of the tube.
 
     Returns
     -------
     dict
-        JSON-ready: lengths in m, pressures in Pa, angles in degrees. Size and wall ratio stand
-        there whatever the case was given by; diameters only where the ureter has lengths.
+        A JSON-ready dictionary; lengths in m, pressures in Pa. It always contains size ratio and
+        wall ratio. Diameters are None if the case was given by ratios only.
     """
     stone, ureter, load = case.stone, case.ureter, case.load
     return {
@@ -59,7 +68,10 @@ def describe(case: Problem, model: Model, numerics: Numerics) -> dict[str, Any]:
 
 
 def describe_material(material: Material) -> dict[str, Any]:
-    """A material by its law and constants; a user's function by its name alone."""
+    """Return the description of a material: name, law, constants in SI units and strain range.
+
+    A user's function is described by its name only.
+    """
     law = material.law
     constants: dict[str, Any] = asdict(law) if is_dataclass(law) else {}
     constants.pop("function", None)
@@ -72,9 +84,15 @@ def describe_material(material: Material) -> dict[str, Any]:
 
 
 def fingerprint(case: Problem, model: Model, numerics: Numerics) -> str:
-    """SHA-256 of the canonical record in hexadecimal digits.
+    """Return the SHA-256 digest of the canonical record in hexadecimal digits.
 
-    A user's function enters by its name alone, so two versions of it are not told apart.
+    A user's function is described by its name only, so that two versions of it have the same
+    fingerprint.
+
+    Parameters
+    ----------
+    case, model, numerics
+        As for `describe`.
     """
     text = json.dumps(describe(case, model, numerics), sort_keys=True, allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()

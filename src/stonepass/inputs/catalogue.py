@@ -1,4 +1,4 @@
-"""All declared inputs of a case, by their key, from the classes that declare them."""
+"""The declared inputs of a case by their keys, collected from the classes that declare them."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ MODEL = "method.model"  # key of the input that names the model
 
 @lru_cache(maxsize=1)
 def all_inputs() -> dict[str, DeclaredInput]:
-    """Every input by its key ``section.name``, in the order of the doors.
+    """Return every input by its key ``section.name``, in the order of the help and the reference.
 
-    An option that several models declare must be declared alike in all of them.
+    An option that several models have must have the same declaration in all of them.
     """
     found: dict[str, DeclaredInput] = {}
     parts: tuple[type, ...] = (Stone, Ureter, Load)
@@ -37,7 +37,7 @@ def all_inputs() -> dict[str, DeclaredInput]:
 
 
 def _model() -> DeclaredInput:
-    """The choice of a model among those that are registered."""
+    """Return the declaration of the input that selects one of the registered models."""
     section, _, name = MODEL.partition(".")
     meanings = "; ".join(f"{each}: {owner.MEANING}" for each, owner in MODELS.items())
     choice = Input(Kind.CHOICE, "--model", f"{meanings}.", choices=tuple(MODELS))
@@ -45,7 +45,7 @@ def _model() -> DeclaredInput:
 
 
 def sections() -> dict[str, dict[str, DeclaredInput]]:
-    """The inputs by section and name, as a case file has them."""
+    """Return the inputs by section and name, in the structure of a case file."""
     found: dict[str, dict[str, DeclaredInput]] = {}
     for each in all_inputs().values():
         found.setdefault(each.section, {})[each.name] = each
@@ -53,10 +53,10 @@ def sections() -> dict[str, dict[str, DeclaredInput]]:
 
 
 def models_with(name: str) -> list[str]:
-    """The models that have an option; empty where it belongs to no model."""
+    """Return the names of the models that have an option; empty if it belongs to no model."""
     return [each for each, owner in MODELS.items() if name in inputs_of(owner)]
 
 
 def option_of(key: str) -> str:
-    """The first name of an input on the command line, e.g. ``--stone``."""
+    """Return the command-line option of an input, e.g. ``--stone``."""
     return all_inputs()[key].declaration.option.split("/")[0]

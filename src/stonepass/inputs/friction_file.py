@@ -1,4 +1,4 @@
-"""The friction coefficient of a surface, handed on as JSON by ``stonepass friction``."""
+"""Reader of the friction coefficient in a JSON file of ``stonepass friction``."""
 
 from __future__ import annotations
 
@@ -12,17 +12,18 @@ from stonepass.model.stone import FRICTION
 
 __all__ = ["read_friction"]
 
-LARGEST_FILE = 10_000_000  # bytes
+LARGEST_FILE = 10_000_000  # largest size of the file in bytes
 KEY = "friction_coefficient"
 
 
 def read_friction(path: Path) -> float:
-    """Read ``friction_coefficient`` from a JSON file.
+    """Read the key ``friction_coefficient`` of a JSON file.
 
     Raises
     ------
     BadInput
-        No such file, one that is too large or no JSON object, or none that friction can be.
+        The file does not exist, is too large or is no JSON object, or the value is not a number
+        from 0 to 2.
     """
     text = read_text(path, LARGEST_FILE, "valid JSON", "friction file")
     try:

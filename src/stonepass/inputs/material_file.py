@@ -1,4 +1,4 @@
-"""Files of materials: a Python function of the user, or constants of a known law in TOML."""
+"""Reader and writer of materials: constants of a known law in TOML, or a user's Python function."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ __all__ = ["find_material", "load_material", "material_table", "write_law"]
 
 
 class _LawFile(BaseModel):
-    """What every law file has; `_law_file` adds the constants of all known laws."""
+    """The keys that all law files have in common; `_law_file` adds the constants of all laws."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
     law: str
@@ -43,9 +43,20 @@ class _LawFile(BaseModel):
 
 
 def find_material(value: Any, folder: Path | None = None) -> Material:
-    """Turn a catalogue name, ``law.toml``, ``file.py:name`` or a table of a law into a material.
+    """Return the material that a value of the command line or of a case file describes.
 
-    This is for the command line and for case files; a Python file that is named is executed.
+    Parameters
+    ----------
+    value : Material, str or dict
+        A name of the catalogue, a law file ``law.toml``, a Python function ``file.py:name``, the
+        table of a law, or a material. A Python file is executed.
+    folder : Path, optional
+        Folder in which relative paths start; by default the current one.
+
+    Raises
+    ------
+    BadInput
+        The name is unknown, or the file or the table is refused (see `load_material`).
     """
     if isinstance(value, Material):
         return value
@@ -57,13 +68,20 @@ def find_material(value: Any, folder: Path | None = None) -> Material:
 
 
 def load_material(text: str, folder: Path | None = None) -> Material:
-    """Read ``law.toml`` or ``file.py:name``; relative paths start at `folder`.
+    """Read a material from a law file or from a Python file, which is executed.
+
+    Parameters
+    ----------
+    text : str
+        A law file ``law.toml``, or ``file.py:name`` with the name of the energy function.
+    folder : Path, optional
+        Folder in which relative paths start; by default the current one.
 
     Raises
     ------
     BadInput
-        The file is missing or not readable, a key is unknown or missing, a constant has the
-        wrong unit, or the function raises or returns something that is not a finite energy.
+        The file does not exist or cannot be read, a key is unknown or missing, a constant has the
+        wrong unit, or the function fails or does not return a finite energy.
     """
     if text.endswith(".toml"):
         path = _existing(text, folder)
@@ -82,7 +100,7 @@ def _existing(text: str, folder: Path | None) -> Path:
 
 def _from_python(path: Path, name: str, text: str) -> Material:
     folder = str(path.resolve().parent)
-    sys.path.insert(0, folder)  # a law may import what lies beside it
+    sys.path.insert(0, folder)  # the file may import other files in its folder
     try:
         with redirect_stdout(sys.stderr):
             module = runpy.run_path(str(path))
@@ -119,9 +137,10 @@ def _from_python(path: Path, name: str, text: str) -> Material:
 
 
 def _try_out(law: UserLaw, low: float, high: float) -> None:
-    """Evaluate the law over its strain range and refuse what is not a finite energy.
+    """Evaluate a law over its strain range, and refuse one that does not return finite energies.
 
-    It is differentiated as well, because some Python works on numbers alone.
+    The law is also differentiated, because some functions work with numbers but not with the types
+    of automatic differentiation.
     """
     import autograd.numpy as anp
 
@@ -132,7 +151,7 @@ def _try_out(law: UserLaw, low: float, high: float) -> None:
         CauchyGreen(1.0 / (t * z) ** 2, t**2, z**2, none, none, none),
         Place(none + 1.0, none),
     )
-    with np.errstate(all="ignore"):  # what is not finite is refused below
+    with np.errstate(all="ignore"):  # energies that are not finite are refused below
         value = law.energy(C, place, anp)
     try:
         if np.iscomplexobj(value):
@@ -187,7 +206,10 @@ def _all_constants() -> dict[str, ConstantDeclaration]:
 
 
 def _law_file() -> type[_LawFile]:
-    """Model of a law file; it knows the constants of every law, to name the nearest one."""
+    """Return the pydantic model of a law file.
+
+    It has the constants of all laws, so that an error can suggest the nearest one.
+    """
     keys: dict[str, Any] = {
         name: (float | None if each.unit == "1" else str | None, None)
         for name, each in _all_constants().items()
@@ -207,22 +229,23 @@ def _known_law(constants: _LawFile) -> Law:
             raise BadInput(f"'{name}'", "missing", f"given for law '{constants.law}'")
     for name, value in given.items():
         if value is not None and name not in declared:
-            raise BadInput(f"'{name}'", "given", f"absent for law '{constants.law}'")
+            raise BadInput(f"'{name}'", "given", f"left out for law '{constants.law}'")
     made: Law = law(**values)
     return made
 
 
 def material_table(material: Material) -> dict[str, Any]:
-    """The table that describes a material of a known law; `find_material` reads it back.
+    """Return the table that describes a material of a known law; `find_material` reads it.
 
     Raises
     ------
     BadInput
-        The law is none of the known ones, such as a user's function.
+        The law is not one of the known laws, e.g. because it is a user's function.
     """
     name_of = name_of_law(material.law)
     if not name_of:
-        raise BadInput("law", material.name, "a known one to be written", ", ".join(KNOWN_LAWS))
+        raise BadInput("law of the material", material.name,
+                       "one of " + ", ".join(KNOWN_LAWS) + " to be written")  # fmt: skip
     return {
         "law": name_of,
         **{
@@ -237,6 +260,19 @@ def material_table(material: Material) -> dict[str, Any]:
 
 
 def write_law(material: Material, path: Path) -> None:
-    """Write a material of a known law so that `load_material` gives it back."""
+    """Write a law file from which `load_material` returns the same material.
+
+    Parameters
+    ----------
+    material : Material
+        A material of a known law.
+    path : Path
+        The law file.
+
+    Raises
+    ------
+    BadInput
+        The law is not one of the known laws, or the file cannot be written.
+    """
     document = material_table(material)
     write_file(path, tomli_w.dumps(document), "law file")

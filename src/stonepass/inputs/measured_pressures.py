@@ -1,4 +1,4 @@
-"""Measured critical pressures: a series of stones and tubes, read from a CSV file."""
+"""Reader of a series of measured critical pressures from a CSV file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from stonepass.units import Pressure
 __all__ = ["Point", "read_points"]
 
 COLUMNS = ("xi", "eta", "confining_kPa", "pressure_kPa")
-PRESSURE = (0.0, 1e3)  # kPa
+PRESSURE = (0.0, 1e3)  # smallest and largest measured pressure in kPa
 BOUNDS = {
     "xi": SIZE_RATIO,
     "eta": WALL_RATIO,
@@ -26,7 +26,21 @@ BOUNDS = {
 
 @dataclass(frozen=True)
 class Point:
-    """One measured critical pressure in Pa, with its standard deviation where it was given."""
+    """A measured critical pressure.
+
+    Attributes
+    ----------
+    size_ratio : float
+        Size ratio ξ, 0.1 to 3.
+    wall_ratio : float
+        Wall ratio η, 1.02 to 10.
+    confining_pressure : Pressure
+        Confining pressure P_out in Pa.
+    pressure : Pressure
+        Measured critical pressure in Pa.
+    sd : Pressure or None
+        Standard deviation of the measured pressure in Pa; None if it is unknown.
+    """
 
     size_ratio: float
     wall_ratio: float
@@ -36,12 +50,19 @@ class Point:
 
 
 def read_points(path: str | Path) -> tuple[Point, ...]:
-    """Read ``xi, eta, confining_kPa, pressure_kPa`` and, where it is there, ``sd_kPa``.
+    """Read a series of measured critical pressures.
+
+    Parameters
+    ----------
+    path : str or Path
+        CSV file with the columns ``xi``, ``eta``, ``confining_kPa`` and ``pressure_kPa``; the
+        column ``sd_kPa`` with standard deviations is optional.
 
     Raises
     ------
     BadInput
-        Naming the file, and row and column where one is at fault.
+        The file cannot be read, or a value is out of bounds. The message names the file, the row
+        and the column.
     """
     path = Path(path)
     columns = read_columns(path, COLUMNS, ("sd_kPa",), BOUNDS)

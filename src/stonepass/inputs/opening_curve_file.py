@@ -1,4 +1,4 @@
-"""Opening curves from outside: opened angles and radii as CSV, or a table of a case file."""
+"""Reader of opening curves from CSV files and from tables of a case file."""
 
 from __future__ import annotations
 
@@ -18,12 +18,20 @@ BOUNDS = {"alpha_deg": (1e-3, 90.0), "radius_ratio": RADIUS}
 
 
 def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
-    """An opening curve as a case file has it: the name of a CSV file, or a table of its columns.
+    """Return the opening curve that a value of the command line or of a case file describes.
+
+    Parameters
+    ----------
+    value : OpeningCurve, str, Path or dict
+        The name of a CSV file, a table with the lists ``alpha_deg`` and ``radius_ratio``, or an
+        opening curve.
+    folder : Path, optional
+        Folder in which a relative path starts; by default the current one.
 
     Raises
     ------
     BadInput
-        A file that cannot be read, a table with other keys, or no opening curve.
+        The file cannot be read, the table has other keys, or the values are no opening curve.
     """
     if isinstance(value, OpeningCurve):
         return value
@@ -34,7 +42,7 @@ def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
         try:
             alpha, radius = (np.array(value[name], dtype=float) for name in BOUNDS)
             return OpeningCurve(tuple(np.radians(alpha).tolist()), tuple(radius.tolist()))
-        except BadInput:  # of the curve itself, which says more
+        except BadInput:  # the check of the curve itself gives a better message
             raise
         except (KeyError, TypeError, ValueError) as problem:
             allowed = "a table of two lists of numbers, " + " and ".join(BOUNDS)
@@ -45,18 +53,25 @@ def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
 
 
 def opening_curve_table(curve: OpeningCurve) -> dict[str, Any]:
-    """The table of a case file that describes an opening curve; `find_opening_curve` reads it."""
+    """Return the table of a case file that describes an opening curve."""
     alpha, radius = curve.arrays
     return {"alpha_deg": np.degrees(alpha).tolist(), "radius_ratio": radius.tolist()}
 
 
 def read_opening_curve(path: str | Path) -> OpeningCurve:
-    """Read an opening curve from a CSV file with the columns ``alpha_deg`` and ``radius_ratio``.
+    """Read an opening curve from a CSV file.
+
+    Parameters
+    ----------
+    path : str or Path
+        CSV file with the columns ``alpha_deg`` (angle up to which the wall has opened, in degrees)
+        and ``radius_ratio`` (r_a/R_a of the tube upstream).
 
     Raises
     ------
     BadInput
-        Naming the file, and row and column where one is at fault.
+        The file cannot be read, or the values are no opening curve. The message names the file, the
+        row and the column.
     """
     path = Path(path)
     columns = read_columns(path, tuple(BOUNDS), bounds=BOUNDS, distinct=True)

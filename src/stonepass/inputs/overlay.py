@@ -1,4 +1,4 @@
-"""Options beside a case file: an option displaces what the file says of the same thing."""
+"""Combination of a case file with command-line options, which override the file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from stonepass.model.models.registry import MODELS
 
 __all__ = ["EXCLUSIVE", "of_other_models", "overlay", "refuse_pairs"]
 
-# Inputs that say the same thing in two ways: the one given displaces the others.
+# Alternative inputs for the same quantity: an option overrides the alternatives in the file.
 EXCLUSIVE = (
     ("stone.diameter", "stone.size_ratio"),
     ("ureter.outer_diameter", "ureter.wall_ratio"),
@@ -22,7 +22,7 @@ EXCLUSIVE = (
     ("method.circumferential_modulus", "method.secant_stretch"),
     ("method.longitudinal_modulus", "method.secant_stretch"),
 )
-# A value that leaves no place for another input.
+# Values of an input that exclude another input: an option with this value removes it.
 DISPLACING = {
     ("method.closure", "linear"): "method.opening_curve",
     ("method.seating", "frictionless"): "method.seating_friction",
@@ -30,7 +30,17 @@ DISPLACING = {
 
 
 def overlay(base: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """The values of a file with those that were given beside it in their place."""
+    """Return the values of a case file, overridden by given values.
+
+    A given value also removes values of the file that cannot be used with it.
+
+    Parameters
+    ----------
+    base : mapping of str to value
+        Raw values of the file by key.
+    given : mapping of str to value
+        Raw values of the options by key.
+    """
     displaced = {there for pair in EXCLUSIVE for here, there in (pair, pair[::-1]) if here in given}
     displaced |= {there for (key, value), there in DISPLACING.items() if given.get(key) == value}
     if MODEL in given and given[MODEL] in MODELS:
@@ -39,7 +49,7 @@ def overlay(base: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]
 
 
 def of_other_models(name: str) -> set[str]:
-    """Keys of the options that a model does not have, but another one has."""
+    """Return the keys of options that other models have, but not the named model."""
     kept = inputs_of(MODELS[name])
     return {
         key
@@ -49,7 +59,20 @@ def of_other_models(name: str) -> set[str]:
 
 
 def refuse_pairs(given: Mapping[str, Any], words: Mapping[str, str]) -> None:
-    """Refuse two options that say the same thing; `words` names them by key."""
+    """Refuse two given inputs that determine the same quantity.
+
+    Parameters
+    ----------
+    given : mapping of str to value
+        Given values by key.
+    words : mapping of str to str
+        Names of the inputs in messages, by key.
+
+    Raises
+    ------
+    Misplaced
+        Two alternative inputs are given.
+    """
     for first, second in EXCLUSIVE:
         if first in given and second in given:
             raise Misplaced(words[first], words[second], "", "give one of the two")

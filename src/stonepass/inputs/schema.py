@@ -1,4 +1,4 @@
-"""The JSON schema of a case file, made from the declared inputs."""
+"""Generator of the JSON schema of case files from the declared inputs."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _TYPES: dict[Kind, Any] = {
 
 
 def case_schema() -> dict[str, Any]:
-    """Describe a case file as JSON Schema (draft 2020-12).
+    """Return the JSON Schema (draft 2020-12) of a case file.
 
-    Bounds of lengths and pressures stand in the description, since those are text with a unit.
+    Lengths and pressures are texts with a unit; their bounds are part of the description.
     """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -1,4 +1,4 @@
-"""Sections of TOML files that other files share with case files, as pydantic models."""
+"""Pydantic models of the sections of case files, for other files with the same sections."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ _TYPES: dict[Kind, Any] = {
 
 
 class FileSection(BaseModel):
-    """A section of a TOML file: no unknown keys, no conversions."""
+    """A section of a TOML file; unknown keys and values of another type are refused."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
 
 def section_model(section: str) -> type[FileSection]:
-    """The pydantic model of a section of a case file, made from the declared inputs."""
+    """Return the pydantic model of a section of a case file, made from the declared inputs."""
     keys: dict[str, Any] = {
         name: (_TYPES.get(each.declaration.kind, str) | None, None)
         for name, each in sections()[section].items()
@@ -37,6 +37,19 @@ def section_model(section: str) -> type[FileSection]:
 
 
 def section_values(parsed: FileSection, section: str) -> dict[str, Any]:
-    """The values that were given in a section, by key."""
+    """Return the given values of a section.
+
+    Parameters
+    ----------
+    parsed : FileSection
+        The section that was read.
+    section : str
+        Name of the section.
+
+    Returns
+    -------
+    dict of str to value
+        Raw values by key ``section.name``.
+    """
     given = parsed.model_dump(exclude_none=True)
     return {f"{section}.{name}": value for name, value in given.items()}

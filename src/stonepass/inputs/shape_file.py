@@ -1,4 +1,4 @@
-"""Shapes from outside: points of a stone's meridian as CSV, or a table of a case file."""
+"""Reader of shapes from the points of a meridian in a CSV file, or from tables of a case file."""
 
 from __future__ import annotations
 
@@ -17,18 +17,24 @@ from stonepass.model.shape_fit import shape_through
 
 __all__ = ["find_shape", "read_shape", "shape_table"]
 
-FAR = 1e9  # in the unit of the points
+FAR = 1e9  # largest coordinate of a point, in the unit of the file
 
 
 def find_shape(value: Any, folder: Path | None = None) -> Shape:
-    """A shape as a case file has it: the name of a CSV file, or a table that describes it.
+    """Return the shape that a value of the command line or of a case file describes.
 
-    The table has ``aspect`` and ``outline`` (see `Shape`), or points ``z`` and ``rho``.
+    Parameters
+    ----------
+    value : Shape, str, Path or dict
+        The name of a CSV file, a table with ``aspect`` and ``outline`` (see `Shape`), a table with
+        the lists of points ``z`` and ``rho``, or a shape.
+    folder : Path, optional
+        Folder in which a relative path starts; by default the current one.
 
     Raises
     ------
     BadInput
-        A file that cannot be read, a table with other keys, or no shape.
+        The file cannot be read, the table has other keys, or the values describe no shape.
     """
     if isinstance(value, Shape):
         return value
@@ -40,7 +46,7 @@ def find_shape(value: Any, folder: Path | None = None) -> Shape:
 
 
 def shape_table(shape: Shape) -> dict[str, Any]:
-    """The table of a case file that describes a shape; `find_shape` reads it back."""
+    """Return the table of a case file that describes a shape; `find_shape` reads it."""
     table: dict[str, Any] = {"aspect": shape.aspect, "outline": list(shape.outline)}
     return table | ({"deviation": shape.deviation} if shape.deviation else {})
 
@@ -71,12 +77,23 @@ def _numbers(table: dict[str, Any], name: str) -> Float[np.ndarray, " n"]:
 
 
 def read_shape(path: str | Path) -> Shape:
-    """Read a shape from a CSV file with the columns ``z`` and ``rho`` (see `shape_through`).
+    """Read the shape of a stone from a CSV file.
+
+    Parameters
+    ----------
+    path : str or Path
+        CSV file with the points of a meridian from pole to pole, in any unit of length: ``z`` along
+        the axis and ``rho`` from the axis (see `shape_through`).
 
     Raises
     ------
     BadInput
-        Naming the file, and row and column where one is at fault.
+        The file cannot be read, or the points are no convex meridian. The message names the file,
+        the row and the column.
+
+    References
+    ----------
+    docs/theory.md, "Stones that are not spheres".
     """
     path = Path(path)
     columns = read_columns(

@@ -1,4 +1,4 @@
-"""Refusal of a column whose name is not known; a name that is suggested never changes the unit."""
+"""Errors for unknown column names, with a suggestion that never changes the unit of the values."""
 
 from __future__ import annotations
 
@@ -11,24 +11,29 @@ from stonepass.units import unit_ratio
 
 __all__ = ["is_unit", "refuse_column", "unit_of"]
 
-# Units at the end of names of columns, apart from the lengths and pressures of `stonepass.units`.
+# Units at the end of column names, in addition to the lengths and pressures of `stonepass.units`.
 _FACTORS = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "cN": 1e-2, "kgf": 9.80665, "gf": 9.80665e-3}
 _ANGLES = {"deg": 1.0, "rad": 57.29577951308232}
 
 
 def refuse_column(where: str, name: str, known: Sequence[str], header: Collection[str]) -> NoReturn:
-    """Refuse the column `name` with what helps.
+    """Refuse an unknown column, and suggest the nearest known name or a conversion of the unit.
 
     Parameters
     ----------
     where : str
-        File and kind of what is refused, as the sentence begins.
+        Beginning of the message, with the name of the file.
     name : str
         The name of the column, one of `header`.
     known : sequence of str
         Columns that the table may have.
     header : collection of str
-        Columns that it has; none of them is suggested again.
+        Columns that the table has; they are not suggested.
+
+    Raises
+    ------
+    BadInput
+        Always.
     """
     left = [each for each in known if each not in header]
     stem, unit = _split(name)
@@ -52,23 +57,23 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
 
 
 def unit_of(name: str) -> str:
-    """Return the unit at the end of the name of a column; empty where it has none."""
+    """Return the unit at the end of a column name; empty if the name has no unit."""
     return _split(name)[1]
 
 
 def is_unit(text: str) -> bool:
-    """Whether a text is a unit that the name of a column may end in."""
+    """Return whether a text is a unit that may stand at the end of a column name."""
     return _ratio(text, text) is not None
 
 
 def _split(name: str) -> tuple[str, str]:
-    """Return the name without its unit, and the unit, which may be nothing."""
+    """Return the column name without its unit, and the unit, which may be empty."""
     stem, _, end = name.rpartition("_")
     return (stem, end) if stem and is_unit(end) else (name, "")
 
 
 def _ratio(unit: str, wanted: str) -> float | None:
-    """`wanted` units in one `unit`; None for units that measure different things, or none."""
+    """Return how many `wanted` units one `unit` is; None if they measure different quantities."""
     for table in (_FACTORS, _ANGLES):
         if unit in table and wanted in table:
             return table[unit] / table[wanted]

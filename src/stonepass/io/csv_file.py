@@ -1,4 +1,4 @@
-"""Tables of numbers from outside: CSV files, refused in one sentence that says where."""
+"""Reader and writer of CSV files with columns of numbers; errors name the row and the column."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from stonepass.io.text_file import read_text, write_file
 
 __all__ = ["Columns", "read_columns", "write_csv"]
 
-LARGEST_FILE = 10_000_000  # bytes
-MOST_ROWS = 100_000  # empty ones too
+LARGEST_FILE = 10_000_000  # largest size of a file in bytes
+MOST_ROWS = 100_000  # largest number of rows, including empty ones
 
 
 class Columns(dict[str, Float[np.ndarray, " rows"]]):
-    """Columns by name; `lines` has the line of the file that each row stands in."""
+    """Columns of numbers by name; `lines` has the line number in the file of each row."""
 
     def __init__(
         self, lines: tuple[int, ...], columns: Mapping[str, Float[np.ndarray, " rows"]]
@@ -36,7 +36,15 @@ class Columns(dict[str, Float[np.ndarray, " rows"]]):
         self.lines = lines
 
     def place(self, row: int, column: str) -> str:
-        """Where a cell stands, in words."""
+        """Return the position of a cell for a message, e.g. ``row 3, column 'xi'``.
+
+        Parameters
+        ----------
+        row : int
+            Index of the row, starting at 0.
+        column : str
+            Name of the column.
+        """
         return f"row {self.lines[row]}, column '{column}'"
 
 
@@ -51,32 +59,36 @@ def read_columns(
 ) -> Columns:
     """Read columns of numbers by the names in the header, in any order.
 
-    The header is the first line with all required names; what a machine writes before it is left
-    out, and so is a row of units under it. Empty lines, lines that begin with ``#`` and columns
-    without a name and without any cell are left out too; rows count as an editor's lines do. Cells
-    may be separated by commas, semicolons or tabs (`table_header`).
+    The header is the first line with all required names. Lines before it and a row of units below
+    it are ignored, as are empty lines, lines that begin with ``#``, and columns without a name and
+    without values. Cells may be separated by commas, semicolons or tabs (see `table_header`). Rows
+    in messages have the line numbers of an editor.
 
     Parameters
     ----------
     path : Path
+        A CSV file of at most 10 MB and 100 000 rows.
     required, optional : sequence of str
-        Names of columns.
-    bounds : mapping
-        Least and largest number allowed in a column.
-    words : mapping
-        Words allowed in a column that has no numbers; they are returned as indices into this list.
+        Names of the columns that the file must have and of those that it may have.
+    bounds : mapping of str to (float, float)
+        Smallest and largest number in a column.
+    words : mapping of str to sequence of str
+        Words in a column without numbers. They are returned as indices into the sequence.
     distinct : bool
-        Whether a row that is there twice is a mistake, as in an outline. A measurement may be
-        repeated.
+        Whether two equal rows are refused. Measurements may be repeated, but the points of an
+        outline may not.
+
+    Returns
+    -------
+    Columns
+        Arrays by column name, each with one number per row.
 
     Raises
     ------
     BadInput
-        Naming the file, and row and column where one is at fault: a missing file, one larger than
-        10 MB, of more than 100 000 rows or not of text, a column that is missing, unknown (with the
-        nearest known one) or there twice, a row of another length, one that is there twice where
-        rows must be distinct, a cell that is no finite number or out of bounds or none of the
-        words, no rows at all.
+        The file does not exist, is too large or is no text; it has no rows; a column is missing,
+        unknown (the message names the nearest known one) or given twice; a row has another length
+        or is repeated; a cell is no finite number, out of bounds, or none of the words.
     """
     rows = _rows(path, required)
     if not rows:
@@ -94,7 +106,7 @@ def read_columns(
 
 
 def _rows(path: Path, required: Sequence[str]) -> list[tuple[int, list[str]]]:
-    """Line number and cells of the header and of every row under it that says something."""
+    """Return the line number and the cells of the header and of every row that is not empty."""
     text = read_text(path, LARGEST_FILE, "a CSV file of text", other_encodings=True)
     lines = list(io.StringIO(text, newline=""))
     delimiter, before = layout_of([line.rstrip("\r\n") for line in lines], required)
@@ -116,7 +128,7 @@ def _rows(path: Path, required: Sequence[str]) -> list[tuple[int, list[str]]]:
 
 
 def _without_empty_columns(rows: list[tuple[int, list[str]]]) -> list[tuple[int, list[str]]]:
-    """Leave out the cells behind the last name of the header if all are empty."""
+    """Remove the cells after the last name of the header if all of them are empty."""
     if not rows:
         return rows
     header = [cell.strip() for cell in rows[0][1]]
@@ -147,13 +159,13 @@ def _check_repeated(path: Path, lines: Sequence[int], rows: Sequence[Sequence[fl
     for line, numbers in zip(lines, rows, strict=True):
         same = first.setdefault(tuple(numbers), line)
         if same != line:
-            raise BadInput(f"in {path.name}, row {line}", f"the same as row {same}",
-                           "there once", "leave one of them out")  # fmt: skip
+            raise BadInput(f"in {path.name}, row {line}", f"equal to row {same}",
+                           "different from all other rows", "leave one of them out")  # fmt: skip
 
 
 @dataclass(frozen=True)
 class _Cells:
-    """What the cells of a table may say."""
+    """Conversion of the cells of a table to numbers, with checks."""
 
     path: Path
     header: list[str]
@@ -161,7 +173,7 @@ class _Cells:
     words: Mapping[str, Sequence[str]]
 
     def numbers(self, line: int, cells: list[str]) -> list[float]:
-        """The numbers of one row."""
+        """Return the numbers of one row."""
         if len(cells) != len(self.header):
             allowed = f"{len(self.header)}, as in the header"
             raise BadInput(f"in {self.path.name}, row {line}", f"{len(cells)} cells", allowed)
@@ -183,7 +195,16 @@ class _Cells:
 
 
 def write_csv(path: Path, header: Iterable[str], rows: Iterable[Iterable[Any]]) -> None:
-    """Write rows as CSV; a number that does not exist (None) is an empty cell.
+    """Write a table as CSV.
+
+    Parameters
+    ----------
+    path : Path
+        File to write.
+    header : iterable of str
+        Names of the columns.
+    rows : iterable of iterables
+        Cells of each row. None is written as an empty cell, and a list of texts as one cell.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Folders that results go to: refused before the work, not after it."""
+"""Check of output folders before a calculation begins."""
 
 from __future__ import annotations
 
@@ -11,7 +11,22 @@ __all__ = ["require_writable"]
 
 
 def require_writable(folder: Path, what: str, remedy: str = "") -> None:
-    """Make a folder and try to write in it; `BadInput` where that fails."""
+    """Make a folder, and check that files can be written in it.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder.
+    what : str
+        Name of the folder or option in messages.
+    remedy : str
+        What the user can do if the check fails; may be empty.
+
+    Raises
+    ------
+    BadInput
+        The folder cannot be made or written.
+    """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with TemporaryFile(dir=folder) as file:

@@ -1,4 +1,4 @@
-"""Libraries of an extra: loaded where they are used, and what to install where they are missing."""
+"""Import of the libraries of optional extras, with an error that says what to install."""
 
 from __future__ import annotations
 
@@ -11,7 +11,22 @@ __all__ = ["library"]
 
 
 def library(name: str, purpose: str, extra: str) -> Any:
-    """Load a module; `BadInput` with the extra that brings it where it is not installed."""
+    """Import a module of an optional library.
+
+    Parameters
+    ----------
+    name : str
+        Name of the module.
+    purpose : str
+        What the library is needed for, an infinitive without "to" for the message.
+    extra : str
+        The extra of stonepass that installs the library.
+
+    Raises
+    ------
+    BadInput
+        The library is not installed.
+    """
     try:
         return import_module(name)
     except ImportError as problem:

@@ -1,7 +1,4 @@
-"""The decimal mark of a table is read from the table itself.
-
-Spreadsheets and testing machines write decimal commas where cells are not separated by commas.
-"""
+"""Conversion of decimal commas, which some spreadsheets and testing machines write."""
 
 from __future__ import annotations
 
@@ -19,22 +16,22 @@ _GROUPED = re.compile(r"\s*[-+]?\d{1,3}(,\d{3})+\s*", re.ASCII)
 def with_decimal_points(
     rows: Iterable[tuple[int, list[str]]], delimiter: str, name: str
 ) -> list[tuple[int, list[str]]]:
-    """Turn decimal commas into points where cells are not separated by commas.
+    """Replace decimal commas by points in a table whose cells are not separated by commas.
 
     Parameters
     ----------
     rows : iterable of (line, cells)
-        The header and the rows under it, without comments.
+        The header and the rows below it, without comments.
     delimiter : str
         The character that separates the cells.
     name : str
-        The name of the file, for refusals.
+        The name of the file for messages.
 
     Raises
     ------
     BadInput
-        Commas that may separate decimals or thousands: beside decimal points, or in a table with
-        tabs where three digits follow every comma.
+        The commas could separate decimals or thousands: the table has decimal points too, or it has
+        tabs and three digits follow every comma.
     """
     found = list(rows)
     if delimiter == ",":

@@ -1,7 +1,7 @@
-"""Where the table begins in a file, and what separates its cells.
+"""Detection of the header of a table in a text file, and of the separator of its cells.
 
-Spreadsheets and testing machines write commas, semicolons or tabs between cells. Machines also
-write lines about the test before the table, and a row of units under its header.
+Spreadsheets and testing machines separate cells by commas, semicolons or tabs. Testing machines
+also write lines about the test before the table, and a row of units below the header.
 """
 
 from __future__ import annotations
@@ -17,19 +17,26 @@ __all__ = ["NUMBER", "layout_of", "without_units"]
 
 NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
 DELIMITERS = (",", ";", "\t")
-LONGEST_PREAMBLE = 200  # lines
-NO_UNIT = ("", "-", "–", "mm/mm", "m/m")  # under the name of a ratio
-_DECLARED = re.compile(r"sep=(.)\s*", re.IGNORECASE)  # first line of a file made for Excel
+LONGEST_PREAMBLE = 200  # largest number of lines before the header
+NO_UNIT = ("", "-", "–", "mm/mm", "m/m")  # cells in a row of units below dimensionless columns
+_DECLARED = re.compile(r"sep=(.)\s*", re.IGNORECASE)  # first line of a file that Excel reads
 
 Row = tuple[int, list[str]]  # number of the line, and its cells
 
 
 def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int]:
-    """Return what separates the cells, and how many lines stand before the header.
+    """Return the separator of the cells, and the number of lines before the header.
 
-    The header is the first line that has all required names. Where no line has them it is the line
-    before the first row of numbers, so that a refusal can tell which of its names are not known,
-    else the first line. Empty lines and those that begin with ``#`` do not count.
+    The header is the first line with all required names. If there is none, it is the line of names
+    above the first row of numbers, so that an error can name its unknown columns, or else the first
+    line. Empty lines and lines that begin with ``#`` are ignored.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        Lines of the file.
+    required : collection of str
+        Names of the columns that the table must have.
     """
     declared = _DECLARED.fullmatch(lines[0]) if lines else None
     candidates = (declared[1],) if declared and declared[1] in DELIMITERS else DELIMITERS
@@ -52,7 +59,7 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
 
 
 def _header_above(above: Sequence[tuple[int, str]], delimiter: str) -> int | None:
-    """Number of the line of names above a row of numbers, past a row of units."""
+    """Return the index of the line of names above a row of numbers; a row of units is skipped."""
     for number, line in reversed(above[-2:]):
         cells = _cells(line, delimiter)
         if len(cells) < 2 or any(map(NUMBER.fullmatch, cells)):
@@ -63,19 +70,19 @@ def _header_above(above: Sequence[tuple[int, str]], delimiter: str) -> int | Non
 
 
 def without_units(rows: list[Row], name: str) -> list[Row]:
-    """Leave out a row of units under the header, once they are those of the columns' names.
+    """Remove a row of units below the header, after a check against the units in the column names.
 
     Parameters
     ----------
     rows : list of (line, cells)
-        The header and the rows under it.
+        The header and the rows below it.
     name : str
-        The name of the file, for refusals.
+        The name of the file for messages.
 
     Raises
     ------
     BadInput
-        A unit is another than the name of its column says.
+        A unit differs from the unit in the name of its column.
     """
     if len(rows) < 2 or len(rows[1][1]) != len(rows[0][1]):
         return rows
@@ -88,7 +95,7 @@ def without_units(rows: list[Row], name: str) -> list[Row]:
             raise BadInput(
                 f"in {name}, row {line}, the unit of column '{column.strip()}'",
                 given,
-                wanted or "none, as the column is a ratio",
+                wanted or "empty, since the column is dimensionless",
                 "convert the values, or name the column by its unit if it may have that one",
             )
     return [rows[0], *rows[2:]]
@@ -107,7 +114,7 @@ def _all_numbers(line: str, delimiter: str) -> bool:
 
 
 def _are_units(cells: Sequence[str]) -> bool:
-    """Whether every cell is a unit or says that there is none, and one at least is a unit."""
+    """Return whether all cells are units or signs for "no unit", and at least one is a unit."""
     units = [_bare(cell) for cell in cells]
     real = [each == "%" or is_unit(each) for each in units]
     return any(real) and all(
@@ -116,5 +123,5 @@ def _are_units(cells: Sequence[str]) -> bool:
 
 
 def _bare(cell: str) -> str:
-    """A unit without the brackets that machines write round it."""
+    """Return a unit without brackets."""
     return cell.strip().strip("()[]").strip()

@@ -1,4 +1,4 @@
-"""Files: read text and write text or bytes, or else refuse in one sentence."""
+"""Reader of text files and writer of files, with errors in one sentence."""
 
 from __future__ import annotations
 
@@ -15,20 +15,27 @@ from stonepass.errors import BadInput, did_you_mean, require
 __all__ = ["WRITING", "check_writable", "existing", "read_text", "replace_file", "write_file"]
 
 MOST_NAMES = 1000  # files of a folder that are compared with a missing one
-WRITING = threading.RLock()  # held while a file is half written; see `studies.executor`
+WRITING = threading.RLock()  # held while a file is being written; see `studies.executor`
 
 
 def existing(path: Path, what: str = "file") -> Path:
-    """Return the path of a file that exists.
+    """Return the path of an existing file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    what : str
+        Kind of the file in messages.
 
     Raises
     ------
     BadInput
-        There is no such file; a file of a similar name beside it is named.
+        The file does not exist; a file of a similar name beside it is named.
     """
     try:
         there = path.is_file()
-    except (OSError, ValueError):  # a name too long for the system, or with a NUL
+    except (OSError, ValueError):  # the name is too long for the system or contains a NUL
         there = False
     if not there:
         raise BadInput(what, path, "a file that exists", _similar(path) or "check the path")
@@ -47,22 +54,33 @@ def _similar(path: Path) -> str:
 def read_text(
     path: Path, largest: int, kind: str, what: str = "file", *, other_encodings: bool = False
 ) -> str:
-    """The text of a file in UTF-8 of at most `largest` bytes, a byte order mark left out.
+    """Return the text of a file.
 
-    With `other_encodings` also UTF-16 with its byte order mark, and Latin-1 where no UTF-8 is given
-    and the text has no control characters.
+    Parameters
+    ----------
+    path : Path
+        The file.
+    largest : int
+        Largest size of the file in bytes.
+    kind : str
+        Description of a valid file in messages, e.g. "valid TOML".
+    what : str
+        Kind of the file in messages.
+    other_encodings : bool
+        Whether UTF-16 (with a byte order mark) and Latin-1 (without control characters) are
+        accepted in addition to UTF-8.
 
     Raises
     ------
     BadInput
-        Naming the file; `kind` is what it should have been.
+        The file does not exist, is too large, or cannot be read or decoded.
     """
     existing(path, what)
     size = f"{largest // 1000} kB" if largest < 1_000_000 else f"{largest // 1_000_000} MB"
     try:
         require(path.stat().st_size <= largest, what, path, f"smaller than {size}")
         with path.open("rb") as file:
-            raw = file.read(largest + 1)  # some files do not know their size
+            raw = file.read(largest + 1)  # the size of a pipe or device is unknown
         require(len(raw) <= largest, what, path, f"smaller than {size}")
         return _decoded(raw) if other_encodings else raw.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as problem:
@@ -72,7 +90,7 @@ def read_text(
 def _decoded(raw: bytes) -> str:
     if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         text = raw.decode("utf-16")
-        if _has_control_characters(text):  # UTF-32 begins with the same bytes
+        if _has_control_characters(text):  # UTF-32 has a similar byte order mark
             raise UnicodeDecodeError("utf-16", raw[:4], 0, 4, "control characters")
         return text
     try:
@@ -89,32 +107,47 @@ def _has_control_characters(text: str) -> bool:
 
 
 def check_writable(path: Path, endings: tuple[str, ...]) -> None:
-    """Refuse an output file that could not be written, before the work is done.
+    """Refuse an output file that cannot be written, before the calculation begins.
+
+    Parameters
+    ----------
+    path : Path
+        The output file.
+    endings : tuple of str
+        Allowed endings of its name, in lower case with the dot.
 
     Raises
     ------
     BadInput
-        The name has another ending than `endings` (in lower case), or its folder cannot be written
-        to.
+        The name has another ending, or the file cannot be written.
     """
     if path.suffix.lower() not in endings:
         raise BadInput("output file", str(path), "a name ending in " + ", ".join(endings))
     try:
         fits = not path.is_dir() and os.access(path.resolve().parent, os.W_OK)
         fits = fits and (not path.exists() or os.access(path, os.W_OK))
-    except (OSError, ValueError):  # a name too long for the system, or with a NUL
+    except (OSError, ValueError):  # the name is too long for the system or contains a NUL
         fits = False
     if not fits:
         raise BadInput("output file", str(path), "in a folder that can be written to")
 
 
 def write_file(path: Path, content: str | bytes, what: str = "output file") -> None:
-    """Write a file in one step; text is encoded in UTF-8.
+    """Write a file in one step; see `replace_file`.
+
+    Parameters
+    ----------
+    path : Path
+        File to write.
+    content : str or bytes
+        Content of the file; text is encoded in UTF-8.
+    what : str
+        Kind of the file in messages.
 
     Raises
     ------
     BadInput
-        It cannot be written. A file that was there before is then as it was.
+        The file cannot be written. A previous file is then unchanged.
     """
     try:
         replace_file(path, content if isinstance(content, bytes) else content.encode("utf-8"))
@@ -123,14 +156,21 @@ def write_file(path: Path, content: str | bytes, what: str = "output file") -> N
 
 
 def replace_file(path: Path, content: bytes) -> None:
-    """Write a file beside its place and move it there, so that nobody ever sees half of it.
+    """Write a file under a temporary name and rename it, so that it is always complete.
 
-    A link is followed. A device or a pipe is written to directly.
+    A symbolic link is followed. A device or a pipe is written directly.
+
+    Parameters
+    ----------
+    path : Path
+        File to write.
+    content : bytes
+        Content of the file.
 
     Raises
     ------
     OSError
-        It cannot be written, and what was there before is as it was.
+        The file cannot be written. A previous file is then unchanged.
     """
     target = path.resolve()
     if target.exists() and not target.is_file():

@@ -1,4 +1,4 @@
-"""TOML files from outside as nested dictionaries, refused in one sentence where they are none."""
+"""Reader of TOML files into nested dictionaries."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from stonepass.io.text_file import read_text
 
 __all__ = ["read_document"]
 
-LARGEST_FILE, LONGEST_LINE = 100_000, 1000  # bytes, characters
+LARGEST_FILE = 100_000  # largest size of a file in bytes
+LONGEST_LINE = 1000  # largest number of characters of a line
 
 
 def read_document(path: Path) -> dict[str, Any]:
@@ -20,14 +21,15 @@ def read_document(path: Path) -> dict[str, Any]:
     Raises
     ------
     BadInput
-        A missing file, one larger than 100 kB, a line that is too long, or broken TOML.
+        The file does not exist, is larger than 100 kB, has a line of more than 1000 characters, or
+        is no valid TOML.
     """
     text = read_text(path, LARGEST_FILE, "valid TOML")
     longest = max(map(len, text.splitlines()), default=0)
-    if longest > LONGEST_LINE:  # a key of many parts takes minutes to read
+    if longest > LONGEST_LINE:  # reading a key of very many parts would take minutes
         shown = f"a line of {longest} characters"
         raise BadInput(f"in {path.name}, the longest line", shown, f"at most {LONGEST_LINE}")
     try:
         return tomllib.loads(text)
-    except (ValueError, RecursionError) as problem:  # integers of 5000 digits are a ValueError too
+    except (ValueError, RecursionError) as problem:  # Python also refuses integers of 5000 digits
         raise BadInput("file", path, f"valid TOML ({problem})") from problem

@@ -1,4 +1,4 @@
-"""TOML files from outside: read, checked against a schema, refused in one sentence."""
+"""Reader of TOML files that are checked against a pydantic schema."""
 
 from __future__ import annotations
 
@@ -26,24 +26,40 @@ _ALLOWED = {
 
 
 def read_toml(path: Path, schema: type[Schema]) -> Schema:
-    """Read a TOML file into `schema`.
+    """Read a TOML file and check it against a schema.
+
+    Parameters
+    ----------
+    path : Path
+        The TOML file.
+    schema : type
+        The pydantic model of the file.
 
     Raises
     ------
     BadInput
-        Naming the file and the key: missing or broken file, a key that is unknown (with the
-        nearest known one), missing or of the wrong type.
+        The file cannot be read, or a key is unknown (the message names the nearest known one),
+        missing or of the wrong type. The message names the file and the key.
     """
     return parse_table(read_document(path), schema, f"in {path.name}, ")
 
 
 def parse_table(raw: dict[str, Any], schema: type[Schema], where: str) -> Schema:
-    """Check a table against `schema`; `where` begins each refusal.
+    """Check a table against a schema.
+
+    Parameters
+    ----------
+    raw : dict
+        The table as it was read.
+    schema : type
+        The pydantic model of the table.
+    where : str
+        Beginning of the messages, e.g. the name of the file.
 
     Raises
     ------
     BadInput
-        A key that is unknown (with the nearest known one), missing or of the wrong type.
+        A key is unknown (the message names the nearest known one), missing or of the wrong type.
     """
     _refuse_stray_keys(raw, schema, where, "")
     try:

@@ -56,7 +56,7 @@ class Fung:
 
     @property
     def fibres(self) -> Fung:
-        """The same law without the ground matrix, as in the paper (Eqs 21 and 22)."""
+        """This law without its ground matrix, as in the paper (Eqs 21 and 22)."""
         return replace(self, G=0.0)
 
     def microbuckling_threshold(self, C_tt: Any, kept: float, xp: Any) -> Any:

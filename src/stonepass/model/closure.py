@@ -8,18 +8,31 @@ See "Closure and critical state" in docs/theory.md.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.polynomial import Polynomial
 
 from stonepass.array_types import Float
 from stonepass.errors import require
+from stonepass.materials.protocol import Law
+from stonepass.model.far_field import urine_pressure
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem
+from stonepass.model.states.seated_state import Contact
 from stonepass.units import Values
 
-__all__ = ["ORDER", "Series", "first_radius", "fit_series", "linear_closure", "series_through"]
+__all__ = [
+    "ORDER",
+    "Closure",
+    "Series",
+    "first_radius",
+    "fit_series",
+    "linear_closure",
+    "series_through",
+]
 
 ORDER = (1, 8)
 
@@ -177,3 +190,43 @@ def series_through(case: Problem, curve: OpeningCurve, order: int) -> Series | N
 
 def _opening(width: Values, first_width: float) -> Values:
     return (width - first_width) / (1.0 - first_width)
+
+
+@dataclass(frozen=True)
+class Closure:
+    """The urine pressure as a function of the angle up to which the contact has opened.
+
+    Attributes
+    ----------
+    law : Law
+        The law of the far field.
+    start : float
+        r_a/R_a at α₀ in Eq. 15.
+    series : Series or None
+        Fitted series that replaces Eq. 15; None for Eq. 15.
+    """
+
+    law: Law
+    start: float = 1.0
+    series: Series | None = None
+
+    def pressure(self, contact: Contact, alpha: Values) -> Values:
+        """Return the urine pressure P_u(α) in Pa of the far field at the radius r_a(α) (Eq. 16).
+
+        Parameters
+        ----------
+        contact : Contact
+            The seated contact; it supplies α₀ and the case.
+        alpha : float or array
+            Angle in rad up to which the contact has opened, from α₀ to π/2.
+        """
+        case, width = contact.case, contact.case.stone.shape.width
+        shape: Callable[[Values, float, float], Values]
+        shape = self.series or partial(linear_closure, start=self.start)
+        first = float(width(np.array(contact.contact_angle)))
+        radius = shape(width(np.asarray(alpha)), first, case.size_ratio)
+        return urine_pressure(radius, case.wall_ratio, self.law, case.load)
+
+    def end_pressure(self, contact: Contact) -> float:
+        """Return P_u(π/2) in Pa, at which the closure ends; this is not a physical bound."""
+        return float(self.pressure(contact, np.array(np.pi / 2)))

@@ -19,8 +19,8 @@ class ContactState(Protocol):
     """Extent and pressure of the contact between stone and wall.
 
     θ is the angle from the upstream axis in rad: the angle at the centre of a sphere, and the
-    parametric angle of other stones (`model.shape`). σ(θ) is the contact pressure: normal force per
-    deformed area, compression positive.
+    parametric angle of other stones (see "Stones that are not spheres" in docs/theory.md). σ(θ) is
+    the contact pressure: normal force per deformed area, compression positive.
     """
 
     @property

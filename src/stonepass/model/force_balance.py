@@ -28,7 +28,7 @@ class Resistance:
       −π R_s² ∫ σ⁰ sin 2θ dθ (Eq. 5). The pressure on the upstream half pushes the stone downstream,
       the pressure on the downstream half pushes it upstream. Both cancel in the seated state. When
       the upstream half has partly opened, the remainder resists the motion. Eq. 5 is printed
-      without the minus sign, by which the wall would assist the motion.
+      without the minus sign; with the printed sign the wall would assist the motion.
 
     Attributes
     ----------

@@ -1,1 +1,1 @@
-"""Results as typed, versioned records: what every door shows."""
+"""Results as typed, versioned records for JSON and CSV."""

@@ -1,4 +1,4 @@
-"""The answer of one case as a record."""
+"""The record of the answer to one case."""
 
 from __future__ import annotations
 
@@ -17,77 +17,81 @@ __all__ = ["AnswerRecord", "SolverRecord", "answer_record"]
 class SolverRecord(PartRecord):
     """Effort and residuals of the finite-element solve; null in a model without finite elements."""
 
-    dofs: int | None = Field(description="unknowns of the last mesh")
+    dofs: int | None = Field(description="number of unknowns of the last mesh")
     newton_steps: int | None = Field(
         description=(
-            "Newton steps with a tangent of their own, those of failed attempts and of the "
-            "coarser solve included"
+            "number of Newton steps for which a new tangent was factorised, including those of "
+            "failed attempts and of the coarser solve"
         )
     )
-    seconds: float | None = Field(description="wall-clock time of all that was solved")
+    seconds: float | None = Field(description="wall-clock time of all solves in s")
     residual: float | None = Field(
         description="residual of the last solve, relative to the contact force"
     )
 
 
 class AnswerRecord(Record):
-    """The critical pressure of one case, or why there is none."""
+    """The critical pressure of one case, or the reason why it does not exist."""
 
-    outcome: str = Field(description="how the question ended (glossary: outcomes)")
+    outcome: str = Field(description="outcome of the calculation (glossary: outcomes)")
     message: str = Field(description="the outcome as a sentence")
     critical_pressure_kPa: float | None = Field(description="critical urine pressure P_ucr")
     critical_pressure_error_kPa: float | None = Field(
-        description="estimated discretisation error of it, as ±"
+        description="estimated discretisation error (±) of `critical_pressure_kPa`"
     )
     critical_angle_deg: float | None = Field(
-        description="α_cr, up to where the wall has opened when the stone starts to move"
+        description="α_cr, the angle up to which the wall has opened when the stone starts to move"
     )
     contact_angle_deg: float | None = Field(
         description=(
-            "where the contact begins: α₀ seated, α of the loaded state in the direct model"
+            "angle at which the contact begins: α₀ of the seated state, or α of the loaded state "
+            "in the direct model"
         )
     )
     contact_angle_error_deg: float | None = Field(
-        description="estimated discretisation error of it"
+        description="estimated discretisation error (±) of `contact_angle_deg`"
     )
     equator_contact_pressure_kPa: float | None = Field(description="contact pressure at θ = 90°")
     equator_contact_pressure_error_kPa: float | None = Field(
-        description="estimated discretisation error of it"
+        description="estimated discretisation error (±) of `equator_contact_pressure_kPa`"
     )
     peak_contact_pressure_kPa: float | None = Field(description="largest contact pressure")
     downstream_angle_deg: float | None = Field(
         description=(
-            "where the contact ends: π − α₀ seated, if the stone's halves are mirror images"
+            "angle at which the contact ends: 180° − α₀ in the seated state of a stone whose "
+            "halves are mirror images"
         )
     )
     stability_margin: float | None = Field(
         description=(
-            "stiffness of the weakest shear band in the solved wall, in units of its shear "
-            "modulus at rest (G for a Fung wall): 1 unloaded, 0 where strong ellipticity is "
-            "lost"
+            "stiffness of the weakest shear band in the solved wall, divided by the shear modulus "
+            "at rest (G for a Fung wall): 1 in an unloaded wall, 0 if strong ellipticity is lost"
         )
     )
     detail: dict[str, float | list[float] | None] = Field(
         description=(
-            "what only this model knows. `paper`: `closure_end_pressure_kPa`, P_u at which the "
-            "closure ends (r_a = R_s), no physical bound; `series_coefficients` c₁, c₂, … of the "
-            "series closure in t = (ρ_α − ρ₀)/(R_s − ρ₀); `printed_series_coefficients` a₀, a₁, "
-            "… of Eq. 14 in inner radii. `direct`: `leak_pressure_kPa`, P_u at which urine passes "
-            "the held stone, from the coarser solve; `seal_angle_deg`, where the contact pressure "
-            "of the loaded state is largest. `beam`: `closure_end_pressure_kPa`; "
-            "`circumferential_modulus_Pa` and `longitudinal_modulus_Pa`, E₁ and E₂; "
-            "`foundation_Pa`, k R_a; `decay`, β R_a; `half_contact_length`, a/R_a"
+            "quantities that only this model has. `paper`: `closure_end_pressure_kPa`, P_u at the "
+            "end of the closure (r_a = R_s), which is no physical bound; `series_coefficients` "
+            "c₁, c₂, … of the series closure in t = (ρ_α − ρ₀)/(R_s − ρ₀); "
+            "`printed_series_coefficients` a₀, a₁, … of Eq. 14 in inner radii. `direct`: "
+            "`leak_pressure_kPa`, P_u at which urine passes the held stone, from the coarser "
+            "solve; `seal_angle_deg`, the angle of the largest contact pressure in the loaded "
+            "state. `beam`: `closure_end_pressure_kPa`; `circumferential_modulus_Pa` and "
+            "`longitudinal_modulus_Pa`, E₁ and E₂; `foundation_Pa`, k R_a; `decay`, β R_a; "
+            "`half_contact_length`, a/R_a"
         )
     )
-    size_ratio: float | None = Field(description="ξ, stone diameter over inner diameter")
-    wall_ratio: float = Field(description="η, outer diameter over inner diameter")
+    size_ratio: float | None = Field(
+        description="ξ, stone diameter divided by inner diameter of the ureter"
+    )
+    wall_ratio: float = Field(description="η, outer diameter divided by inner diameter")
     model: str = Field(
-        description="name of the model: `paper`, `direct`, `beam`, or one of your own"
+        description="name of the model: `paper`, `direct`, `beam`, or a model of your own"
     )
     material: str = Field(description="name of the material")
-    case: CaseRecord = Field(description="all that the answer depends on, in SI units")
-    solver: SolverRecord = Field(description="what the finite elements did")
-    warnings: list[CautionRecord] = Field(description="where the answer must be read with care")
+    case: CaseRecord = Field(description="complete description of the case, in SI units")
+    solver: SolverRecord = Field(description="effort and residual of the finite-element solves")
+    warnings: list[CautionRecord] = Field(description="warnings about the answer")
 
 
 def answer_record(answer: Answer) -> AnswerRecord:
@@ -96,7 +100,7 @@ def answer_record(answer: Answer) -> AnswerRecord:
 
 
 def answer_fields(answer: Answer) -> dict[str, Any]:
-    """The fields of `AnswerRecord`, for records that have more of them."""
+    """Return the fields of `AnswerRecord`, for records that extend it."""
     case, error, contact = answer.case, answer.error, answer.contact
     solved = contact if isinstance(contact, SolvedState) else None
     quantities = () if answer.detail is None else answer.detail.quantities()

@@ -40,25 +40,28 @@ LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in 
 class PressureRangeRecord(PartRecord):
     """Median and 90 % interval of a pressure in kPa."""
 
-    low: float | None = Field(description="lower end; null if the model cannot determine it")
+    low: float | None = Field(description="5th percentile; null if the model cannot determine it")
     median: float | None = Field(description="median; null if the model cannot determine it")
-    high: float | None = Field(description="upper end; null if the model cannot determine it")
+    high: float | None = Field(description="95th percentile; null if the model cannot determine it")
     at_least: float | None = Field(
-        description="lower bound of the first number that is null; null if all are known"
+        description=(
+            "lower bound of the first of `low`, `median` and `high` that is null; null if all of "
+            "them are known"
+        )
     )
 
 
 class FractionRecord(PartRecord):
     """A fraction of the samples; its ends differ if some samples are undecided."""
 
-    low: float = Field(description="at least this fraction")
-    high: float = Field(description="at most this fraction")
+    low: float = Field(description="smallest possible value of the fraction")
+    high: float = Field(description="largest possible value of the fraction")
 
 
 class SizeFractionRecord(FractionRecord):
     """The fraction of samples below the pressure limit if the stone had another size."""
 
-    diameter_mm: float = Field(description="that stone diameter")
+    diameter_mm: float = Field(description="this diameter of the stone")
 
 
 class CohortRecord(PartRecord):
@@ -89,11 +92,11 @@ class CohortRecord(PartRecord):
 class MeasuredRecord(PartRecord):
     """A measured quantity with its uncertainty."""
 
-    value: float = Field(description="measured value in the unit")
-    sd: float | None = Field(description="standard deviation; null if a range was given")
-    low: float | None = Field(description="lower end of the range; null with `sd`")
-    high: float | None = Field(description="upper end of the range; null with `sd`")
-    unit: str = Field(description="`m`, or empty for a plain number")
+    value: float = Field(description="measured value in `unit`; the middle of a range")
+    sd: float | None = Field(description="standard deviation in `unit`; null for a range")
+    low: float | None = Field(description="lower end of a range; null with a standard deviation")
+    high: float | None = Field(description="upper end of a range; null with a standard deviation")
+    unit: str = Field(description="`m`, or empty for a dimensionless number")
 
 
 class AssessInputsRecord(PartRecord):
@@ -138,14 +141,16 @@ class AssessRecord(Record):
         description="`MOVES`, or `NO_SOLUTION` if the model answers too few possible cases"
     )
     message: str = Field(description="the outcome as a sentence")
-    critical_pressure_kPa: PressureRangeRecord | None = Field(description="P_ucr of the samples")
+    critical_pressure_kPa: PressureRangeRecord | None = Field(
+        description="median and 90 % interval of P_ucr"
+    )
     critical_pressure_at_values_kPa: float | None = Field(
         description="P_ucr at the measured values"
     )
     at_values: AnswerRecord = Field(
         description=(
-            "whole answer at the measured values, for the material's own stiffness under P_out "
-            "over the stiffness that was given"
+            "answer at the measured values, for the stiffness of the material and the confining "
+            "pressure divided by the measured relative stiffness"
         )
     )
     present_pressure_kPa: PressureRangeRecord | None = Field(
@@ -164,18 +169,24 @@ class AssessRecord(Record):
         description="fraction of samples whose P_ucr is below the present pressure"
     )
     no_larger_than_lumen: float = Field(
-        description="fraction of samples in which the stone is not held; P_ucr is 0 in them"
+        description=(
+            "fraction of samples in which the stone is no larger than the lumen, so that P_ucr is 0"
+        )
     )
     sensitivity: dict[str, float] = Field(
-        description="Sobol' total index of each input for the rank of P_ucr; the largest first"
+        description="Sobol' total index of each input for the rank of P_ucr, in descending order"
     )
     by_size: list[SizeFractionRecord] = Field(
         description="fraction below the limit for other sizes of the stone"
     )
-    cohorts: list[CohortRecord] = Field(description="rates of published cohorts for such stones")
-    inputs: AssessInputsRecord = Field(description="the measurements and assumptions")
-    accuracy: SurfaceAccuracyRecord = Field(description="accuracy of the samples")
-    level: float = Field(description="level of the intervals")
+    cohorts: list[CohortRecord] = Field(
+        description="published passage rates of stones of this size and place"
+    )
+    inputs: AssessInputsRecord = Field(description="measurements and settings of the assessment")
+    accuracy: SurfaceAccuracyRecord = Field(
+        description="accuracy of the samples and of the response surface"
+    )
+    level: float = Field(description="probability level of the intervals")
     cannot_decide: list[str] = Field(
         description="questions that these measurements do not decide, as sentences"
     )

@@ -1,4 +1,4 @@
-"""What every record shares: version, disclaimer, warnings; numbers that do not exist are None."""
+"""The base classes of all records, with version, disclaimer and warnings."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from stonepass.caution import Caution
 
 __all__ = ["CautionRecord", "PartRecord", "Record", "degrees", "kilo", "warning_records"]
 
-RECORD_VERSION = 1  # raised when a key of any record changes its name or its meaning
+RECORD_VERSION = 1  # raised if a key of any record changes its name or its meaning
 
 
 class PartRecord(BaseModel):
-    """A part of a record: typed, closed, without numbers that are not finite."""
+    """A part of a record: only declared keys, and all numbers are finite."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -27,27 +27,27 @@ class PartRecord(BaseModel):
 
 
 class Record(PartRecord):
-    """A result as every door shows it; `record_version` tells programs which keys to expect."""
+    """The record of a result; `record_version` identifies the set of keys."""
 
-    record_version: int = Field(default=RECORD_VERSION, description="version of these keys")
+    record_version: int = Field(default=RECORD_VERSION, description="version of the set of keys")
     version: str = Field(default=VERSION, description="version of stonepass")
-    disclaimer: str = Field(default=DISCLAIMER, description="what the numbers are not for")
+    disclaimer: str = Field(default=DISCLAIMER, description="restriction of use")
 
     def to_dict(self) -> dict[str, Any]:
-        """Return a JSON-ready dictionary: the result first, then what it says of itself."""
+        """Return a JSON-ready dictionary: the result first, then version and disclaimer."""
         document = super().to_dict()
         last = {name: document.pop(name) for name in Record.model_fields}
         return document | last
 
 
 class CautionRecord(BaseModel):
-    """A warning: its code for programs, its sentence for people."""
+    """A warning with a code for programs and a sentence for readers."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    code: str = Field(description="stays the same when the sentence is reworded")
+    code: str = Field(description="code of the warning, which does not change with its sentence")
     sentence: str = Field(description="the warning in words")
-    values: dict[str, float | str] = Field(description="numbers and names of the sentence")
+    values: dict[str, float | str] = Field(description="numbers and names in the sentence")
 
     @classmethod
     def of(cls, caution: Caution) -> CautionRecord:
@@ -61,10 +61,10 @@ def warning_records(warnings: Iterable[Caution]) -> list[CautionRecord]:
 
 
 def kilo(value: float | None) -> float | None:
-    """Pascals in kilopascals."""
+    """Convert Pa to kPa; None stays None."""
     return None if value is None else value / 1e3
 
 
 def degrees(value: float | None) -> float | None:
-    """Radians in degrees."""
+    """Convert radians to degrees; None stays None."""
     return None if value is None else math.degrees(value)

@@ -1,4 +1,4 @@
-"""The critical pressure of one stone by every closure as a record, and of many stones as CSV."""
+"""Records of the critical pressures by different closures, and their table as CSV."""
 
 from __future__ import annotations
 
@@ -21,14 +21,16 @@ COLUMNS = (
 
 
 class ClosuresRecord(Record):
-    """Critical pressures of one stone by every closure, against the direct model."""
+    """Critical pressures of one stone by every closure, compared with the direct model."""
 
-    outcome: str = Field(description="how the direct model's question ended (glossary: outcomes)")
+    outcome: str = Field(description="outcome of the direct model (glossary: outcomes)")
     message: str = Field(description="the outcome as a sentence")
-    size_ratio: float = Field(description="ξ, stone diameter over inner diameter")
-    wall_ratio: float = Field(description="η, outer diameter over inner diameter")
-    friction: float = Field(description="μ_f, Coulomb coefficient between stone and wall")
-    aspect: float = Field(description="κ, length of the stone over its diameter")
+    size_ratio: float = Field(
+        description="ξ, stone diameter divided by inner diameter of the ureter"
+    )
+    wall_ratio: float = Field(description="η, outer diameter divided by inner diameter")
+    friction: float = Field(description="μ_f, Coulomb friction coefficient of stone and wall")
+    aspect: float = Field(description="κ, length of the stone divided by its diameter")
     material: str = Field(description="name of the material")
     derived_pressure_kPa: float | None = Field(
         description="P_ucr by Eq. 15 with the derived sign of Eq. 5"
@@ -39,28 +41,30 @@ class ClosuresRecord(Record):
     series_pressure_kPa: float | None = Field(
         description="P_ucr by the series of Eqs 13–14, fitted to direct states"
     )
-    energy_pressure_kPa: float | None = Field(description="the pressure at which I(P) = D")
+    energy_pressure_kPa: float | None = Field(
+        description="P_ucr by the energy balance I(P) = D of the loaded state"
+    )
     direct_pressure_kPa: float | None = Field(description="P_ucr of the direct model")
     derived_error: float | None = Field(
-        description="`derived_pressure_kPa` over `direct_pressure_kPa`, less 1"
+        description="`derived_pressure_kPa`/`direct_pressure_kPa` − 1"
     )
     printed_error: float | None = Field(
-        description="`printed_pressure_kPa` over `direct_pressure_kPa`, less 1"
+        description="`printed_pressure_kPa`/`direct_pressure_kPa` − 1"
     )
     series_error: float | None = Field(
-        description="`series_pressure_kPa` over `direct_pressure_kPa`, less 1"
+        description="`series_pressure_kPa`/`direct_pressure_kPa` − 1"
     )
     energy_error: float | None = Field(
-        description="`energy_pressure_kPa` over `direct_pressure_kPa`, less 1"
+        description="`energy_pressure_kPa`/`direct_pressure_kPa` − 1"
     )
     series_coefficients: list[float] | None = Field(
         description="c₁, c₂, … of the fitted series in t = (ρ_α − ρ₀)/(R_s − ρ₀)"
     )
-    warnings: list[CautionRecord] = Field(description="where the answers must be read with care")
+    warnings: list[CautionRecord] = Field(description="warnings about the answers")
 
 
 def closures_record(found: ClosureComparison) -> ClosuresRecord:
-    """Make the record of a comparison."""
+    """Make the record of a comparison of closures."""
     case, series = found.case, found.series
     pressures = {f"{name}_pressure_kPa": kilo(each) for name, each in found.pressures.items()}
     errors = {f"{name}_error": found.error(name) for name in CLOSURES if name != "direct"}
@@ -82,6 +86,14 @@ def closures_record(found: ClosureComparison) -> ClosuresRecord:
 
 
 def write_map(found: Iterable[ClosureComparison], path: Path) -> None:
-    """Write comparisons as CSV, one row each; a number that does not exist is an empty cell."""
+    """Write comparisons as CSV, with one row each and empty cells for missing numbers.
+
+    Parameters
+    ----------
+    found : iterable of ClosureComparison
+        The comparisons; pressures are written in kPa.
+    path : Path
+        File to write.
+    """
     rows = (closures_record(each).to_dict() for each in found)
     write_csv(path, COLUMNS, ([row[name] for name in COLUMNS] for row in rows))

@@ -1,4 +1,4 @@
-"""Our answer beside the contact of CalculiX as a record."""
+"""The record of a comparison with the contact that CalculiX computed."""
 
 from __future__ import annotations
 
@@ -14,20 +14,23 @@ __all__ = ["CalculixRecord", "CompareRecord", "compare_record"]
 
 
 class CalculixRecord(PartRecord):
-    """The numbers that the force balance gives with the contact that CalculiX found."""
+    """The contact that CalculiX computed, and the critical pressure that follows from it."""
 
     contact_angle_deg: float = Field(description="angle at which the contact begins")
     equator_contact_pressure_kPa: float = Field(description="contact pressure at θ = 90°")
     peak_contact_pressure_kPa: float = Field(description="largest contact pressure")
     critical_pressure_kPa: float | None = Field(
-        description="P_ucr by the same balance and closure; null where the forces do not balance"
+        description=(
+            "P_ucr by the force balance and closure of the answer; null if the forces do not "
+            "balance"
+        )
     )
 
 
 class CompareRecord(AnswerRecord):
-    """Our answer, and what follows from the contact that CalculiX found for the same case."""
+    """The answer of stonepass, and the results of CalculiX for the same case."""
 
-    calculix: CalculixRecord = Field(description="what follows from CalculiX's contact")
+    calculix: CalculixRecord = Field(description="results from the contact of CalculiX")
 
 
 def compare_record(found: Comparison) -> CompareRecord:

@@ -1,4 +1,4 @@
-"""A fitted law as a record."""
+"""The record of a law fitted to laboratory data."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ __all__ = [
 class FittedConstantRecord(PartRecord):
     """A constant of the fitted law."""
 
-    name: str = Field(description="what the law calls it")
-    value: float = Field(description="its best value, in its unit")
-    unit: str = Field(description="`Pa`, `rad` for an angle, or empty for a plain number")
+    name: str = Field(description="name of the constant")
+    value: float = Field(description="fitted or given value in `unit`")
+    unit: str = Field(description="`Pa`, `rad` for an angle, or empty for a dimensionless number")
     low: float | None = Field(
-        description="lower end of its 95 % interval; null where it was given or is not bounded"
+        description="lower end of the 95 % interval; null for a given constant or an open interval"
     )
     high: float | None = Field(
-        description="upper end of its 95 % interval; null where it was given or is not bounded"
+        description="upper end of the 95 % interval; null for a given constant or an open interval"
     )
-    given: bool = Field(description="whether it was given (`--fix`) instead of fitted")
+    given: bool = Field(description="whether the constant was given (`--fix`) instead of fitted")
 
 
 class FitPointRecord(PartRecord):
-    """A measured point beside the fitted law."""
+    """A measured point, compared with the fitted law."""
 
     stretch: float = Field(description="stretch of a strip, or r_a/R_a of a tube")
-    observed_kPa: float = Field(description="what was measured")
-    predicted_kPa: float = Field(description="what the fitted law says")
+    observed_kPa: float = Field(description="measured stress or pressure")
+    predicted_kPa: float = Field(description="stress or pressure of the fitted law")
     group: str = Field(description="name of the curve that the point belongs to")
 
 
@@ -51,25 +51,25 @@ class FitInputsRecord(PartRecord):
 
     file: str = Field(description="name of the data file")
     relative: bool = Field(
-        default=False, description="whether errors are taken in proportion to what was measured"
+        default=False, description="whether errors are assumed proportional to the predicted values"
     )
-    data: list[FitPointRecord] = Field(description="the points that were fitted")
+    data: list[FitPointRecord] = Field(description="the fitted points")
 
 
 class TensileInputsRecord(FitInputsRecord):
     """The settings of a fit to strips in tension."""
 
     width_m: float | None = Field(
-        default=None, description="width of the strip at rest, where given"
+        default=None, description="width of the strip at rest; null if not given"
     )
     thickness_m: float | None = Field(
-        default=None, description="thickness of the strip at rest, where given"
+        default=None, description="thickness of the strip at rest; null if not given"
     )
     section_m2: float | None = Field(
-        default=None, description="section of the strip at rest in m², where given"
+        default=None, description="cross-section of the strip at rest in m²; null if not given"
     )
     gauge_length_m: float | None = Field(
-        default=None, description="length at rest that extensions belong to, where given"
+        default=None, description="gauge length at rest; null if not given"
     )
 
 
@@ -81,30 +81,35 @@ class InflationInputsRecord(FitInputsRecord):
 
 
 class FitRecord(Record):
-    """A law fitted to bench data."""
+    """A law fitted to laboratory data."""
 
-    inputs: TensileInputsRecord | InflationInputsRecord = Field(description="what was asked")
+    inputs: TensileInputsRecord | InflationInputsRecord = Field(
+        description="data and settings of the fit"
+    )
     law: str = Field(description="name of the law")
-    constants: list[FittedConstantRecord] = Field(description="its constants, moduli in Pa")
+    constants: list[FittedConstantRecord] = Field(description="constants of the law; moduli in Pa")
     rmse_kPa: float = Field(description="root mean square of the residuals")
-    r_squared: float = Field(description="1 − Σ residual²/Σ (observed − mean)²")
+    r_squared: float = Field(
+        description="coefficient of determination, 1 − Σ residual²/Σ (observed − mean)²"
+    )
     intervals_approximate: bool = Field(
         description=(
-            "whether the residuals are not those that the 95 % intervals assume: independent, "
-            "Gaussian and of equal spread about the law"
+            "true if the residuals violate an assumption of the 95 % intervals: independent "
+            "Gaussian errors of the assumed size"
         )
     )
     correlations: dict[str, float] = Field(
-        description="of pairs `one,other` of estimates; near ±1 they trade off"
+        description=(
+            "correlation of each pair of estimates, with the key `one,other`; near ±1 the data "
+            "determine only a combination of both constants"
+        )
     )
-    points: int = Field(description="how many points were fitted")
-    measured: str = Field(description="what was measured")
+    points: int = Field(description="number of fitted points")
+    measured: str = Field(description="measured quantity")
     strain_range: list[float] = Field(description="smallest and largest stretch of the data")
-    stable: bool = Field(
-        description="whether the law describes a solid over the range of its law file"
-    )
-    stability: str = Field(description="why it does not; empty where it does")
-    warnings: list[CautionRecord] = Field(description="where the fit must be read with care")
+    stable: bool = Field(description="whether the law is stable over the strain range of the data")
+    stability: str = Field(description="reason why the law is unstable; empty if it is stable")
+    warnings: list[CautionRecord] = Field(description="warnings about the fit")
 
 
 def fit_record(found: FittedLaw, inputs: Mapping[str, Any]) -> FitRecord:
@@ -113,9 +118,10 @@ def fit_record(found: FittedLaw, inputs: Mapping[str, Any]) -> FitRecord:
     Parameters
     ----------
     found : FittedLaw
+        The fitted law.
     inputs : mapping
-        What was asked: the `file`, `relative`, and the lengths at rest in m by the names of
-        `TensileInputsRecord` or `InflationInputsRecord`.
+        Settings of the fit: the `file`, `relative`, and the lengths at rest in m with the names of
+        the keys of `TensileInputsRecord` or `InflationInputsRecord`.
     """
     asked = {**inputs, "data": _data(found)}
     kind = InflationInputsRecord if "inner_diameter_m" in inputs else TensileInputsRecord

@@ -1,4 +1,4 @@
-"""The friction coefficient of a surface as a record."""
+"""The record of the friction coefficient of a surface."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from math import degrees
 from pydantic import Field
 
 from stonepass.records.base import CautionRecord, PartRecord, Record, warning_records
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = [
     "FrictionRecord",
@@ -20,100 +20,111 @@ MICRO = 1e6  # µm per m
 
 
 class RoughnessRecord(PartRecord):
-    """Roughness of single profiles less their mean lines, averaged over the paths.
+    """Roughness of the profiles after subtraction of their mean lines, averaged over the paths.
 
-    No filter sets waviness apart, so these are Pa, Pq and PΔq of ISO 21920.
+    Waviness is not filtered out, so that these are the parameters of the primary profile of
+    ISO 21920 (named Pa, Pq and PΔq there).
     """
 
-    Ra_um: float = Field(description="arithmetic mean of the heights, in µm")
-    Rq_um: float = Field(description="root mean square of the heights, in µm")
+    Ra_um: float = Field(description="arithmetic mean of the absolute heights in µm")
+    Rq_um: float = Field(description="root mean square of the heights in µm")
     RdeltaQ: float = Field(description="root mean square of the slopes dz/dx")
 
 
 class FrictionSpreadRecord(PartRecord):
-    """Friction coefficients for other choices; null where the surface is then too steep."""
+    """Friction coefficients for other choices; null if μ_f does not exist for a choice."""
 
     without_one_path: list[float | None] = Field(
-        description="μ_f without one path, for each path; empty for a single path"
+        description="μ_f without the k-th path, for each k; empty for a single path"
     )
     baseline_order: dict[str, float | None] = Field(
         description="μ_f by the order of the first baseline"
     )
     height_range_scaling: dict[str, float | None] = Field(
-        description="μ_f by how grey is scaled to the height range; empty for a height map"
+        description=(
+            "μ_f by the way in which grey levels are scaled to the height range; empty for a "
+            "height map"
+        )
     )
     margin: dict[str, float | None] = Field(
         description=(
-            "μ_f by the margin at the ends of the paths in shortest waves; not part of "
-            "`friction_sd`"
+            "μ_f by the margin at the ends of the paths in units of the shortest wavelength; not "
+            "part of `friction_sd`"
         )
     )
 
 
 class FrictionRecord(Record):
-    """The friction coefficient from the slopes of a surface, and all that it was computed from."""
+    """The friction coefficient of a surface, with the intermediate results."""
 
     friction_coefficient: float = Field(
-        description="μ_f = tan(arctan k₀ + arctan k₁) (Eq. 18); what `--friction-from` takes"
+        description=(
+            "μ_f = tan(arctan k₀ + arctan k₁) (Eq. 18); the option `--friction-from` reads it"
+        )
     )
     friction_sd: float | None = Field(
         description=(
-            "how far it moves with what was chosen: jackknife over paths, standard deviation over "
-            "orders and over scalings, as a root of squares; null where one of the choices has "
-            "no answer"
+            "standard deviation of μ_f over analysis choices: the root of the sum of squares of "
+            "the jackknife standard error over the paths and the standard deviations over orders "
+            "and grey scalings; null if μ_f does not exist for one of the choices"
         )
     )
-    k0: float = Field(description="largest slope of the mean profile's baseline")
-    k1: float = Field(description="largest slope of the baseline of the deviation from it")
-    baseline_order: int = Field(description="N of the mean profile's baseline")
-    deviation_order: int = Field(description="N of the deviation's baseline")
+    k0: float = Field(description="largest slope of the baseline of the mean profile")
+    k1: float = Field(
+        description="largest slope of the baseline of the deviation from the first baseline"
+    )
+    baseline_order: int = Field(description="order N of the baseline of the mean profile")
+    deviation_order: int = Field(description="order N of the baseline of the deviation")
     baseline_wavelength_um: float = Field(
-        description="2L/N in µm, the shortest wave that the first baseline follows"
+        description="2L/N in µm, the shortest wavelength that the first baseline follows"
     )
     deviation_wavelength_um: float = Field(
-        description="2L/N in µm, the shortest wave that the second baseline follows"
+        description="2L/N in µm, the shortest wavelength that the second baseline follows"
     )
     margin: float = Field(
         description=(
-            "how far from the ends of the paths the steepest slopes are looked for, in shortest "
-            "waves of each baseline; a quarter of the path at most"
+            "margin at the ends of the paths in which slopes are not evaluated, in units of the "
+            "shortest wavelength of each baseline; a quarter of the path at most"
         )
     )
     looked_at: dict[str, list[float]] = Field(
-        description="from and to which fraction of the path `k0` and `k1` are looked for"
+        description=(
+            "part of the path in which `k0` and `k1` are searched: fractions of its length at the "
+            "start and at the end"
+        )
     )
     tilt_deg: float = Field(
-        description="angle between the least-squares plane of the surface and the picture's"
+        description="angle between the least-squares plane of the surface and that of the picture"
     )
-    levelled: bool = Field(description="whether that plane was subtracted (`--level`)")
+    levelled: bool = Field(description="whether the least-squares plane was subtracted (`--level`)")
     friction_levelled: float | None = Field(
         description=(
-            "μ_f with the plane subtracted; null where that was not tried, because the plane "
-            "changes by less than 1 % of the height range, or has no answer"
+            "μ_f with the plane subtracted; null if the plane changes by less than 1 % of the "
+            "height range over the area, or if μ_f does not exist"
         )
     )
     height_range_um: float | None = Field(
-        description="height from black to white in µm; null for a height map"
+        description="height of the brightest above the darkest level in µm; null for a height map"
     )
     pixel_um: float | list[float] = Field(
         description="width of a pixel in µm, or [width, height] where it is not square"
     )
     paths: list[list[float]] = Field(
         description=(
-            "[x0, y0, x1, y1] of each path in pixels: x to the right, y down, 0 the centre of the "
-            "first pixel"
+            "[x0, y0, x1, y1] of each path in pixels; x counts to the right and y down from the "
+            "centre of the first pixel"
         )
     )
-    path_length_um: float = Field(description="L in µm")
-    roughness: RoughnessRecord = Field(description="roughness of the single profiles")
+    path_length_um: float = Field(description="length L of the paths in µm")
+    roughness: RoughnessRecord = Field(description="roughness of the profiles")
     friction_from_rms_slope: float = Field(
-        description="`RdeltaQ` taken as the slope that has to be climbed"
+        description="another estimate of μ_f: the root mean square slope `RdeltaQ`"
     )
     spread: FrictionSpreadRecord = Field(description="μ_f for other choices")
     image: str = Field(description="name of the file")
-    pixel_source: str = Field(description="who says how large a pixel is")
-    notes: list[str] = Field(description="what was left out, and how the file was read")
-    warnings: list[CautionRecord] = Field(description="where μ_f must be read with care")
+    pixel_source: str = Field(description="origin of the pixel size")
+    notes: list[str] = Field(description="remarks of the reader about the file")
+    warnings: list[CautionRecord] = Field(description="warnings about μ_f")
 
 
 def friction_record(found: SurfaceFriction, image: str) -> FrictionRecord:
@@ -160,5 +171,5 @@ def friction_record(found: SurfaceFriction, image: str) -> FrictionRecord:
 
 
 def _number(value: float) -> float | None:
-    """The value; None for NaN, which stands where a choice has no answer."""
+    """Return the value, or None for NaN."""
     return value if value == value else None

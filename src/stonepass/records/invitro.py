@@ -1,4 +1,4 @@
-"""A measured series beside the model as a record, and its points as CSV."""
+"""The record of a measured series compared with the model, and its table as CSV."""
 
 from __future__ import annotations
 
@@ -32,89 +32,108 @@ __all__ = [
 class EstimateRecord(PartRecord):
     """A fitted number and its 95 % interval."""
 
-    value: float = Field(description="the number that fits best")
-    low: float | None = Field(description="lower end; null where the data do not bound it")
-    high: float | None = Field(description="upper end; null where the data do not bound it")
+    value: float = Field(description="best value")
+    low: float | None = Field(
+        description="lower end of the interval; null if the data do not bound it"
+    )
+    high: float | None = Field(
+        description="upper end of the interval; null if the data do not bound it"
+    )
 
 
 class JointFitRecord(PartRecord):
     """Friction and stiffness fitted together."""
 
-    friction: EstimateRecord = Field(description="friction with the stiffness unknown")
-    stiffness: EstimateRecord = Field(description="stiffness as a factor on the material's")
+    friction: EstimateRecord = Field(description="friction coefficient")
+    stiffness: EstimateRecord = Field(description="factor on the stiffness of the material")
     correlation: float | None = Field(description="correlation of the two estimates")
 
 
 class AgreementRecord(PartRecord):
-    """How near model and series are."""
+    """The agreement of model and series."""
 
-    bias_kPa: float | None = Field(description="mean of model less measured")
-    rmse_kPa: float | None = Field(description="root mean square of model less measured")
+    bias_kPa: float | None = Field(description="mean of predicted minus measured pressure")
+    rmse_kPa: float | None = Field(
+        description="root mean square of predicted minus measured pressure"
+    )
     r_squared: float | None = Field(
         description=(
-            "1 − Σ (model − measured)²/Σ (measured − mean)²; null for points of one pressure"
+            "coefficient of determination, 1 − Σ (predicted − measured)²/Σ (measured − mean)²; "
+            "null if all measured pressures are equal"
         )
     )
-    compared: int = Field(description="points whose stone is held and has an answer")
-    not_compared: dict[str, int] = Field(description="number of the other points, by outcome")
+    compared: int = Field(
+        description="number of points for which the model predicts a critical pressure"
+    )
+    not_compared: dict[str, int] = Field(
+        description="number of points without a predicted critical pressure, by outcome"
+    )
 
 
 class InVitroPointRecord(PartRecord):
-    """A measured point beside the model."""
+    """A measured point, compared with the model."""
 
-    size_ratio: float = Field(description="ξ, stone diameter over inner diameter")
-    wall_ratio: float = Field(description="η, outer diameter over inner diameter")
+    size_ratio: float = Field(description="ξ, stone diameter divided by inner diameter of the tube")
+    wall_ratio: float = Field(description="η, outer diameter divided by inner diameter")
     confining_kPa: float = Field(description="confining pressure P_out")
     measured_kPa: float = Field(description="measured critical pressure")
-    sd_kPa: float | None = Field(description="its standard deviation, where given")
-    outcome: str = Field(description="how the model's question ended (glossary: outcomes)")
+    sd_kPa: float | None = Field(
+        description="standard deviation of the measured pressure; null if not given"
+    )
+    outcome: str = Field(description="outcome of the model (glossary: outcomes)")
     critical_pressure_kPa: float | None = Field(description="P_ucr of the model")
     critical_pressure_error_kPa: float | None = Field(
-        description="estimated discretisation error of it"
+        description="estimated discretisation error (±) of `critical_pressure_kPa`"
     )
 
 
 class InVitroInputsRecord(PartRecord):
     """The settings of the comparison with a measured series."""
 
-    file: str = Field(description="name of the file of the points")
+    file: str = Field(description="name of the data file")
     material: str = Field(description="name of the material")
     confinement: str = Field(description="how a confining pressure acts: `hydrostatic` or `dead`")
     model: str = Field(description="name of the model")
-    seating: str | None = Field(description="seating of the stone; null in a model without one")
-    accuracy: str = Field(description="how finely the finite elements were solved")
+    seating: str | None = Field(
+        description="how the stone is seated; null for a model without a seated state"
+    )
+    accuracy: str = Field(description="accuracy of the finite elements")
 
 
 class InVitroRecord(AgreementRecord, Record):
-    """A measured series beside the model, and the friction coefficient that fits."""
+    """A measured series compared with the model, and the fitted friction coefficient."""
 
     holds: bool = Field(
         description=(
-            "false where series and model do not agree, or the joint fit excludes the wall's "
-            "stiffness; the first warnings say which"
+            "false if series and model do not agree, or if the joint fit excludes the stiffness of "
+            "the material; the first warnings give the reason"
         )
     )
-    friction: float = Field(description="friction at which model and points are compared")
-    fitted_friction: EstimateRecord = Field(
-        description="friction that fits, with the material's own stiffness"
+    friction: float = Field(
+        description="friction coefficient at which the model and the points are compared"
     )
-    fitted_agreement: AgreementRecord = Field(description="agreement at that friction")
+    fitted_friction: EstimateRecord = Field(
+        description="friction coefficient fitted with the stiffness of the material"
+    )
+    fitted_agreement: AgreementRecord = Field(
+        description="agreement of model and series at the fitted friction coefficient"
+    )
     joint: JointFitRecord | None = Field(
         description="friction and stiffness fitted together; null for fewer than four points"
     )
     weighted: bool = Field(
-        description="whether the points' standard deviations weigh the residuals"
+        description="whether the residuals are weighted by the standard deviations of the points"
     )
     level: float = Field(description="confidence level of the intervals")
-    points: list[InVitroPointRecord] = Field(description="the series, point by point")
-    inputs: InVitroInputsRecord = Field(description="what was asked")
+    points: list[InVitroPointRecord] = Field(description="the points of the series")
+    inputs: InVitroInputsRecord = Field(description="data file and settings")
     warnings: list[CautionRecord] = Field(
-        description="where the fit, or an answer of the model, must be read with care"
+        description="warnings about the fit and about the answers of the model"
     )
 
 
 def invitro_record(found: InVitro, file: str) -> InVitroRecord:
-    """Make the record of a series; `file` is the name of the file of its points."""
+    """Make the record of a series; `file` is the name of its data file."""
     joint, setting = found.joint, found.setting
     return InVitroRecord(
         **dict(_agreement(found.comparison)),
@@ -145,7 +164,7 @@ def invitro_record(found: InVitro, file: str) -> InVitroRecord:
 
 
 def series_warnings(found: InVitro) -> list[Caution]:
-    """Return what the fit warns of, and what the answers warn of, each once."""
+    """Return the warnings of the fit and of the answers, each once."""
     of_answers: Iterable[Caution] = (
         each for answer in found.comparison.answers for each in answer.warnings
     )
@@ -154,7 +173,15 @@ def series_warnings(found: InVitro) -> list[Caution]:
 
 
 def write_invitro(found: InVitro, path: Path) -> None:
-    """Write the points with the model's answers as CSV."""
+    """Write the points of a series with the answers of the model as CSV.
+
+    Parameters
+    ----------
+    found : InVitro
+        The comparison; pressures are written in kPa.
+    path : Path
+        File to write.
+    """
     columns = tuple(InVitroPointRecord.model_fields)
     rows = (each.to_dict() for each in _points(found.comparison))
     write_csv(path, columns, ([row[name] for name in columns] for row in rows))

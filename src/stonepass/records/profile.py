@@ -1,4 +1,4 @@
-"""The pressure on the stone over the angle as CSV."""
+"""The pressure on the stone as a function of the angle, as CSV."""
 
 from __future__ import annotations
 
@@ -17,12 +17,21 @@ STEP = 0.1  # degrees
 
 
 def write_profile(state: ContactState, shape: Shape, path: Path) -> None:
-    """Write the pressure on the stone as CSV, θ from 0 to 180° in steps of 0.1°.
+    """Write the pressure on the stone as CSV, for angles from 0 to 180° in steps of 0.1°.
 
-    The edges of the contact are rows too. Seated, it is the contact pressure; loaded, the urine
-    pressure stands before the contact. θ is the angle at the centre of a sphere, and the parametric
-    angle of every other shape, whose column is called so; the place on the stone, over its radius,
-    stands beside it (z downstream, r from the axis).
+    The edges of the contact are additional rows. The pressure is the contact pressure; in a loaded
+    state it is the urine pressure upstream of the contact. The first column is the angle θ at the
+    centre of a sphere, or the parametric angle of any other shape. Two columns have the position on
+    the stone in units of its radius, z downstream and r from the axis.
+
+    Parameters
+    ----------
+    state : ContactState
+        Seated or loaded state; pressures are written in kPa.
+    shape : Shape
+        Shape of the stone.
+    path : Path
+        File to write.
     """
     first = math.degrees(state.contact_angle)
     last = math.degrees(state.downstream_angle)
@@ -33,7 +42,7 @@ def write_profile(state: ContactState, shape: Shape, path: Path) -> None:
     columns = {
         "theta_deg" if shape.spherical else "parametric_angle_deg": theta,
         "contact_pressure_kPa": pressure,
-        "z_over_radius": z + 0.0,  # no -0
+        "z_over_radius": z + 0.0,  # adding 0 turns -0 into 0
         "r_over_radius": np.maximum(r, 0.0),
     }
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)

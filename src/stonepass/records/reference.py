@@ -1,4 +1,4 @@
-"""The reference of the keys of JSON records, written from the records themselves."""
+"""Generator of the reference page of JSON records, warnings and case files."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from stonepass.records.size import SizeRecord
 
 __all__ = ["RECORDS", "parts", "reference"]
 
-# Record of each command that has --json. `curve` and a map of `closures` print a list of them.
+# The record of each command with the option --json. Some commands print a list of records.
 RECORDS: dict[str, type[BaseModel]] = {
     "pressure": AnswerRecord,
     "size": SizeRecord,
@@ -49,7 +49,7 @@ unit ends with the unit. `record_version` is raised when a key changes its name 
 
 
 def reference() -> str:
-    """Return the reference as Markdown: keys of records and of case files, codes of warnings."""
+    """Return the reference as Markdown: keys of records and case files, and codes of warnings."""
     lines = [PREFACE, "## Records", ""]
     for command, record in RECORDS.items():
         lines += [f"### `stonepass {command}`", "", *_introduction(command, record), ""]
@@ -63,7 +63,7 @@ def reference() -> str:
 
 
 def parts() -> list[type[BaseModel]]:
-    """Return the models that stand inside records, those of the first record first."""
+    """Return the models that are parts of records, beginning with those of the first record."""
     found: dict[type[BaseModel], None] = {}
     waiting = list(RECORDS.values())
     while waiting:
@@ -83,7 +83,7 @@ def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
 
 
 def _inherited(record: type[BaseModel]) -> tuple[str, ...]:
-    """Return the keys that a record shares with the answer, which stand there."""
+    """Return the keys that a record has in common with the record of an answer."""
     known = AnswerRecord.model_fields
     extends = issubclass(record, AnswerRecord) and record is not AnswerRecord
     return tuple(known) if extends else ()
@@ -94,7 +94,7 @@ def _introduction(command: str, record: type[BaseModel]) -> list[str]:
     if command in LISTS:
         what += " The command prints a list of them."
     if _inherited(record):
-        what += " It has all keys of the record of `stonepass pressure`, and:"
+        what += " It has all keys of the record of `stonepass pressure`, and the following keys."
     return [what]
 
 
@@ -112,7 +112,7 @@ def _table(record: type[BaseModel], left_out: tuple[str, ...]) -> list[str]:
 
 
 def _kind(annotation: Any) -> str:
-    """Return a type in the words of JSON, with a link to a part or a record."""
+    """Return the name of a type in JSON, with a link to a part or a record."""
     if annotation is Any:
         return "any value"
     origin, inner = get_origin(annotation), get_args(annotation)
@@ -134,7 +134,8 @@ def _kind(annotation: Any) -> str:
 def _cautions() -> list[str]:
     rows = [f"| `{code}` | {_cell(sentence)} |" for code, sentence in SENTENCES.items()]
     return [
-        "A warning has the code, the values that stand in braces here, and the sentence.",
+        "The record of a warning contains its code, its sentence, and the values that are shown in "
+        "braces here.",
         "",
         "| code | sentence |",
         "| --- | --- |",
@@ -161,5 +162,5 @@ def _case_file() -> list[str]:
 
 
 def _cell(text: str) -> str:
-    """Return a text for a cell of a table, where a bar would end it."""
+    """Return a text for a cell of a Markdown table, with escaped bars."""
     return text.replace("|", "\\|")

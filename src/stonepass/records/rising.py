@@ -1,4 +1,4 @@
-"""A held stone under rising urine pressure as a record, and its states as CSV."""
+"""The record of a held stone under rising urine pressure, and its states as CSV."""
 
 from __future__ import annotations
 
@@ -20,38 +20,43 @@ class RisingStateRecord(PartRecord):
 
     urine_pressure_kPa: float = Field(description="P_u on the held stone")
     net_force_kPa: float = Field(
-        description="N, axial force on the stone over π R_s², positive downstream"
+        description="N, axial force on the stone divided by π R_s², positive downstream"
     )
     friction_work_kPa: float = Field(
-        description="D, work of friction for each length of advance, over π R_s²"
+        description="D, work of friction per unit advance of the stone, divided by π R_s²"
     )
-    contact_angle_deg: float = Field(description="α, where the contact begins")
-    downstream_angle_deg: float = Field(description="where the contact ends")
-    seal_angle_deg: float = Field(description="where the contact pressure is largest")
+    contact_angle_deg: float = Field(description="α, the angle at which the contact begins")
+    downstream_angle_deg: float = Field(description="angle at which the contact ends")
+    seal_angle_deg: float = Field(description="angle of the largest contact pressure")
     peak_contact_pressure_kPa: float = Field(description="largest contact pressure σ")
-    equator_contact_pressure_kPa: float = Field(description="σ(90°)")
-    upstream_radius_ratio: float = Field(description="r_a/R_a far upstream")
+    equator_contact_pressure_kPa: float = Field(description="contact pressure σ at θ = 90°")
+    upstream_radius_ratio: float = Field(description="r_a/R_a far upstream of the stone")
     contact_deviation: float | None = Field(
-        description="∫ |σ − σ⁰| dθ over ∫ σ⁰ dθ on the closed part, σ⁰ of the seated state"
+        description=(
+            "∫ |σ − σ⁰| dθ/∫ σ⁰ dθ over the contact of this state, with the contact pressure σ⁰ of "
+            "the seated state"
+        )
     )
 
 
 class RisingRecord(Record):
     """States of a held stone under rising urine pressure."""
 
-    outcome: str = Field(description="how the direct model's question ended (glossary: outcomes)")
+    outcome: str = Field(description="outcome of the direct model (glossary: outcomes)")
     message: str = Field(description="the outcome as a sentence")
     critical_pressure_kPa: float | None = Field(description="P_ucr of the direct model")
     leak_pressure_kPa: float | None = Field(
         description="P_u at which urine passes the held stone, from the coarser solve"
     )
-    states: list[RisingStateRecord] = Field(description="one for each pressure, rising from 0")
-    reason: str = Field(description="why there are fewer states than asked for; else empty")
-    warnings: list[CautionRecord] = Field(description="where the answer must be read with care")
+    states: list[RisingStateRecord] = Field(
+        description="state at each urine pressure, in rising order from 0"
+    )
+    reason: str = Field(description="reason why states are missing; empty if none are missing")
+    warnings: list[CautionRecord] = Field(description="warnings about the answer")
 
 
 def rising_record(rising: Rising) -> RisingRecord:
-    """Make the record of a held stone."""
+    """Make the record of a held stone under rising pressure."""
     critical = rising.critical
     pairs = zip(rising.states, rising.deviation, strict=True)
     return RisingRecord(
@@ -81,7 +86,15 @@ def _state(state: PushedState, deviation: float) -> RisingStateRecord:
 
 
 def write_rising(rising: Rising, path: Path) -> None:
-    """Write the states as CSV; a number that does not exist is an empty cell."""
+    """Write the states of a held stone as CSV, with empty cells for missing numbers.
+
+    Parameters
+    ----------
+    rising : Rising
+        The states; pressures are written in kPa and angles in degrees.
+    path : Path
+        File to write.
+    """
     columns = tuple(RisingStateRecord.model_fields)
     rows = (each.to_dict() for each in rising_record(rising).states)
     write_csv(path, columns, ([row[name] for name in columns] for row in rows))

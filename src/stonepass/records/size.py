@@ -1,4 +1,4 @@
-"""The critical size at a pressure limit as a record."""
+"""The record of the critical size at a pressure limit."""
 
 from __future__ import annotations
 
@@ -13,16 +13,22 @@ __all__ = ["SizeRecord", "size_record"]
 
 
 class SizeRecord(AnswerRecord):
-    """The critical size, and the state at it; without a size the keys of the state are null."""
+    """The critical size, and the answer for a stone of this size.
 
-    critical_size_ratio: float | None = Field(description="ξ of the critical size")
+    If there is no critical size, the keys of the answer are null.
+    """
+
+    critical_size_ratio: float | None = Field(description="size ratio ξ of the critical size")
     critical_size_ratio_error: float | None = Field(
-        description="estimated discretisation error of it: that of P_ucr over its slope"
+        description=(
+            "estimated discretisation error (±) of `critical_size_ratio`: the error of P_ucr "
+            "divided by dP_ucr/dξ"
+        )
     )
     critical_diameter_mm: float | None = Field(
-        description="critical stone diameter, where the ureter has lengths"
+        description="critical stone diameter; null if the ureter is given by ratios only"
     )
-    limit_kPa: float = Field(description="the pressure limit")
+    limit_kPa: float = Field(description="pressure limit")
 
 
 def size_record(answer: SizeAnswer) -> SizeRecord:

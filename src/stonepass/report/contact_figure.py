@@ -27,6 +27,7 @@ def contact_figure(answer: Answer) -> Figure:
     axes.set(
         xlabel=angle_label(sphere=answer.case.stone.shape.spherical),
         ylabel="pressure on the stone (kPa)",
+        ylim=(0, None),
     )
     axes.set_title("Contact pressure")
     tidy(axes)

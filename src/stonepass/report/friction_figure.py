@@ -20,7 +20,7 @@ from stonepass.report.style import (
     series,
     tidy,
 )
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["friction_figure"]
 

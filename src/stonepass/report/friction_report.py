@@ -8,7 +8,7 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["friction_table"]
 

@@ -17,7 +17,7 @@ from stonepass.report.table import case_title
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = [
     "plot_answer",

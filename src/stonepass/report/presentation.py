@@ -59,7 +59,7 @@ from stonepass.report.table import (
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
-from stonepass.surface.friction import SurfaceFriction
+from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["SHOWN", "Shown", "figure", "html", "plot", "record", "rows", "save", "text"]
 

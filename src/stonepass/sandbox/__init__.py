@@ -1,1 +1,1 @@
-"""Parsing of untrusted files in a child process with limited memory and time."""
+"""Parsing of files of unknown origin in a child process with limited memory and time."""

@@ -1,4 +1,4 @@
-"""The parts of a refusal, as they travel from the child process to its parent."""
+"""The data of an error that the child process sends to its parent process."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from pydantic import Field
 
 __all__ = ["LONGEST", "Refusal", "Text"]
 
-LONGEST = 500  # characters of each part
+LONGEST = 500  # largest number of characters of each text
 
 Text = Annotated[str, Field(max_length=LONGEST)]
-# Argument, value, what is allowed and remedy of a `BadInput`.
+# The attributes argument, value, allowed and remedy of a `BadInput`.
 Refusal = tuple[Text, Text, Text, Text]

@@ -1,7 +1,8 @@
 """Parsing of a file of unknown origin in a child process with limited memory and time.
 
-A task is a module that `python -m` runs and that calls `worker.serve`. Whoever needs a parser
-contained writes such a module and names it here; the sandbox knows nothing of what is parsed.
+A task is a module that calls `worker.serve`; the child process runs it with ``python -m``. To run a
+parser in the sandbox, write such a module and pass its name to `parse_in_child`. The sandbox itself
+does not depend on the kind of file.
 """
 
 from __future__ import annotations
@@ -25,33 +26,33 @@ from stonepass.sandbox.protocol import Refusal
 
 __all__ = ["MEMORY", "SECONDS", "Limits", "parse_in_child"]
 
-SECONDS = 6.0  # of processor time that reading a file may take
-MEMORY = 1_000_000_000  # bytes of data that the process may use, its libraries included
-LONGEST_HEADER = 65_536  # bytes
-START = 30.0  # s that the libraries of the task may take to load
-# Wall-clock time over the allowed processor time: a busy machine is no fault of the file.
+SECONDS = 6.0  # default limit of the processor time in s
+MEMORY = 1_000_000_000  # default limit of the data of the process in bytes, with its libraries
+LONGEST_HEADER = 65_536  # largest size of a line of JSON in bytes
+START = 30.0  # largest time in s for loading the libraries of the task
+# Ratio of the limits of wall-clock time and processor time; it allows for a busy machine.
 PATIENCE = 10.0
-# Exit code of a process that has spent its processor time; Windows has no such signal.
+# Exit code of a process that has reached its limit of processor time; Windows has no such signal.
 OUT_OF_TIME = (-signal.SIGXCPU,) if hasattr(signal, "SIGXCPU") else ()
 LATE = "(reading it took longer)"
 SIMPLER = "cut out the part that matters, or save it without compression"
 BUSY = "try again when the machine is less busy, or cut out the part that matters"
-LIMITS_PROCESSOR_TIME = importlib.util.find_spec("resource") is not None  # not on Windows
+LIMITS_PROCESSOR_TIME = importlib.util.find_spec("resource") is not None  # False on Windows
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a task may cost.
+    """Limits of the resources that a task may use.
 
     Attributes
     ----------
     seconds : float
-        Processor time in s, once the process and its libraries have started. Ten times as much may
-        pass on the clock. Where the system has no limit of processor time the clock alone counts.
+        Processor time in s after the process and its libraries have started. The wall-clock time
+        may be ten times as long. On Windows this is the limit of the wall-clock time.
     memory : int
-        Bytes of data, enforced on Linux.
+        Data of the process in bytes; the limit is enforced on Linux.
     body : int
-        Bytes that the task may send after its header.
+        Largest number of bytes that the task may send after its header.
     """
 
     seconds: float = SECONDS
@@ -60,7 +61,7 @@ class Limits:
 
 
 class _Answer(BaseModel):
-    """The first line that a task sends back: a refusal, or the task's own header."""
+    """The line that a task sends back: an error, or the header of its result."""
 
     model_config = ConfigDict(extra="forbid")
     refused: Refusal | None = None
@@ -77,27 +78,28 @@ def parse_in_child(
     task : str
         Module to run, e.g. ``"stonepass.surface.worker"``; it calls `worker.serve`.
     request : mapping
-        What the task is asked, JSON-ready.
+        JSON-ready request to the task.
     limits : Limits
+        Limits of time, memory and size of the result.
     what, name : str
-        Kind and name of the file, for refusals, e.g. "image" and "crystals.tif".
+        Kind and name of the file for messages, e.g. "image" and "crystals.tif".
 
     Returns
     -------
     header : dict
-        JSON from the child; the caller must check it against a schema before it is used.
+        JSON of the child process; the caller must check it against a schema.
     body : bytes
         Plain numbers, at most ``limits.body`` bytes.
 
     Raises
     ------
     BadInput
-        What the task itself refuses, and files that take too long, need too much memory or make
-        their parser crash.
+        The task refuses the file, parsing takes too long or needs too much memory, or the parser
+        crashes.
     """
     patience = PATIENCE if LIMITS_PROCESSOR_TIME else 1.0
     asked = {"request": dict(request), "memory": limits.memory, "seconds": limits.seconds}
-    # -P: nothing is imported from the folder that this runs in.
+    # With -P nothing is imported from the current folder.
     command = [sys.executable, "-P", "-m", task]
     pipe = subprocess.PIPE
     with subprocess.Popen(
@@ -106,11 +108,11 @@ def parse_in_child(
         assert process.stdin is not None
         assert process.stdout is not None
         try:
-            with suppress(BrokenPipeError):  # the exit code then says why
+            with suppress(BrokenPipeError):  # the exit code then gives the reason
                 process.stdin.write(json.dumps(asked).encode() + b"\n")
                 process.stdin.close()
             with _clock(process, START):
-                process.stdout.readline(LONGEST_HEADER)  # its libraries are loaded
+                process.stdout.readline(LONGEST_HEADER)  # the libraries have been loaded
             with _clock(process, limits.seconds * patience) as late:
                 first = process.stdout.readline(LONGEST_HEADER)
                 body = process.stdout.read(limits.body + 1)
@@ -140,7 +142,7 @@ def parse_in_child(
 
 @contextmanager
 def _clock(process: subprocess.Popen[bytes], seconds: float) -> Iterator[threading.Event]:
-    """Kill the process after some seconds; the event says whether that was so."""
+    """Kill the process when the time is over; the event is set if that happened."""
     late = threading.Event()
 
     def stop() -> None:

@@ -1,4 +1,4 @@
-"""The child's side of the sandbox: JSON in, a line of JSON and plain numbers out, within limits."""
+"""The part of the sandbox that runs in the child process."""
 
 from __future__ import annotations
 
@@ -18,15 +18,23 @@ Parsed = tuple[dict[str, Any], memoryview]
 def serve(
     load: Callable[[Mapping[str, Any]], None], parse: Callable[[Mapping[str, Any]], Parsed]
 ) -> int:
-    """Answer one request of `sandbox.parse_in_child` on stdin and stdout.
+    """Serve one request of `sandbox.parse_in_child` on standard input and output.
+
+    The request is a line of JSON. The result is a line of JSON, followed by plain numbers.
 
     Parameters
     ----------
     load : callable
-        Imports the libraries that the request needs; it runs before the limits are set.
+        Function of the request that imports the libraries it needs; it runs before the limits are
+        set.
     parse : callable
-        Parses the file of the request; returns a JSON-ready header and the numbers after it. What
-        it refuses with `BadInput` reaches the parent as a refusal.
+        Function of the request that parses the file and returns a JSON-ready header and the
+        numbers. A `BadInput` error that it raises is sent to the parent process.
+
+    Returns
+    -------
+    int
+        Exit code 0.
     """
     asked = json.loads(sys.stdin.buffer.readline())
     load(asked["request"])
@@ -48,13 +56,14 @@ def serve(
 
 
 def _limit(memory: int, seconds: float) -> None:
-    """Set the limits of the operating system, where it has any."""
+    """Set the resource limits of the operating system, if it has them."""
     try:
         import resource
-    except ImportError:  # Windows: the parent's clock is the only limit
+    except ImportError:  # on Windows the parent process limits the wall-clock time only
         return
     processor = int(_used(resource) + seconds) + 1
-    # A second below the hard limit, which kills: the signal for processor time can be told apart.
+    # The soft limit of processor time is 1 s below the hard limit, so that the process ends with
+    # the signal SIGXCPU, which tells the parent process the reason, and not with SIGKILL.
     wanted = (
         (resource.RLIMIT_DATA, memory, memory),
         (resource.RLIMIT_CPU, processor, processor + 1),
@@ -70,7 +79,7 @@ def _limit(memory: int, seconds: float) -> None:
 
 
 def _used(resource: Any) -> float:
-    """Processor time so far in s."""
+    """Return the processor time of this process in s."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     return float(used.ru_utime + used.ru_stime)
 

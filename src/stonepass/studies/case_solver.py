@@ -34,16 +34,17 @@ class CaseSolver(Protocol):
 
 @dataclass(frozen=True)
 class JobSolver:
-    """A case solver that runs jobs.
+    """A case solver that runs one job for each case.
 
     Attributes
     ----------
     executor : concurrent.futures.Executor, optional
-        Where the work runs, e.g. that of `process_pool`; by default in this process.
+        Where the jobs run, e.g. the executor of `process_pool`; by default in this process.
     cache_folder : Path, optional
-        Folder of the solution cache; by default every state is solved.
+        Folder of the solution cache; by default there is no cache.
     progress : bool or callable
-        True shows a bar in a terminal and in a notebook; a function is called with (done, all).
+        True shows a progress bar in a terminal and in a notebook. A function is called with
+        (done, all) after each job.
     """
 
     executor: Executor | None = None

@@ -12,12 +12,12 @@ from stonepass.errors import BadInput, Outcome, require
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.closure import ORDER, Series, first_radius, series_through
+from stonepass.model.closure import ORDER, Closure, Series, first_radius, series_through
 from stonepass.model.critical import solve
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.far_field import far_field_law
 from stonepass.model.models.push_through import PushThrough
-from stonepass.model.models.seated_balance import Closure, SeatedBalance, balance_pressure
+from stonepass.model.models.seated_balance import SeatedBalance, balance_pressure
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.model.states.seated_state import SeatedState
@@ -206,7 +206,7 @@ class ClosureJob:
     wetted: bool = False
 
     def run(self, cache_folder: Path | None) -> ClosureComparison:
-        """Return the outcome of `closures`."""
+        """Return the result of `closures`."""
         states = state_solver(cache_folder)
         return closures(self.case, self.order, states, wetted=self.wetted)
 

@@ -23,18 +23,18 @@ __all__ = ["CriticalCurve", "Curve", "critical_curve"]
 @array_dataclass
 @dataclass(frozen=True, repr=False)
 class CriticalCurve(Result, Sequence[Answer]):
-    """The critical pressure of a case over the size of its stone: a sequence of answers.
+    """The critical pressure of a case at several sizes of its stone, a sequence of answers.
 
     Attributes
     ----------
     answers : tuple of Answer
-        In the order of the size ratios, without the stress fields of their states.
+        Answers in the order of the size ratios, without stress fields.
     """
 
     answers: tuple[Answer, ...]
 
     def summary(self) -> str:
-        """Return how many sizes were answered, their range, and the tube in one line."""
+        """Return the number of answers, the range of sizes and the tube in one line."""
         case, sizes = self.answers[0].case, self.size_ratios
         answered = sum(each.outcome.answered for each in self.answers)
         return (
@@ -45,12 +45,12 @@ class CriticalCurve(Result, Sequence[Answer]):
 
     @property
     def size_ratios(self) -> tuple[float, ...]:
-        """ξ of each answer."""
+        """Size ratio ξ of each answer."""
         return tuple(each.case.size_ratio for each in self.answers)
 
     @property
     def pressures(self) -> tuple[float | None, ...]:
-        """P_ucr in Pa of each answer; None where there is none."""
+        """P_ucr of each answer in Pa; None if it does not exist."""
         return tuple(each.pressure for each in self.answers)
 
     @overload
@@ -69,14 +69,16 @@ class CriticalCurve(Result, Sequence[Answer]):
 
 @dataclass(frozen=True)
 class Curve:
-    """The critical pressure of a case at every size ratio, as a study.
+    """The study of the critical pressure of a case at several size ratios.
+
+    The outcome is a `CriticalCurve`.
 
     Attributes
     ----------
     case : Case
-        The size of its own stone is ignored.
+        The case; the size of its own stone is ignored.
     size_ratios : sequence of float
-        ξ, each within the bounds of `Stone`.
+        Size ratios ξ, each from 0.1 to 3.
     """
 
     case: Case
@@ -99,30 +101,31 @@ def critical_curve(
     cache_folder: Path | None = None,
     progress: bool | Progress = True,
 ) -> CriticalCurve:
-    """Compute the critical pressure over the size of the stone.
+    """Compute the critical pressure as a function of the size of the stone.
 
     Parameters
     ----------
     case : Case
-        The size of its own stone is ignored.
+        The case; the size of its own stone is ignored.
     size_ratios : iterable of float
-        ξ, 0.1 to 3 each, e.g. ``numpy.linspace(1.0, 1.3, 31)``.
+        Size ratios ξ, each from 0.1 to 3, e.g. ``numpy.linspace(1.0, 1.3, 31)``.
     executor : concurrent.futures.Executor, optional
-        Where the work runs, e.g. that of `process_pool`; by default in this process.
+        Where the cases are solved, e.g. the executor of `process_pool`; by default in this process.
     cache_folder : Path, optional
-        Folder of the solution cache, e.g. `default_folder()`; by default every state is solved.
+        Folder of the solution cache, e.g. `default_folder()`; by default there is no cache.
     progress : bool or callable
-        True shows a bar in a terminal and in a notebook; a function is called with (done, all).
+        True shows a progress bar in a terminal and in a notebook. A function is called with
+        (done, all) after each case.
 
     Returns
     -------
     CriticalCurve
-        A sequence of `Answer` that also becomes a table (`to_frame`) and a plot.
+        A sequence of `Answer`, which can also be converted to a table (`to_frame`) or plotted.
 
     Raises
     ------
     BadInput
-        There is no size ratio, one is out of bounds, or `case` is no Case.
+        There is no size ratio, a size ratio is out of bounds, or `case` is not a Case.
 
     Examples
     --------
@@ -131,7 +134,7 @@ def critical_curve(
     >>> case = sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3), model=beam)
     >>> curve = sp.critical_curve(case, [1.05, 1.1])
     >>> [round(each.pressure_kPa, 2) for each in curve]
-    [1.59, 4.05]
+    [2.33, 4.86]
     """
     require_kind("case", case, Case, "Case(stone, ureter)")
     sizes = tuple(float(each) for each in size_ratios)

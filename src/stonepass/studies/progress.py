@@ -1,4 +1,4 @@
-"""Progress of a study that was started from Python: a bar in a terminal or in a notebook."""
+"""Progress bars of studies that are started from Python, in a terminal or in a notebook."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from stonepass.studies.jobs import Progress
 
 __all__ = ["reported"]
 
-DELAY = 1.0  # s without a bar; shorter work needs none
+DELAY = 1.0  # time in s after which a bar is shown
 
 
 @contextmanager
 def reported(progress: bool | Progress, what: str) -> Iterator[Progress | None]:
-    """Yield the function that a study tells its progress to.
+    """Yield the function that a study calls with (done, all) after each job, or None.
 
     Parameters
     ----------
     progress : bool or callable
-        A function of (done, all) is used itself. True shows a bar once the work has taken a second,
-        where standard error is a terminal or the code runs in a notebook.
+        A function is yielded as it is. True yields a function that shows a bar after one second, if
+        standard error is a terminal or the code runs in a notebook.
     what : str
-        What is counted, e.g. ``"size ratios"``.
+        Name of the items that are counted, e.g. ``"size ratios"``.
     """
     if callable(progress):
         yield progress
@@ -41,7 +41,7 @@ def reported(progress: bool | Progress, what: str) -> Iterator[Progress | None]:
 
 
 def _in_notebook() -> bool:
-    """Whether a kernel of Jupyter runs this code."""
+    """Return whether this code runs in a Jupyter kernel."""
     ipython = sys.modules.get("IPython")
     return ipython is not None and hasattr(ipython.get_ipython(), "kernel")
 
@@ -68,7 +68,7 @@ def _terminal_bar(what: str) -> Iterator[Progress]:
 
 
 class _Line:
-    """A line of text with a bar, as a notebook displays it."""
+    """A line of text with a bar that a notebook displays."""
 
     def __init__(self, what: str, done: int, total: int) -> None:
         self.text = f"{what}: {done} of {total}"
@@ -83,7 +83,7 @@ class _Line:
 
 @contextmanager
 def _notebook_bar(what: str) -> Iterator[Progress]:
-    """Show one display that is updated in place; no widgets are needed."""
+    """Show a single display that is updated in place, without widgets."""
     display: Any = import_module("IPython.display").display
     handle, started = None, time.monotonic()
 

@@ -1,4 +1,4 @@
-"""Sobol's total sensitivity indices of an outcome with respect to its uncertain inputs."""
+"""Sobol' total sensitivity indices of an outcome with respect to its uncertain inputs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SAMPLES = 1024  # number of samples of each input, a power of two
 
 @dataclass(frozen=True)
 class SensitivityIndex:
-    """Sobol's total index of an input.
+    """Sobol' total index of an input.
 
     The index is the fraction of the variance of the outcome that involves the input, alone or in
     interactions. An interaction counts for each of its inputs, so that the sum may exceed 1.

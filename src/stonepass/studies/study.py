@@ -1,7 +1,7 @@
 """The contract of a study: the jobs that it needs, and the reduction of their results.
 
 A new study needs a frozen dataclass in a file of its own, and one line in `studies.registry`
-(docs/developing.md, "A study").
+(docs/developing.md, "Add a study").
 """
 
 from __future__ import annotations
@@ -74,10 +74,10 @@ def run_study(
     executor : concurrent.futures.Executor, optional
         Where the jobs run; by default in this process.
     cache_folder : Path, optional
-        Folder of the solution cache; by default every state is solved.
+        Folder of the solution cache; by default there is no cache.
     progress : bool or callable
-        True shows a bar in a terminal and in a notebook; a function is called with (done, all)
-        after each job.
+        True shows a progress bar in a terminal and in a notebook. A function is called with
+        (done, all) after each job.
 
     Raises
     ------

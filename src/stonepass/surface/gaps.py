@@ -42,7 +42,7 @@ def bridgeable(known: Bool[np.ndarray, " n"], longest: float) -> bool:
 
     References
     ----------
-    docs/friction.md, "What it reads".
+    docs/friction.md, "Which files it reads".
     """
     return bool(
         known[0]

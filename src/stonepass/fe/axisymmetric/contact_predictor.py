@@ -1,4 +1,7 @@
-"""The contact predictor: frictionless contact on a coarse mesh, which locates the contact edges."""
+"""The contact predictor: frictionless contact on a coarse mesh, which locates the contact edges.
+
+See "The contact edge" in docs/theory.md, section "Seated state".
+"""
 
 from __future__ import annotations
 

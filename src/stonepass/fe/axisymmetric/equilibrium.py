@@ -1,4 +1,7 @@
-"""The solved seated contact, its tolerances, and the checks that a solved contact must pass."""
+"""The solved seated contact, its tolerances, and the checks that a solved contact must pass.
+
+See "Seated state" in docs/theory.md.
+"""
 
 from __future__ import annotations
 

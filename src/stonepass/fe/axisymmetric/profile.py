@@ -1,4 +1,7 @@
-"""The meridian of a rigid, convex stone: gap, normal and arc length, for arrays and symbols."""
+"""The meridian of a rigid, convex stone: gap, normal and arc length, for arrays and symbols.
+
+See "Stones that are not spheres" in docs/theory.md.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Data of the sliding contact: the problem, a configuration of its unknowns, a solved state."""
+"""Data of the sliding contact: the problem, a configuration of its unknowns, a solved state.
+
+The problem is described in the module `sliding_contact`. See "The push-through, solved directly" in
+docs/theory.md.
+"""
 
 from __future__ import annotations
 

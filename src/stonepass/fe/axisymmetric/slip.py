@@ -1,4 +1,7 @@
-"""Slip of the wall on the stone in one increment, and the energy that friction dissipates in it."""
+"""Slip of the wall on the stone in one increment, and the energy that friction dissipates in it.
+
+See "Friction and its path" in docs/theory.md.
+"""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 u and w are the radial and the axial displacement in inner radii, p is the pressure that enforces
 incompressibility, in units of the modulus. All are NGSolve coefficient functions or trial functions
-of the mesh coordinates x = R and y = Z.
+of the mesh coordinates x = R and y = Z. See "Seated state" in docs/theory.md.
 """
 
 from __future__ import annotations

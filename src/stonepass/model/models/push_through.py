@@ -1,4 +1,7 @@
-"""The direct model: finite-element solution of the push-through, without a closure."""
+"""The direct model: finite-element solution of the push-through, without a closure.
+
+See "The push-through, solved directly" in docs/theory.md.
+"""
 
 from __future__ import annotations
 
@@ -47,14 +50,14 @@ class PushThrough:
     wetted: bool = declared(
         Kind.FLAG,
         "--wetted/--dry",
-        "Whether urine enters the contact up to the seal and so reduces friction there.",
+        "Let urine enter the contact up to the seal, which reduces friction, or keep it dry.",
         default=False,
         shown_default="dry",
     )
     far_field_ground: bool = declared(
         Kind.FLAG,
         "--far-field-ground/--far-field-fibres",
-        "Whether the far field contains the ground matrix.",
+        "Include the ground matrix in the far field, or only the fibres.",
         default=False,
         shown_default="fibres",
     )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -13,18 +11,16 @@ from stonepass.caution import caution
 from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.materials.protocol import Law
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.answer import Answer, Quantity, unanswered
 from stonepass.model.closure import (
     ORDER,
-    Series,
+    Closure,
     first_radius,
     fit_series,
-    linear_closure,
     series_through,
 )
-from stonepass.model.far_field import far_field_law, lumen_ratio, urine_pressure
+from stonepass.model.far_field import far_field_law, lumen_ratio
 from stonepass.model.force_balance import drive, resistance
 from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
@@ -37,7 +33,7 @@ from stonepass.model.stone import FRICTION
 from stonepass.model.validity import ring_buckling, soft_law, strain_range
 from stonepass.units import Values
 
-__all__ = ["Closure", "SeatedBalance", "SeatedBalanceDetail", "balance", "balance_pressure"]
+__all__ = ["SeatedBalance", "SeatedBalanceDetail", "balance", "balance_pressure"]
 
 # Range of an admissible series closure: smallest r_a/R_a and largest r_a/R_s.
 SMALLEST_OPENING, LARGEST_OPENING = 0.5, 2.0
@@ -91,8 +87,8 @@ class SeatedBalance:
     seating: str = declared(
         Kind.CHOICE,
         "--seating",
-        "How the stone was seated: pressed in along the ureter, without friction, or by growing in "
-        "its place.",
+        "How the stone was seated: pressed radially into the wall, without friction, or by "
+        "growing in its place.",
         default="pressed",
         choices=SEATINGS,
     )
@@ -115,7 +111,7 @@ class SeatedBalance:
     closure_start: str = declared(
         Kind.CHOICE,
         "--closure-start",
-        "Where the closure starts: the unloaded inner radius, or the lumen that the load leaves.",
+        "Radius at which the closure starts: unloaded inner radius, or lumen under the load.",
         default="inner-radius",
         choices=("inner-radius", "lumen"),
     )
@@ -141,7 +137,7 @@ class SeatedBalance:
     far_field_ground: bool = declared(
         Kind.FLAG,
         "--far-field-ground/--far-field-fibres",
-        "Whether the far field contains the ground matrix.",
+        "Include the ground matrix in the far field, or only the fibres.",
         default=False,
         shown_default="fibres",
     )
@@ -208,46 +204,6 @@ class SeatedBalance:
                                   seconds=did.seconds)  # fmt: skip
             closure = found
         return balance(self, case, numerics, seated, closure)
-
-
-@dataclass(frozen=True)
-class Closure:
-    """The urine pressure as a function of the angle up to which the contact has opened.
-
-    Attributes
-    ----------
-    law : Law
-        The law of the far field.
-    start : float
-        r_a/R_a at α₀ in Eq. 15.
-    series : Series or None
-        Fitted series that replaces Eq. 15; None for Eq. 15.
-    """
-
-    law: Law
-    start: float = 1.0
-    series: Series | None = None
-
-    def pressure(self, contact: Contact, alpha: Values) -> Values:
-        """Return the urine pressure P_u(α) in Pa of the far field at the radius r_a(α) (Eq. 16).
-
-        Parameters
-        ----------
-        contact : Contact
-            The seated contact; it supplies α₀ and the case.
-        alpha : float or array
-            Angle in rad up to which the contact has opened, from α₀ to π/2.
-        """
-        case, width = contact.case, contact.case.stone.shape.width
-        shape: Callable[[Values, float, float], Values]
-        shape = self.series or partial(linear_closure, start=self.start)
-        first = float(width(np.array(contact.contact_angle)))
-        radius = shape(width(np.asarray(alpha)), first, case.size_ratio)
-        return urine_pressure(radius, case.wall_ratio, self.law, case.load)
-
-    def end_pressure(self, contact: Contact) -> float:
-        """Return P_u(π/2) in Pa, at which the closure ends; this is not a physical bound."""
-        return float(self.pressure(contact, np.array(np.pi / 2)))
 
 
 @dataclass(frozen=True)

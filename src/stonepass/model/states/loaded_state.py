@@ -1,4 +1,7 @@
-"""Results for the loaded state of a held stone: contact, force on the stone, wall."""
+"""Results for the loaded state of a held stone: contact, force on the stone, wall.
+
+See "The push-through, solved directly" in docs/theory.md.
+"""
 
 from __future__ import annotations
 

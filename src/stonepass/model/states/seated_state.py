@@ -1,4 +1,7 @@
-"""Results for the seated state: contact, wall, and report of the finite elements."""
+"""Results for the seated state: contact, wall, and report of the finite elements.
+
+See "Seated state" in docs/theory.md.
+"""
 
 from __future__ import annotations
 

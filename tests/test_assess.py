@@ -465,7 +465,7 @@ def test_every_source_can_be_cited_or_says_that_it_cannot():
     cited = re.compile(r"doi:10\.\d{4}|\d+:\d+|PubMed|PMC\d+|congress.*abstract \d+")
     assert len(sources) == 15
     for source in sources:
-        assert source.startswith("unverified: ") or cited.search(source), source
+        assert source.startswith("unverified") or cited.search(source), source
 
 
 def test_figures_show_what_was_found(contradicting):

@@ -254,7 +254,7 @@ def _sources(found: Assessment) -> list[str]:
         '<section class="sources">',
         "<h2>Sources</h2>",
         "<p>Cohorts. Mostly abstracts were read, not whole papers. “Unverified” means that no "
-        "citable publication is known.</p>",
+        "citable publication is known, or that the numbers could not be compared with it.</p>",
         _list(cohorts),
         "<p>Published urine pressures, which are the dotted lines of the figure.</p>",
         _list(limits),

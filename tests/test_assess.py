@@ -36,7 +36,7 @@ from stonepass.report.assess_figure import (
     sizes_figure,
 )
 from stonepass.report.assess_page import write_assessment
-from stonepass.report.assess_report import describe_range, sentence
+from stonepass.report.assess_report import describe_passed, describe_range, sentence
 from stonepass.report.assess_sketch import sketch_figure
 from stonepass.studies.case_solver import JobSolver
 from stonepass.studies.conditions import Conditions, lumen_ratios
@@ -457,6 +457,7 @@ def test_intervals_of_cohorts_are_wilsons():
     assert len(rows) == len(COHORTS)
     assert rows["Ongün 2019"].interval == wilson(0.776, 245)
     assert rows["AUA/EAU analysis"].interval == (0.36, 0.59)
+    assert describe_passed(rows["Ongün 2019"]) == "78 %, 95 %: 72 to 82 %, n = 245"
     assert rows["Coll 2002"].interval is None  # how many stones a class had is not known
 
 

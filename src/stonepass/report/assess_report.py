@@ -120,8 +120,7 @@ def describe_passed(row: Row) -> str:
     if row.passed is not None:
         parts.append(f"{round(100 * row.passed)} %")
     if row.interval is not None:
-        low, high = (round(100 * end) for end in row.interval)
-        parts[-1] += f" ({low} to {high} %)"
+        parts.append("95 %: {:.0f} to {:.0f} %".format(*(100.0 * end for end in row.interval)))
     if row.count is not None:
         parts.append(f"n = {row.count}")
     if row.days is not None:

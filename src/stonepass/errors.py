@@ -24,7 +24,8 @@ __all__ = [
 
 
 NEAR = 0.5  # similarity of a word and the name that was probably meant, from 0 to 1
-LONGEST, LONGEST_ALLOWED = 80, 300  # characters of a value, and of what is allowed
+# Largest numbers of characters of a value and of the description of allowed values in a message.
+LONGEST, LONGEST_ALLOWED = 80, 300
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 200
 

@@ -19,7 +19,8 @@ __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_
 
 COUNT = (1, 100)  # smallest and largest number of paths
 UNEVEN = 0.01  # relative difference of the lengths of paths above which a warning is given
-SNAP = 1e-9  # points nearer to the centre of a pixel, in pixels, take the value of this pixel alone
+# A point within this distance, in pixels, of the centre of a pixel takes the value of this pixel.
+SNAP = 1e-9
 MICRO = 1e6  # µm per m
 
 

@@ -62,7 +62,7 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
             return reader(path, area)
     except StonepassError:
         raise
-    except Exception as problem:  # a decoder may raise anything at all over a damaged file
+    except Exception as problem:  # a decoder may raise any exception for a damaged file
         shortage = _memory_error(problem)
         if shortage is not None:
             allowed = "readable within the limit of memory"

@@ -167,9 +167,19 @@ def require(condition: bool, argument: str, value: Any, allowed: str, remedy: st
 
 
 def did_you_mean(value: str, known: Iterable[str]) -> str:
-    """Return ``; did you mean 'x'`` with the nearest of the known names; empty without a near one.
+    """Return a suggestion for an unknown name, such as ``; did you mean 'x'``.
 
-    Capital letters make no difference.
+    Parameters
+    ----------
+    value : str
+        The unknown name; upper and lower case letters count as equal.
+    known : iterable of str
+        The known names.
+
+    Returns
+    -------
+    str
+        The suggestion, or an empty text if no known name is similar.
     """
     names = {each.casefold(): each for each in known}
     near = get_close_matches(value.casefold(), names, n=1, cutoff=NEAR)

@@ -106,15 +106,33 @@ class Row:
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """Interval of the fraction: that of the source, or Wilson's 95 % interval of its count."""
+        """Published interval of `passed`, or else Wilson's 95 % interval; None if it is unknown."""
         if self.published is not None or self.passed is None or self.count is None:
             return self.published
         return wilson(self.passed, self.count)
 
 
 def wilson(fraction: float, count: int) -> tuple[float, float]:
-    """Return Wilson's 95 % confidence interval of a fraction observed in `count` cases.
+    """Return Wilson's 95 % confidence interval of an observed fraction.
 
+    Parameters
+    ----------
+    fraction : float
+        Observed fraction, 0 to 1.
+    count : int
+        Number of observed cases, at least 1.
+
+    Returns
+    -------
+    (float, float)
+        Lower and upper end, 0 to 1.
+
+    References
+    ----------
+    Wilson 1927, Journal of the American Statistical Association 22, 209–212.
+
+    Examples
+    --------
     >>> tuple(round(end, 3) for end in wilson(8 / 16, 16))
     (0.28, 0.72)
     """
@@ -126,7 +144,7 @@ def wilson(fraction: float, count: int) -> tuple[float, float]:
 
 
 def place_meant(word: str) -> str:
-    """Return the place that another common word stands for; empty for an unknown word."""
+    """Return the place in `PLACES` that another common word means; empty for an unknown word."""
     return _OTHER_WORDS.get(word.strip().casefold(), "")
 
 

@@ -200,7 +200,15 @@ class AssessRecord(Record):
 
 
 def assess_record(found: Assessment, file: str) -> AssessRecord:
-    """Return the record of an assessment; `file` is the name of the patient's file."""
+    """Make the record of an assessment.
+
+    Parameters
+    ----------
+    found : Assessment
+        The assessment.
+    file : str
+        Name of the patient file.
+    """
     asked = decisions(found)
     return AssessRecord(
         outcome=found.outcome.name,

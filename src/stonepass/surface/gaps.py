@@ -63,6 +63,10 @@ def bridge(
         Heights in m; the values in gaps are ignored.
     known : array (n) of bool
         Whether each sample has a height.
+
+    References
+    ----------
+    docs/friction.md, "Which files it reads".
     """
     places = np.arange(len(values))
     return np.interp(places, places[known], values[known])
@@ -85,6 +89,10 @@ def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | No
     -------
     Area or None
         None if fewer than 2 × 2 pixels are left.
+
+    References
+    ----------
+    docs/friction.md, "Which files it reads".
     """
     known = np.isfinite(values)
     left, top, right, bottom = area.left, area.top, area.right, area.bottom

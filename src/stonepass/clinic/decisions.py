@@ -27,7 +27,7 @@ class Decision:
     decided : bool
         Whether the measurements decide the question within the model.
     sentence : str
-        The answer, or the statement that there is none, with its numbers.
+        The answer with its numbers, or the statement that the question is undecided.
     """
 
     decided: bool
@@ -35,7 +35,7 @@ class Decision:
 
 
 def decisions(found: Assessment) -> tuple[Decision, ...]:
-    """Return the questions about a patient, those that are not decided first.
+    """Return the questions about a patient; undecided questions come first.
 
     A question is decided if at least 95 % of the samples agree on its answer.
     """
@@ -62,7 +62,7 @@ def next_measurement(found: Assessment) -> str:
 
 
 def _limit(found: Assessment) -> Decision | None:
-    """Is the critical pressure below the pressure limit?"""
+    """Decide whether the critical pressure is below the pressure limit."""
     fraction = found.below_limit if found.loose == 0.0 else found.below_limit_held
     if fraction is None:
         return None
@@ -90,7 +90,7 @@ def _interval(values: Range | None) -> str:
 
 
 def _held(found: Assessment) -> Decision | None:
-    """Is the stone larger than the lumen?"""
+    """Decide whether the stone is larger than the lumen."""
     if found.critical is None:
         return None
     loose = Fraction(found.loose, found.loose).describe()
@@ -108,7 +108,7 @@ def _held(found: Assessment) -> Decision | None:
 
 
 def _present(found: Assessment) -> Decision | None:
-    """Is the present urine pressure below the critical pressure?"""
+    """Decide whether the present urine pressure is below the critical pressure."""
     above = found.below_present
     if above is None:
         return None

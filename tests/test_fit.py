@@ -216,7 +216,7 @@ def test_data_from_files(tmp_path):
         ("stretch,nominal_stress_kPa\n1.1,x\n", r"row 2, column 'nominal_stress_kPa' is x"),
         (
             "stretch,nominal_stress_kPa\n19,1\n",
-            r"column 'stretch' is 19, but must be a number from 0\.1 to 15; a stretch is a length",
+            r"column 'stretch' is 19, but must be a number from 0\.1 to 15; a stretch is the length",
         ),
         ("stretch,nominal_stress_kPa,axis\n1.1,1,axail\n", "column 'axis' is axail.*mean 'axial'"),
         ("", "a table with the columns stretch"),
@@ -386,7 +386,7 @@ def test_constants_that_are_no_solid_are_given_as_such(tmp_path, capsys, fix):
         ("neo-hookean", [(0.25, 50), (0.4, 81), (0.6, 120)],
          "must be negative where a strip is shortened; if the column 'stretch' holds strains, add 1"),
         ("neo-hookean", [(0, 0), (0.1, 20), (0.3, 60)],
-         "column 'stretch' is 0, but must be a number from 0.1 to 15; a stretch is a length over"),
+         "column 'stretch' is 0, but must be a number from 0.1 to 15; a stretch is the length divided"),
         # strains in per cent, without and with a row at rest
         ("neo-hookean", [(5, 20), (10, 40), (14, 50)], "the smallest stretch is 5, but must be below 2"),
         ("neo-hookean", [(100, 0), (110, 20), (130, 60)], "1 \\+ per cent/100"),

@@ -24,7 +24,8 @@ __all__ = [
 
 
 NEAR = 0.5  # similarity of a word and the name that was probably meant, from 0 to 1
-LONGEST, LONGEST_ALLOWED = 80, 300  # characters of a value, and of what is allowed
+# Largest numbers of characters of a value and of the description of allowed values in a message.
+LONGEST, LONGEST_ALLOWED = 80, 300
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 200
 
@@ -129,14 +130,14 @@ class Outcome(enum.Enum):
 
     MOVES = "The stone moves once the urine pressure above it reaches the critical pressure"
     SOLVED = "The critical size was found"
-    LOOSE = "The stone is no larger than the lumen: it is not stuck, no pressure is needed"
+    LOOSE = "The stone is no larger than the lumen, so that no pressure is needed to move it"
     LEAKS = "Urine passes the stone before the stone moves"
     BEYOND_CLOSURE = (
-        "Drive and resistance do not balance before the paper's closure ends (contact angle 90°): "
-        "this model has no answer; the direct push-through model is the way on"
+        "Drive and resistance do not balance before the paper's closure ends (contact angle 90°), "
+        "so that this model has no answer; the model 'direct' has no closure"
     )
     NO_SOLUTION = "No equilibrium was found"
-    BELOW_RANGE = "Every stuck stone needs more than the pressure limit"
+    BELOW_RANGE = "Every stone that is larger than the lumen needs more than the pressure limit"
     BEYOND_RANGE = "The pressure limit is not reached within the strain range of the material"
 
     @property
@@ -150,16 +151,37 @@ class Outcome(enum.Enum):
 
 
 def require(condition: bool, argument: str, value: Any, allowed: str, remedy: str = "") -> None:
-    """Raise `BadInput` unless `condition` holds; a NaN comparison is False and so refused."""
+    """Raise `BadInput` unless a condition holds.
+
+    Comparisons with NaN are False, so that NaN is refused.
+
+    Parameters
+    ----------
+    condition : bool
+        The condition.
+    argument, value, allowed, remedy
+        Attributes of the error (see `BadInput`).
+    """
     if not condition:
         raise BadInput(argument, value, allowed, remedy)
 
 
 def did_you_mean(value: str, known: Iterable[str], near: float = NEAR) -> str:
-    """Return ``; did you mean 'x'`` with the nearest of the known names; empty without a near one.
+    """Return a suggestion for an unknown name, such as ``; did you mean 'x'``.
 
-    `near` is the smallest similarity of a near name, from 0 to 1. Capital letters make no
-    difference.
+    Parameters
+    ----------
+    value : str
+        The unknown name; upper and lower case letters count as equal.
+    known : iterable of str
+        The known names.
+    near : float
+        Smallest similarity of a suggested name, from 0 to 1.
+
+    Returns
+    -------
+    str
+        The suggestion, or an empty text if no known name is similar.
     """
     names = {each.casefold(): each for each in known}
     found = get_close_matches(value.casefold(), names, n=1, cutoff=near)
@@ -167,9 +189,18 @@ def did_you_mean(value: str, known: Iterable[str], near: float = NEAR) -> str:
 
 
 def refuse_unknown(argument: str, value: str, known: list[str], otherwise: str = "") -> NoReturn:
-    """Raise `BadInput` for a name that is not among `known`, naming the nearest one.
+    """Raise `BadInput` for an unknown name; the message suggests the nearest known name.
 
-    `otherwise` says what to do for something that has no name.
+    Parameters
+    ----------
+    argument : str
+        Kind of the name, e.g. "law".
+    value : str
+        The unknown name.
+    known : list of str
+        The known names.
+    otherwise : str
+        A further remedy, e.g. how to give a law of your own; may be empty.
     """
     remedies = [did_you_mean(value, known).removeprefix("; "), otherwise]
     remedy = "; ".join(filter(None, remedies))

@@ -1,7 +1,7 @@
-"""Results of the public interface: how they print, and what they can be turned into.
+"""The base class of results, which can be printed, converted, plotted and saved.
 
-A result knows nothing of tables, pictures and records, which are made in layers above it. The
-package tells it once, with `present_with`, who makes them; nothing is loaded before it is needed.
+Tables, pictures and records are made by layers above this module. The package registers the
+functions that make them once, with `present_with`; they are loaded when they are first needed.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ _loader: Callable[[], Presentation] | None = None
 
 
 def present_with(loader: Callable[[], Presentation]) -> None:
-    """State who shows results; `loader` is called when a result is first shown."""
+    """Register the presentation of results; `loader` is called when a result is first shown."""
     global _loader
     _loader = loader
 
@@ -58,7 +58,7 @@ def _presentation() -> Presentation:
 
 
 class Result:
-    """Base of what questions return: a short description, tables, plots and plain values.
+    """The base class of results, with a short description, tables, plots and plain values.
 
     A subclass is a frozen dataclass with ``repr=False``. It says in `summary` what its short
     description contains, and registers its table, record and pictures in `report.presentation`.

@@ -19,7 +19,7 @@ from stonepass.strain import INNER_WALL, CauchyGreen
 __all__ = ["strip_stress", "tube_pressure"]
 
 STEPS = 60  # largest number of Newton steps
-# Largest last step of the logarithm of the lateral stretch; the error left is 1e-5 of that step.
+# Newton's method has converged when a step of ln b is below this; the error is then 1e-5 of it.
 TOLERANCE = 1e-7
 LARGEST_STEP = 0.1  # largest change of the logarithm of the lateral stretch in one step
 IMAGINARY = 1e-30  # imaginary step; no difference is formed, so that no digits cancel

@@ -78,6 +78,10 @@ class Comparison:
         Measured critical pressures.
     answers : tuple of Answer
         The answer of the model for each point.
+
+    References
+    ----------
+    docs/bench.md, "A series in vitro".
     """
 
     friction: float

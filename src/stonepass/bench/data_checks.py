@@ -26,7 +26,7 @@ WRONG_SHARE = 0.05
 WRONG_SHARE_STRETCHED = 0.2
 FARTHEST_START = 2.0  # largest first stretch of data that are taken to begin at rest
 FARTHEST_TUBE = 1.7  # largest first radius, over the radius at rest, of such data of a tube
-STRAINS = "a stretch is a length over that at rest: 1 + strain, or 1 + per cent/100"
+STRAINS = "a stretch is the length divided by that at rest: 1 + strain, or 1 + per cent/100"
 
 
 def check_tension(
@@ -98,9 +98,9 @@ def _check_stretches(
         raise BadInput(place, f"{value:g}", f"a number from {low:g} to {high:g}",
                        _swapped(columns) or STRAINS)  # fmt: skip
     if stretch.min() > FARTHEST_START:
-        remedy = f"{STRAINS}; if these are stretches, add the row at rest (1, 0)"
+        remedy = f"{STRAINS}; if the column holds stretches, add the row at rest (1, 0)"
         raise BadInput(f"in {file}, the smallest stretch", f"{stretch.min():.4g}",
-                       f"below {FARTHEST_START:g}, as of data that begin at rest", remedy
+                       f"below {FARTHEST_START:g} for data that begin at rest", remedy
                        )  # fmt: skip
 
 
@@ -165,9 +165,9 @@ def check_inflation(
     if widening.min() > FARTHEST_TUBE - 1.0:
         raise BadInput(f"in {file}, the smallest diameter",
                        f"{1.0 + widening.min():.3g} times that at rest, {at_rest}",
-                       f"below {FARTHEST_TUBE:g} times, as of data that begin at rest",
-                       "give diameters, not radii, as --inner and --outer; if these are, add the "
-                       "row at rest, without pressure")  # fmt: skip
+                       f"below {FARTHEST_TUBE:g} times for data that begin at rest",
+                       "give diameters, not radii, as --inner and --outer, or add the row at rest, "
+                       "without pressure")  # fmt: skip
 
 
 def _refuse_tube(
@@ -182,7 +182,7 @@ def _refuse_tube(
     raise BadInput(f"in {file}, {columns.place(row, 'pressure_kPa')}",
                    f"{pressure:g} at a diameter of {diameter:g} mm",
                    f"positive where the tube is wider than at rest, {at_rest}",
-                   "a transmural pressure is that inside less that outside")  # fmt: skip
+                   "the transmural pressure is the inner minus the outer pressure")  # fmt: skip
 
 
 def inner_ratio(

@@ -20,7 +20,8 @@ __all__ = ["check_enough", "check_fit", "check_told", "r_squared_of"]
 
 # A singular value of the sensitivity matrix below this fraction of the largest one counts as zero.
 INDISTINCT = 1e-6
-SHARE = 0.3  # least component of a constant in an unidentified direction for which it is named
+# A constant is named if its component in an unidentified direction (a unit vector) exceeds this.
+SHARE = 0.3
 
 
 def check_enough(data: Data, free: Sequence[str]) -> None:

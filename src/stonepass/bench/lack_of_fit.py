@@ -40,7 +40,7 @@ SMALL_PART = 1e-4  # relative change of a size at rest, for a difference quotien
 # Stretches up to which a strip may be slack; each is tried.
 SLACK = (1.01, 1.02, 1.03, 1.04, 1.05, 1.07, 1.1, 1.14, 1.2)
 FEWEST_OF_TOE = 2  # smallest number of points on the slack part of the curve
-# Smallest part of a unit vector that lies outside the space of the known vectors.
+# A mistake is not tested if less than this part of its unit vector is independent of known ones.
 INDISTINCT = 1e-3
 
 
@@ -183,7 +183,7 @@ def _mistakes(
 
 def _offset(spread: Float[np.ndarray, " n"]) -> _Mistake:
     def told(amounts: _Amounts, shift: _Shift, chance: float) -> Caution:
-        # Predicted less observed is −offset.
+        # Predicted minus observed is −offset.
         return caution("zero_offset", offset_kPa=-float(amounts[0]) / 1e3, chance=chance)
 
     return _Mistake("zero_offset", (1.0 / spread)[:, None], told)

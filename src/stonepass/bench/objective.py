@@ -138,6 +138,10 @@ class Objective:
         -------
         array (n, free)
             Dimensionless derivatives by central differences.
+
+        References
+        ----------
+        docs/bench.md, "Lack of fit" and docs/bench.md, "Identifiability".
         """
         typical = {each.name: each.unit for each in constants_of(self.law)}
         modulus, columns = stiffness_guess(self.data), []

@@ -225,7 +225,7 @@ class SeriesModel:
         Parameters
         ----------
         mu : float
-            Friction coefficient, 0 to 2.
+            Friction coefficient μ_f, 0 to 2.
         solver : CaseSolver
             Solves the cases, without error estimates.
         """

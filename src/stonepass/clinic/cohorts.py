@@ -1,8 +1,8 @@
 """Published cohorts: how many stones of a size, or at a place, passed without intervention.
 
 Every number was read in the source itself or in a secondary source that quotes it; `Cohort.read`
-says which. Cohorts differ in what they call the size of a stone, in how long they observed, and in
-whom they excluded.
+says which. The cohorts differ in the definition of the size of a stone, in the duration of the
+follow-up, and in the patients that were excluded.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ class Rate:
     label : str
         Size class or place as printed in the source.
     low, high : float
-        The stones in mm that the class is taken for: `low` ≤ size < `high`.
+        Bounds of the class in mm: low ≤ size < high.
     passed : float or None
-        Fraction that passed; None if the source has a time to pass only.
+        Fraction of stones that passed, 0 to 1; None if the source has only a time to passage.
     days : float or None
-        Mean time to pass in days.
+        Mean time to passage in days; None if it is not known.
     count : int or None
         Number of stones in the class; None if it is not known.
     published : (float, float) or None
-        Interval of the fraction that the source itself states.
+        Confidence interval of the fraction, if the source states one.
     """
 
     label: str
@@ -87,10 +87,11 @@ class Row:
     Attributes
     ----------
     cohort : Cohort
+        The cohort.
     group : str
         Size class or place as printed.
     passed, days, count, published
-        Those of the `Rate`.
+        Attributes of the `Rate`.
     sizes : (float, float) or None
         Size class in mm; None for a place.
     """
@@ -105,15 +106,33 @@ class Row:
 
     @property
     def interval(self) -> tuple[float, float] | None:
-        """Interval of the fraction: that of the source, or Wilson's 95 % interval of its count."""
+        """Published interval of `passed`, or else Wilson's 95 % interval; None if it is unknown."""
         if self.published is not None or self.passed is None or self.count is None:
             return self.published
         return wilson(self.passed, self.count)
 
 
 def wilson(fraction: float, count: int) -> tuple[float, float]:
-    """Return Wilson's 95 % confidence interval of a fraction observed in `count` cases.
+    """Return Wilson's 95 % confidence interval of an observed fraction.
 
+    Parameters
+    ----------
+    fraction : float
+        Observed fraction, 0 to 1.
+    count : int
+        Number of observed cases, at least 1.
+
+    Returns
+    -------
+    (float, float)
+        Lower and upper end, 0 to 1.
+
+    References
+    ----------
+    Wilson 1927, Journal of the American Statistical Association 22, 209–212.
+
+    Examples
+    --------
     >>> tuple(round(end, 3) for end in wilson(8 / 16, 16))
     (0.28, 0.72)
     """
@@ -125,7 +144,7 @@ def wilson(fraction: float, count: int) -> tuple[float, float]:
 
 
 def place_meant(word: str) -> str:
-    """Return the place that another common word stands for; empty for an unknown word."""
+    """Return the place in `PLACES` that another common word means; empty for an unknown word."""
     return _OTHER_WORDS.get(word.strip().casefold(), "")
 
 
@@ -244,7 +263,19 @@ COHORTS = (
 
 
 def rows_for(low: float, high: float, place: str | None) -> list[Row]:
-    """Return the rates of stones from `low` to `high` mm, and of stones at `place`."""
+    """Return the published passage rates for a range of sizes and for a place in the ureter.
+
+    Parameters
+    ----------
+    low, high : float
+        Smallest and largest diameter of the stone in mm.
+    place : str or None
+        Place in the ureter, one of `PLACES`; None if it is unknown.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
+    """
     rows = []
     for cohort in COHORTS:
         for rate in cohort.by_size:
@@ -259,7 +290,7 @@ def _row(cohort: Cohort, rate: Rate, sizes: tuple[float, float] | None) -> Row:
 
 
 def _overlap(rate: Rate, low: float, high: float) -> bool:
-    """Return whether a size class and a range have more than an end in common."""
+    """Return whether a size class and a range overlap in more than a single point."""
     if low == high:
         return rate.low <= low < rate.high
     return rate.low < high and low < rate.high

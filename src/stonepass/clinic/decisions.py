@@ -27,7 +27,7 @@ class Decision:
     decided : bool
         Whether the measurements decide the question within the model.
     sentence : str
-        The answer, or the statement that there is none, with its numbers.
+        The answer with its numbers, or the statement that the question is undecided.
     """
 
     decided: bool
@@ -35,7 +35,7 @@ class Decision:
 
 
 def decisions(found: Assessment) -> tuple[Decision, ...]:
-    """Return the questions about a patient, those that are not decided first.
+    """Return the questions about a patient; undecided questions come first.
 
     A question is decided if at least 95 % of the samples agree on its answer.
     """

@@ -39,6 +39,10 @@ class Range:
         5th, 50th and 95th percentile in Pa; None if censored samples leave the percentile unknown.
     at_least : float or None
         Lower bound in Pa of the first percentile that is None; None if all percentiles are known.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
 
     low: float | None
@@ -55,6 +59,10 @@ class Fraction:
     ----------
     low, high : float
         Smallest and largest possible value of the fraction, 0 to 1.
+
+    References
+    ----------
+    docs/assess.md, "What is done".
     """
 
     low: float
@@ -141,6 +149,10 @@ class Samples:
             A pressure in Pa for all samples, or one for each sample.
         chosen : array (n) of bool, optional
             The samples that count; by default all of them.
+
+        References
+        ----------
+        docs/assess.md, "What is done".
         """
         some = np.ones(len(self.critical), dtype=bool) if chosen is None else chosen
         if isinstance(pressure, Present):

@@ -264,7 +264,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
 
 
 def _check_place(place: str | None) -> None:
-    """Refuse an unknown place, with the place that was probably meant."""
+    """Refuse an unknown place; the message suggests the place that was probably meant."""
     if place is None or place in PLACES:
         return
     meant = place_meant(place)

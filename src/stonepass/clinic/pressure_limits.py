@@ -11,7 +11,17 @@ __all__ = ["LIMITS", "PressureLimit", "describe_limit"]
 
 @dataclass(frozen=True)
 class PressureLimit:
-    """A pressure in Pa, its meaning, and its source as far as it can be cited."""
+    """A published pressure limit.
+
+    Attributes
+    ----------
+    pressure : Pressure
+        The pressure in Pa.
+    what : str
+        How it was measured or why it was proposed.
+    source : str
+        The publication, as far as it can be cited.
+    """
 
     pressure: Pressure
     what: str

@@ -36,7 +36,7 @@ SEATED_LIMITS = {
     "load": Limit(("prestretch", "dead", "hydrostatic")),
     "shape": Limit(("sphere", "spheroid", "outline")),
 }
-# Inputs of what follows from a contact: they change neither the wall nor its contact.
+# Inputs of calculations that use the contact; they change neither the wall nor its contact.
 FROM_CONTACT = (
     "as_printed", "closure_start", "closure", "series_order", "opening_curve", "far_field_ground",
 )  # fmt: skip

@@ -1,7 +1,8 @@
 """The canonical record of a case: a complete, versioned description in plain values and SI units.
 
-JSON records and fingerprints follow from this description. Two cases with the same description have
-the same answer. It does not contain the paths of files.
+JSON records and fingerprints follow from this description. It contains everything that an answer
+depends on, with one exception: a user's function is described by its name only. It does not contain
+the paths of files.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The assessment of one patient as a record."""
+"""The record of the assessment of one patient."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ CAUTION = (
     "not probabilities of passage: peristalsis, muscle tone, time and swelling are not in the "
     "model."
 )
-LEVEL = 0.90  # of the intervals
+LEVEL = 0.90  # probability level of the intervals
 LENGTHS = tuple(name for name in INPUTS if "diameter" in name or "thickness" in name)
 
 
@@ -65,7 +65,7 @@ class SizeFractionRecord(FractionRecord):
 
 
 class CohortRecord(PartRecord):
-    """One rate of a published cohort, beside the model."""
+    """A passage rate of a published cohort, compared with the model."""
 
     cohort: str = Field(description="name of the cohort")
     source: str = Field(description="citation as far as it is known")
@@ -116,7 +116,7 @@ class AssessInputsRecord(PartRecord):
 
 
 class SurfaceAccuracyRecord(PartRecord):
-    """Accuracy of the samples."""
+    """The accuracy of the samples and of the response surface."""
 
     possible: float = Field(description="fraction of the draws that describe a possible wall")
     solves: int = Field(description="number of solved cases behind the response surface")
@@ -135,7 +135,7 @@ class SurfaceAccuracyRecord(PartRecord):
 
 
 class AssessRecord(Record):
-    """The assessment of one patient: intervals of pressures, beside published cohorts."""
+    """The assessment of one patient: intervals of pressures, and published cohorts."""
 
     outcome: str = Field(
         description="`MOVES`, or `NO_SOLUTION` if the model answers too few possible cases"
@@ -200,7 +200,15 @@ class AssessRecord(Record):
 
 
 def assess_record(found: Assessment, file: str) -> AssessRecord:
-    """Return the record of an assessment; `file` is the name of the patient's file."""
+    """Make the record of an assessment.
+
+    Parameters
+    ----------
+    found : Assessment
+        The assessment.
+    file : str
+        Name of the patient file.
+    """
     asked = decisions(found)
     return AssessRecord(
         outcome=found.outcome.name,

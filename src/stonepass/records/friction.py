@@ -128,7 +128,15 @@ class FrictionRecord(Record):
 
 
 def friction_record(found: SurfaceFriction, image: str) -> FrictionRecord:
-    """Make the record of a friction coefficient; `image` is the name of the file."""
+    """Make the record of a friction coefficient.
+
+    Parameters
+    ----------
+    found : SurfaceFriction
+        The friction coefficient and its intermediate results.
+    image : str
+        Name of the file of the picture.
+    """
     picture, roughness, spread = found.picture, found.roughness, found.spread
     assert picture.pixel is not None
     across, down = (each * MICRO for each in picture.pixel)

@@ -133,7 +133,15 @@ class InVitroRecord(AgreementRecord, Record):
 
 
 def invitro_record(found: InVitro, file: str) -> InVitroRecord:
-    """Make the record of a series; `file` is the name of its data file."""
+    """Make the record of a series.
+
+    Parameters
+    ----------
+    found : InVitro
+        The comparison of the series with the model.
+    file : str
+        Name of the data file.
+    """
     joint, setting = found.joint, found.setting
     return InVitroRecord(
         **dict(_agreement(found.comparison)),

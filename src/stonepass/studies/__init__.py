@@ -1,1 +1,1 @@
-"""Many cases: curves and, later, sweeps, populations and sensitivities."""
+"""Studies of many cases: jobs, executors, the solution cache, response surfaces and samples."""

@@ -127,6 +127,10 @@ def critical_curve(
     BadInput
         There is no size ratio, a size ratio is out of bounds, or `case` is not a Case.
 
+    References
+    ----------
+    docs/theory.md, "Closure and critical state".
+
     Examples
     --------
     >>> import stonepass as sp

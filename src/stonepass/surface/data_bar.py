@@ -39,8 +39,8 @@ def drawn_rows(values: Num[np.ndarray, "rows columns"]) -> Bool[np.ndarray, " ro
 def find_bar(values: Num[np.ndarray, "rows columns"]) -> tuple[int, int]:
     """Return the heights of the data bars at the top and at the bottom of a grey picture.
 
-    A bar needs a sharp edge: drawn rows, which few grey levels dominate, next to rows of the
-    surface. Each bar is at most 40 % of the picture high. A height of 0 means that there is no bar.
+    At the edge of a bar, rows that few grey levels dominate must border on rows of the surface. A
+    bar is at most 40 % of the picture high. A height of 0 means that there is no bar.
     """
     low, high = int(values.min()), int(values.max())
     most = int(HIGHEST * len(values))

@@ -52,8 +52,9 @@ SAMPLES = 4  # least number of samples per term of a baseline
 FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # factors on both orders, for the spread
 MARGINS = (0.0, 0.25, MARGIN, 1.0)  # margins in shortest wavelengths, for the spread
 LARGEST = 2.0  # largest friction coefficient that a case accepts
-DRIFT = 0.01  # change of the plane over the area, over the height range, below which it is ignored
-TELL_TILT = 0.02  # slope of the plane over μ_f above which a warning is given
+# The plane is ignored if its height changes by less than this fraction of the height range.
+DRIFT = 0.01
+TELL_TILT = 0.02  # slope of the plane, divided by μ_f, above which a warning is given
 
 
 def friction_of_slopes(k0: float, k1: float) -> float:

@@ -1,4 +1,4 @@
-"""The friction coefficient of a surface as a value, with the data and choices behind it."""
+"""The result of a friction measurement: the coefficient, its spread and the intermediate data."""
 
 from __future__ import annotations
 

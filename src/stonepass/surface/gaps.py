@@ -15,7 +15,7 @@ from stonepass.surface.surface_image import Area
 
 __all__ = ["BRIDGED", "bridge", "bridgeable", "gap_length", "known_area"]
 
-# Longest gap that is bridged, over the shortest wavelength of the baseline of the deviation.
+# Longest gap that is bridged, divided by the shortest wavelength of the second baseline.
 BRIDGED = 0.25
 MISSING = 0.25  # largest fraction of a profile without heights that is bridged
 SPARSE = 0.25  # an edge of a map belongs to the border if a larger fraction of it is missing
@@ -42,7 +42,7 @@ def bridgeable(known: Bool[np.ndarray, " n"], longest: float) -> bool:
 
     References
     ----------
-    docs/friction.md, "Which files it reads".
+    docs/friction.md, "What it reads".
     """
     return bool(
         known[0]
@@ -63,13 +63,17 @@ def bridge(
         Heights in m; the values in gaps are ignored.
     known : array (n) of bool
         Whether each sample has a height.
+
+    References
+    ----------
+    docs/friction.md, "What it reads".
     """
     places = np.arange(len(values))
     return np.interp(places, places[known], values[known])
 
 
 def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | None:
-    """Return the part of an area inside the border in which many heights are missing.
+    """Return the part of an area that remains without a border in which many heights are missing.
 
     The row or column at the edge with the largest fraction of missing heights is removed, until at
     most a quarter of each edge is missing.
@@ -85,6 +89,10 @@ def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | No
     -------
     Area or None
         None if fewer than 2 × 2 pixels are left.
+
+    References
+    ----------
+    docs/friction.md, "What it reads".
     """
     known = np.isfinite(values)
     left, top, right, bottom = area.left, area.top, area.right, area.bottom

@@ -56,6 +56,10 @@ class Plane:
             Width and height of a pixel in m.
         scale : float
             Height in m per unit of the values: m per grey level, or 1 for heights.
+
+        References
+        ----------
+        docs/friction.md, "What is done".
         """
         return math.atan(scale * math.hypot(self.across / pixel[0], self.down / pixel[1]))
 

@@ -19,7 +19,8 @@ __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_
 
 COUNT = (1, 100)  # smallest and largest number of paths
 UNEVEN = 0.01  # relative difference of the lengths of paths above which a warning is given
-SNAP = 1e-9  # points nearer to the centre of a pixel, in pixels, take the value of this pixel alone
+# A point within this distance, in pixels, of the centre of a pixel takes the value of this pixel.
+SNAP = 1e-9
 MICRO = 1e6  # µm per m
 
 
@@ -46,7 +47,13 @@ class StraightPath:
         return math.hypot((self.x1 - self.x0) * pixel[0], (self.y1 - self.y0) * pixel[1])
 
     def part(self, begin: float, end: float) -> StraightPath:
-        """Return the part of the path between two fractions of its length, 0 to 1."""
+        """Return a part of the path.
+
+        Parameters
+        ----------
+        begin, end : float
+            Start and end of the part as fractions of the length of the path, 0 to 1.
+        """
         x, y = self.x1 - self.x0, self.y1 - self.y0
         return StraightPath(
             self.x0 + begin * x, self.y0 + begin * y, self.x0 + end * x, self.y0 + end * y

@@ -82,7 +82,7 @@ def _page(file: Any) -> tuple[int, list[str]]:
     pages = [file.pages[index] for index in range(min(count, PAGES))]
     whole = [index for index, page in enumerate(pages) if not _is_reduced(page)]
     sizes = {index: pages[index].imagewidth * pages[index].imagelength for index in whole or [0]}
-    taken = max(sizes, key=lambda index: sizes[index])  # the first among equals
+    taken = max(sizes, key=lambda index: sizes[index])  # the first one of equal size
     if taken == 0:
         return 0, ["the first of several pages is read"]
     return taken, [f"page {taken + 1} of {count} is read, the largest that is no reduced image"]

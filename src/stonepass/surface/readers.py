@@ -52,7 +52,7 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
 
     References
     ----------
-    docs/friction.md, "Which files it reads".
+    docs/friction.md, "What it reads".
     """
     path = Path(path)
     check_file(path)
@@ -62,7 +62,7 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
             return reader(path, area)
     except StonepassError:
         raise
-    except Exception as problem:  # a decoder may raise anything at all over a damaged file
+    except Exception as problem:  # a decoder may raise any exception for a damaged file
         shortage = _memory_error(problem)
         if shortage is not None:
             allowed = "readable within the limit of memory"

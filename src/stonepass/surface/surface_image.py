@@ -14,7 +14,8 @@ __all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]
 
 PIXEL = (1e-11, 1e-3)  # smallest and largest side of a pixel in m
 OBLONG = 10.0  # largest ratio of the sides of a pixel
-FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}  # by the type of the values
+# Largest grey level by the type of the values; 0 for heights.
+FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,7 @@ class SurfaceImage:
 
     References
     ----------
-    docs/friction.md, "Which files it reads".
+    docs/friction.md, "What it reads".
     """
 
     values: Num[np.ndarray, "rows columns"]

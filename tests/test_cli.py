@@ -460,7 +460,7 @@ def test_options_of_an_earlier_version_are_taken_by_their_present_names(cli):
     now = cli("friction", picture, "--pixel", "0.5um", "--height-range", "24.8um", "--json")
     code, out, err = cli("friction", picture, "--pixel", "0.5um", "--relief=24.8um", "--json")
     assert (code, out) == now[:2]
-    assert err.startswith("warning: --relief is called --height-range now\n")
+    assert err.startswith("warning: --relief is now called --height-range\n")
 
 
 def test_lengths_are_shown_in_millimetres(cli):
@@ -571,6 +571,14 @@ def test_a_shell_completes_commands_options_choices_and_materials():
     assert completed("pressure --seating-f") == ["--seating-friction"]
     assert completed("pressure --seating gr") == ["growing"]
     assert completed("size --material lat") == ["latex"]
+
+
+def test_a_missing_file_is_answered_with_a_similar_one(cli, tmp_path):
+    (tmp_path / "patient.toml").write_text("")
+    code, _, err = cli("assess", tmp_path / "patent.toml")
+    assert (code, "a file that exists; did you mean 'patient.toml'" in err) == (2, True)
+    assert "check the path" in cli("pressure", tmp_path / "case.toml")[2]
+    assert "check the path" in cli("pressure", tmp_path / "none" / "case.toml")[2]
 
 
 def test_progress_that_is_no_terminal_is_a_few_lines(capsys, monkeypatch):
@@ -744,7 +752,7 @@ def test_bad_requests_are_one_sentence_and_exit_2(cli, arguments, words, tmp_pat
 
 
 def test_a_fault_of_ours_is_a_sentence_and_exit_3(cli, monkeypatch):
-    def broken(*_):
+    def broken(*_, **__):
         raise RuntimeError("boom")
 
     monkeypatch.setattr("stonepass.model.critical.solve", broken)
@@ -772,8 +780,8 @@ def test_headline(cli, tmp_path, monkeypatch):
     code, out, err = cli("headline", "--figure", figure, "--workers", 1)
     assert code == 0
     assert f"wrote {figure}" in err
-    assert "solving 14 cases on 1 core: about" in err.splitlines()[0]
-    for part in ("1.22", "1.11", "published", "η = 1.30", "8 kPa", "added", "Research use only"):
+    assert "solving 12 cases on 1 core: about" in err.splitlines()[0]
+    for part in ("1.22", "1.11", "published", "η = 1.30", "8 kPa", "change", "Research use only"):
         assert part in out
     assert figure.read_text().startswith("<?xml")
 

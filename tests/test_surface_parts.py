@@ -228,7 +228,7 @@ def test_a_row_with_a_long_gap_is_replaced_by_the_nearest_without():
     heights = heights_of(z)
     assert [path.y0 for path in evenly_spaced(heights, 6)] == [12.0, 30.0, 50.0, 70.0, 90.0, 110.0]
     found = surface_friction(heights)
-    assert "1 of 6 paths are moved" in " ".join(map(str, found.warnings))
+    assert "1 of 6 profiles were moved" in " ".join(map(str, found.warnings))
     assert found.friction == pytest.approx(surface_friction(heights_of(wave())).friction, rel=1e-2)
 
 
@@ -334,7 +334,7 @@ def test_the_margin_is_an_option_and_its_effect_is_told(tmp_path, capsys):
     assert record["levelled"] is False
     assert run([*command, "--margin", "0.25", "--level"]) == 0
     shown = capsys.readouterr().out
-    assert "by margin at the ends" in shown
+    assert "range over end margins" in shown
     assert "the least-squares plane is" in shown
     assert run([*command, "--margin", "3"]) == 2
     assert "margin is 3.0, but must be from 0 to 2" in capsys.readouterr().err

@@ -166,7 +166,7 @@ def require(condition: bool, argument: str, value: Any, allowed: str, remedy: st
         raise BadInput(argument, value, allowed, remedy)
 
 
-def did_you_mean(value: str, known: Iterable[str]) -> str:
+def did_you_mean(value: str, known: Iterable[str], near: float = NEAR) -> str:
     """Return a suggestion for an unknown name, such as ``; did you mean 'x'``.
 
     Parameters
@@ -175,6 +175,8 @@ def did_you_mean(value: str, known: Iterable[str]) -> str:
         The unknown name; upper and lower case letters count as equal.
     known : iterable of str
         The known names.
+    near : float
+        Smallest similarity of a suggested name, from 0 to 1.
 
     Returns
     -------
@@ -182,8 +184,8 @@ def did_you_mean(value: str, known: Iterable[str]) -> str:
         The suggestion, or an empty text if no known name is similar.
     """
     names = {each.casefold(): each for each in known}
-    near = get_close_matches(value.casefold(), names, n=1, cutoff=NEAR)
-    return f"; did you mean '{names[near[0]]}'" if near else ""
+    found = get_close_matches(value.casefold(), names, n=1, cutoff=near)
+    return f"; did you mean '{names[found[0]]}'" if found else ""
 
 
 def refuse_unknown(argument: str, value: str, known: list[str], otherwise: str = "") -> NoReturn:

@@ -74,10 +74,13 @@ def _load(name: str) -> Any:
     """Import a command; its module has a `typer.Typer`, or a function and examples."""
     module = import_module(f"stonepass.cli.{COMMANDS[name][0]}")
     if hasattr(module, "app"):
-        return get_command(module.app)
-    alone = typer.Typer(**SETTINGS)
-    alone.command(name, cls=PanelCommand, epilog=module.EPILOG)(module.command)
-    return get_command(alone)
+        command = get_command(module.app)
+    else:
+        alone = typer.Typer(**SETTINGS)
+        alone.command(name, cls=PanelCommand, epilog=module.EPILOG)(module.command)
+        command = get_command(alone)
+    command.name, command.short_help = name, COMMANDS[name][1]
+    return command
 
 
 SETTINGS: dict[str, Any] = {

@@ -1,6 +1,6 @@
-"""Output in an encoding without Greek letters and symbols: what it lacks is spelled out.
+"""Output in an encoding that lacks Greek letters or symbols, which are then spelled out.
 
-Output that is redirected on a system with a code page such as cp1252 is written in that code page.
+On systems with a code page such as cp1252, redirected output is written in that code page.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ SPELLED = {
 
 
 def encodes_everything(stream: TextIO) -> bool:
-    """Whether a stream takes every character."""
+    """Return whether the encoding of a stream has every character."""
     return "utf" in (getattr(stream, "encoding", None) or "utf-8").lower()
 
 
 def spell_what_is_lacking() -> None:
-    """Let stdout and stderr spell characters out that their encoding lacks."""
+    """Make stdout and stderr spell out the characters that their encoding lacks."""
     codecs.register_error(HANDLER, _spelled)
     for stream in (sys.stdout, sys.stderr):
         if not encodes_everything(stream) and hasattr(stream, "reconfigure"):

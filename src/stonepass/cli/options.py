@@ -85,7 +85,7 @@ _FRICTION_FROM = Annotated[
         rich_help_panel=STONE,
     ),
 ]
-# Subjects of refusals that concern no single input, in the words of the command line.
+# Subjects of messages that concern more than one input, as the command line names them.
 _MORE_WORDS = {
     "size of the stone": "stone size",
     "size of the ureter": "ureter size",
@@ -277,7 +277,7 @@ def _option(each: DeclaredInput, models: Collection[str], remark: str) -> Any:
 
 
 def _meaning(each: DeclaredInput, choices: Collection[str]) -> str:
-    """Return what an input means; of the models, those that the command can use."""
+    """Return the meaning of an input; that of ``--model`` lists the models of the command."""
     if each.key != MODEL:
         return each.declaration.meaning
     return "; ".join(f"{name}: {MODELS[name].MEANING}" for name in choices) + "."

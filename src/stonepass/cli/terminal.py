@@ -34,13 +34,13 @@ __all__ = [
 
 FIGURES = (".svg", ".png", ".pdf")
 PLAIN_INTERVAL = 10.0  # seconds at least between two lines where stderr is no terminal
-PLAIN_LINES = 4  # such a line at every fourth part of the work
+PLAIN_LINES = 4  # parts of the work; each of them has at most one such line
 LONG = 1.0  # seconds of work whose duration is shown
 
 
 @lru_cache
 def _console(*, stderr: bool = False) -> Console:
-    """Return the console of stdout or stderr; a command that prints JSON alone needs none."""
+    """Return the console of stdout or stderr; it is loaded only if it is needed."""
     from rich.console import Console
 
     return Console(stderr=stderr, highlight=False, soft_wrap=False)
@@ -91,7 +91,7 @@ def wrote(*paths: Path | None) -> None:
 
 
 def announce(what: str, seconds: float, *, remembers: bool = True) -> None:
-    """Say before a long command what it does and about how long that takes.
+    """Print before a long command what it does and about how long that takes.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def duration(seconds: float) -> str:
 
 
 def remembered(seconds: float, elapsed: float) -> None:
-    """Say so where an answer was read from the cache folder.
+    """Print a note if an answer was read from the cache folder.
 
     Parameters
     ----------

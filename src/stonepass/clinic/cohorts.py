@@ -62,7 +62,7 @@ class Cohort:
         First authors and year.
     source : str
         Citation as far as it is known; it begins with "unverified" if no citable publication is
-        known.
+        known, or if the numbers could not be compared with it.
     read : str
         ``itself`` if the source was read, at least its abstract; ``quoted`` if its numbers were
         read in another source.
@@ -169,7 +169,7 @@ COHORTS = (
     ),
     Cohort(
         "Coll 2002",
-        "Coll, Varanelli, Smith 2002, AJR 178:101–103, doi:10.2214/ajr.178.1.1780101",
+        "Coll, Varanelli, Smith 2002, AJR 178(1):101–103, doi:10.2214/ajr.178.1.1780101",
         ITSELF,
         "172 stones, largest diameter in the axial plane of CT",
         (
@@ -207,14 +207,15 @@ COHORTS = (
     ),
     Cohort(
         "Park 2021",
-        "unverified: Park et al. 2021, journal not known; abstract at yonsei.pure.elsevier.com",
+        "Park JS et al. 2021, PLoS One 16(12):e0260517, doi:10.1371/journal.pone.0260517",
         ITSELF,
         "833 patients in all",
         (Rate("< 5 mm", 0.0, 5.0, 0.756), Rate("5–10 mm", 5.0, 10.0, 0.682)),
     ),
     Cohort(
         "AUA/EAU analysis",
-        "unverified: meta-analysis of AUA and EAU, quoted in doi:10.29337/j.isjp.2017.09.002",
+        "unverified in the source: EAU/AUA guideline (Preminger et al. 2007, Eur Urol "
+        "52:1610–1631), as quoted in doi:10.29337/j.isjp.2017.09.002",
         QUOTED,
         "pooled studies; the intervals are those of the analysis",
         (
@@ -224,7 +225,7 @@ COHORTS = (
     ),
     Cohort(
         "Tchey 2011",
-        "Tchey et al. 2011, Korean J Urol, doi:10.4111/kju.2011.52.12.847",
+        "Tchey et al. 2011, Korean J Urol 52(12):847–851, doi:10.4111/kju.2011.52.12.847",
         ITSELF,
         "656 patients; mean time of the stones that passed",
         (
@@ -237,21 +238,22 @@ COHORTS = (
     ),
     Cohort(
         "Ongün 2019",
-        "Ongün et al. 2019, doi:10.4274/jus.galenos.2018.2335",
+        "Ongün, Dursun 2019, J Urol Surg 6(2):139–143, doi:10.4274/jus.galenos.2018.2335",
         ITSELF,
         "distal stones up to 10 mm",
         by_place=_places(("distal", 0.776, 245)),
     ),
     Cohort(
         "Ahmed 2014",
-        "Ahmed et al. 2014, PubMed Central PMC4561928",
+        "Ahmed et al. 2014, Arab J Urol 13(2):84–90, doi:10.1016/j.aju.2014.11.004",
         ITSELF,
         "stones up to 10 mm; 24.0 ± 8.1 days to pass",
         (Rate("≤ 10 mm", 0.0, 10.0, 0.779, 24.0, 163),),
     ),
     Cohort(
         "Kori Hospital 2019",
-        "World J Urol 2019, doi:10.1007/s00345-018-2461-x",
+        "Ureteral wall thickness as a significant factor in predicting spontaneous passage 2019, "
+        "World J Urol 37(5):913–919, doi:10.1007/s00345-018-2461-x",
         ITSELF,
         "stones up to 10 mm, passed within 4 weeks; 76 % where the wall at the stone was thinner "
         "than 2.71 mm, 15 % where it was thicker",

@@ -9,10 +9,10 @@ from stonepass.clinic.fractions import Fraction, Range
 
 __all__ = ["CONTRADICTIONS", "Decision", "decisions", "next_measurement"]
 
-# A question is decided if its answer is the same in this fraction of the samples, as at the ends of
-# a 90 % interval.
+# A question is decided if its answer is the same in at least this fraction of the samples. Each end
+# of a 90 % interval leaves the same fraction on its side.
 DECIDED = 0.95
-# Codes of cautions that the measurements contradict the model or one another.
+# Codes of cautions about contradictions between the measurements, or with the model.
 CONTRADICTIONS = ("inputs_contradict", "samples_loose")
 # Inputs that cannot be measured in a patient.
 UNMEASURABLE = ("friction", "stiffness")
@@ -62,7 +62,7 @@ def next_measurement(found: Assessment) -> str:
 
 
 def _limit(found: Assessment) -> Decision | None:
-    """Decide whether the critical pressure is below the pressure limit."""
+    """Return whether the samples decide on which side of the limit the critical pressure is."""
     fraction = found.below_limit if found.loose == 0.0 else found.below_limit_held
     if fraction is None:
         return None
@@ -90,7 +90,7 @@ def _interval(values: Range | None) -> str:
 
 
 def _held(found: Assessment) -> Decision | None:
-    """Decide whether the stone is larger than the lumen."""
+    """Return whether the samples decide that the stone is larger than the lumen."""
     if found.critical is None:
         return None
     loose = Fraction(found.loose, found.loose).describe()
@@ -108,7 +108,7 @@ def _held(found: Assessment) -> Decision | None:
 
 
 def _present(found: Assessment) -> Decision | None:
-    """Decide whether the present urine pressure is below the critical pressure."""
+    """Return whether the samples decide that the present pressure is below the critical one."""
     above = found.below_present
     if above is None:
         return None

@@ -38,7 +38,8 @@ LIMITS = (
     PressureLimit(
         Pressure(4e3),
         "peak of an acute obstruction in rabbits, 42 cmH₂O (4.1 kPa) after 3 h",
-        "unverified: authors and journal not known; abstract read at scilit.com, record 64e68051",
+        "unverified: Time course of ureteral changes with obstruction, authors and journal not "
+        "known; abstract read at scilit.com, record 64e68051",
     ),
     PressureLimit(
         Pressure(6e3),
@@ -49,7 +50,8 @@ LIMITS = (
         Pressure(8e3),
         "about the mean in the renal pelvis while stones are treated by ureteroscopy: 54 ± 18 mmHg "
         "(7.2 ± 2.4 kPa), 12 patients",
-        "2015, doi:10.1186/s40064-015-1114-4",
+        "Intraluminal pressure profiles during flexible ureterorenoscopy 2015, "
+        "doi:10.1186/s40064-015-1114-4",
     ),
     PressureLimit(
         Pressure(12e3),

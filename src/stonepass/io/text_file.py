@@ -7,12 +7,14 @@ import os
 import shutil
 import threading
 import unicodedata
+from itertools import islice
 from pathlib import Path
 
-from stonepass.errors import BadInput, require
+from stonepass.errors import BadInput, did_you_mean, require
 
 __all__ = ["WRITING", "check_writable", "existing", "read_text", "replace_file", "write_file"]
 
+MOST_NAMES = 1000  # files of a folder that are compared with a missing one
 WRITING = threading.RLock()  # held while a file is being written; see `studies.executor`
 
 
@@ -29,15 +31,24 @@ def existing(path: Path, what: str = "file") -> Path:
     Raises
     ------
     BadInput
-        The file does not exist.
+        The file does not exist; a file of a similar name beside it is named.
     """
     try:
         there = path.is_file()
     except (OSError, ValueError):  # the name is too long for the system or contains a NUL
         there = False
     if not there:
-        raise BadInput(what, path, "a file that exists", "check the path")
+        raise BadInput(what, path, "a file that exists", _similar(path) or "check the path")
     return path
+
+
+def _similar(path: Path) -> str:
+    """Return ``did you mean 'x'`` with a file of a similar name; empty without one."""
+    try:
+        names = [each.name for each in islice(path.parent.iterdir(), MOST_NAMES) if each.is_file()]
+    except (OSError, ValueError):
+        return ""
+    return did_you_mean(path.name, names, 0.75).removeprefix("; ")
 
 
 def read_text(

@@ -1,4 +1,4 @@
-"""The paper's headline: critical sizes of the thin and the thick human ureter (section 3.2)."""
+"""The two critical sizes that the paper reports, of a thin and a thick ureter (section 3.2)."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ class Wall:
     Attributes
     ----------
     wall_ratio, published : float
-        η, and the published ξ_cr.
+        Wall ratio η, and the critical size ratio ξ_cr of the paper.
     size : SizeAnswer
-        Our ξ_cr at 12 kPa.
+        The critical size at 12 kPa, computed here.
     curve : list of Answer
         P_ucr over ξ.
     confined : list of Answer
-        P_ucr at the published ξ_cr without and with each of `CONFINING`.
+        P_ucr at the published ξ_cr, without confining pressure and with each of `CONFINING`.
     """
 
     wall_ratio: float
@@ -42,13 +42,13 @@ class Wall:
 
     @property
     def deviation(self) -> float | None:
-        """Our ξ_cr minus the published one."""
+        """The computed ξ_cr minus the published one; None without a computed one."""
         return None if self.size.size_ratio is None else self.size.size_ratio - self.published
 
 
 @dataclass(frozen=True)
 class Headline:
-    """The study of both walls: P_ucr(ξ), ξ_cr at 12 kPa, and what confining pressure adds."""
+    """The study of both walls: P_ucr(ξ), ξ_cr at 12 kPa, and the effect of confining pressure."""
 
     def jobs(self) -> list[PressureJob | SizeJob]:
         """Return the two critical sizes and every case of the curves."""
@@ -75,6 +75,6 @@ def _curve(wall_ratio: float) -> list[Case]:
 
 
 def _confined(wall_ratio: float) -> list[Case]:
-    """The published critical size without and with each confining pressure."""
+    """Return the cases of the published critical size under each confining pressure."""
     loads = [Load(), *(Load(pressure) for pressure in CONFINING)]
     return [ureter_case(wall_ratio, PUBLISHED[wall_ratio], load) for load in loads]

@@ -1,4 +1,4 @@
-"""The headline as a table and a figure."""
+"""The headline as tables and a figure."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["confining_table", "headline_figure", "headline_table"]
 
 
 def headline_table(walls: Sequence[Wall]) -> Table:
-    """Critical pressures of both walls and, below, the critical sizes beside the published."""
+    """Return a table of the critical pressures of both walls and of their critical sizes."""
     table = Table(
         box=box.SIMPLE_HEAD,
         title=f"Critical pressure (kPa), human ureter, friction {FRICTION:g}",
@@ -38,7 +38,7 @@ def headline_table(walls: Sequence[Wall]) -> Table:
 
 
 def confining_table(walls: Sequence[Wall]) -> Table:
-    """What confining pressure adds to the critical pressure at the published critical sizes."""
+    """Return a table of the critical pressure under confining pressure at the published sizes."""
     table = Table(
         box=box.SIMPLE_HEAD,
         title="Critical pressure (kPa) under confining pressure, dead load",
@@ -47,7 +47,7 @@ def confining_table(walls: Sequence[Wall]) -> Table:
     table.add_column("P_out", justify="right")
     for wall in walls:
         table.add_column(f"η = {wall.wall_ratio:.2f}, ξ = {wall.published:.2f}", justify="right")
-        table.add_column("added", justify="right")
+        table.add_column("change", justify="right")
     for row in zip(*(wall.confined for wall in walls), strict=True):
         cells = [f"{row[0].case.load.confining_pressure / 1e3:g} kPa"]
         for answer, wall in zip(row, walls, strict=True):

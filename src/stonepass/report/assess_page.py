@@ -254,7 +254,7 @@ def _sources(found: Assessment) -> list[str]:
         '<section class="sources">',
         "<h2>Sources</h2>",
         "<p>Cohorts. Mostly abstracts were read, not whole papers. “Unverified” means that no "
-        "citable publication is known.</p>",
+        "citable publication is known, or that the numbers could not be compared with it.</p>",
         _list(cohorts),
         "<p>Published urine pressures, which are the dotted lines of the figure.</p>",
         _list(limits),
@@ -269,9 +269,9 @@ def _how(found: Assessment) -> str:
     return (
         f"How it was computed: {len(found.samples.critical)} samples (seed {patient.seed}) of a "
         f"response surface through {found.solves} solved cases. The error of the surface is at "
-        f"most {found.surface_error:.1%} in 95 % of the cases, as measured by leaving out one case "
-        f"at a time. {found.possible:.0%} of the random draws describe a possible wall. Standard "
-        f"error by the number of samples: {noise_in_words(found)}."
+        f"most {100.0 * found.surface_error:.1f} % in 95 % of the cases, as measured by leaving "
+        f"out one case at a time. {100.0 * found.possible:.0f} % of the random draws describe a "
+        f"possible wall. Standard error by the number of samples: {noise_in_words(found)}."
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from rich import box
@@ -30,6 +31,7 @@ __all__ = [
     "sentence",
 ]
 
+_PERCENT = re.compile(r"(\d)%")
 UNITS = {"kPa": "kPa", "mmHg": "mmHg", "cmH2O": "cmH₂O"}
 FAR = {MORE: "↑", FEWER: "↓"}
 ARROWS = "↑ more, ↓ fewer stones passed than the model's fraction"
@@ -68,8 +70,8 @@ def contradictions(found: Assessment) -> list[str]:
 
 
 def sentence(text: str) -> str:
-    """Return the text of a caution as a sentence with a capital letter and a period."""
-    return f"{text[:1].upper()}{text[1:]}."
+    """Return the text of a caution as a sentence, with its percentages spaced as elsewhere."""
+    return _PERCENT.sub(r"\1 %", f"{text[:1].upper()}{text[1:]}.")
 
 
 def describe_inputs(found: Assessment) -> dict[str, str]:
@@ -118,8 +120,7 @@ def describe_passed(row: Row) -> str:
     if row.passed is not None:
         parts.append(f"{round(100 * row.passed)} %")
     if row.interval is not None:
-        low, high = (round(100 * end) for end in row.interval)
-        parts[-1] += f" ({low} to {high} %)"
+        parts.append("95 %: {:.0f} to {:.0f} %".format(*(100.0 * end for end in row.interval)))
     if row.count is not None:
         parts.append(f"n = {row.count}")
     if row.days is not None:

@@ -8,7 +8,7 @@ h1 { margin: 0 0 .2rem; font-size: 1.5rem; } h2 { margin: 1.6rem 0 .3rem; font-s
 h3 { margin: 0; font-size: 1.05rem; } p { margin: .4rem 0; }
 img { width: 100%; max-width: 32rem; height: auto; display: block; margin: .6rem auto; }
 a { color: #0b5cad; } .about { color: #4b5563; font-size: .88rem; }
-td .about { display: block; font-size: .8rem; }
+td .about { display: block; font-size: .8rem; white-space: nowrap; }
 p.band { background: #fef3c7; border-left: 4px solid #d97706; padding: .4rem .7rem;
   font-weight: 600; }
 .alert { background: #fdecea; border-left: 4px solid #b42318; padding: .3rem .9rem .5rem;
@@ -29,11 +29,11 @@ tr.group td { border-bottom: 0; padding-top: .6rem; color: #4b5563; }
 tr.group b { color: #1f2937; margin-right: .3rem; }
 .off { color: #9a3412; font-weight: 600; white-space: nowrap; }
 ul { padding-left: 1.1rem; margin: .3rem 0; } li { margin: .25rem 0; }
-.inputs { columns: 2; column-gap: 2rem; padding: 0; list-style: none; font-size: .92rem; }
+.inputs { columns: 2 15rem; column-gap: 2rem; padding: 0; list-style: none; font-size: .92rem; }
 .inputs li { break-inside: avoid; margin: .15rem 0; } .inputs b { font-weight: 600; }
 .sources { font-size: .85rem; } footer { margin-top: 1.5rem; border-top: 1px solid #d1d5db; }
 @media (max-width: 30rem) {
-  body { padding: 0 .8rem; font-size: 15px; } .inputs { columns: 1; }
+  body { padding: 0 .8rem; font-size: 15px; }
   th, td { padding: .35rem .4rem; } .cards { grid-template-columns: 1fr; }
 }
 @page { size: A4; margin: 13mm 15mm; }

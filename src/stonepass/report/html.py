@@ -1,4 +1,4 @@
-"""Pages of one HTML file: what all of them look like."""
+"""Pages that consist of a single HTML file, with their common style sheet."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ th { border-bottom: 2px solid #9ca3af; }
 
 
 def write_html(path: Path, title: str, style: str, body: str) -> None:
-    """Write a page: `body` is HTML, `style` is CSS beside that of all pages."""
+    """Write a page; `body` is HTML, and `style` is CSS in addition to that of all pages."""
     text = (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
@@ -41,7 +41,7 @@ def write_html(path: Path, title: str, style: str, body: str) -> None:
 
 @in_style
 def inline_svg(figure: Figure, text: str) -> str:
-    """An image that is in the page itself; `text` says what it shows."""
+    """Return an HTML image with the figure in it; `text` describes the figure for readers."""
     drawn = io.BytesIO()
     figure.savefig(drawn, format="svg", metadata={"Date": None})
     data = base64.b64encode(drawn.getvalue()).decode()

@@ -188,7 +188,9 @@ def _state_rows(pressures: Table, others: Table, answer: Answer) -> None:
         if contact is not None or each.unit == "kPa":
             _quantity_row(pressures, others, each)
     if isinstance(contact, SolvedState):
-        others.add_row("stability margin", f"{contact.stability.margin:.2f}", "")
+        margin = contact.stability.margin
+        remark = "see the warning" if margin <= 0.0 else ""
+        others.add_row("stability margin", f"{margin:.2f}", remark)
 
 
 def _quantity_row(pressures: Table, others: Table, quantity: Quantity) -> None:

@@ -34,6 +34,7 @@ START = 30.0  # largest time in s for loading the libraries of the task
 PATIENCE = 10.0
 # Exit code of a process that has reached its limit of processor time; Windows has no such signal.
 OUT_OF_TIME = (-signal.SIGXCPU,) if hasattr(signal, "SIGXCPU") else ()
+LATE = "(reading it took longer)"
 SIMPLER = "cut out the part that matters, or save it without compression"
 BUSY = "try again when the machine is less busy, or cut out the part that matters"
 LIMITS_PROCESSOR_TIME = importlib.util.find_spec("resource") is not None  # False on Windows
@@ -120,9 +121,9 @@ def parse_in_child(
         finally:
             process.kill()
     if late.is_set():
-        raise BadInput(what, name, f"readable in {limits.seconds * patience:g} s", BUSY)
+        raise BadInput(what, name, f"read within {limits.seconds * patience:g} s {LATE}", BUSY)
     if code in OUT_OF_TIME:
-        allowed = f"readable in {limits.seconds:g} s of processor time"
+        allowed = f"read within {limits.seconds:g} s of processor time {LATE}"
         raise BadInput(what, name, allowed, SIMPLER)
     allowed = f"readable within {limits.memory // 1_000_000} MB and {limits.seconds:g} s"
     if code != 0:

@@ -96,6 +96,7 @@ def test_readme_commands_are_real():
     )
     blocks = "".join(re.findall(r"^ *```sh$(.*?)^ *```$", text, flags=re.MULTILINE | re.DOTALL))
     commands = set(re.findall(r"^\s*stonepass (\w+)", blocks, flags=re.MULTILINE))
+    commands |= set(re.findall(r"`stonepass ([a-z]+)[^`]*`", text))
     assert {"pressure", "size", "curve", "headline", "material"} <= commands
     for command in commands:
         assert run([command, "--help"]) == 0

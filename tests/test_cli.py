@@ -499,6 +499,15 @@ def test_a_question_asked_again_is_remembered(cli, solved, tmp_path):
     assert len(solved) > count
 
 
+@pytest.mark.afresh
+def test_a_solved_wall_is_written_again_without_a_solve(cli, solved, tmp_path):
+    question = ["export", *LATEX, *FAST, "--cache", tmp_path, "--out", tmp_path / "wall.vtu"]
+    assert cli(*question)[0] == 0
+    first, count = (tmp_path / "wall.vtu").read_bytes(), len(solved)
+    assert cli(*question)[0] == 0
+    assert ((tmp_path / "wall.vtu").read_bytes(), len(solved)) == (first, count)
+
+
 def test_every_file_that_is_written_is_named(cli, tmp_path):
     files = {"--profile": "p.csv", "--figure": "f.svg", "--save": "c.toml"}
     options = [word for name, file in files.items() for word in (name, tmp_path / file)]

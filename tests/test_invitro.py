@@ -134,7 +134,7 @@ def test_one_size_alone_cannot_tell_stiffness_from_friction():
     for friction in (0.2, 0.4, 0.8):  # P ∝ s μ/(0.5 + μ) is the same
         same = (0.3 / 0.8) * (0.5 + friction) / friction
         assert joint.misfit(np.array(friction), np.array(same)) < joint.level
-    assert any("when stiffness is fitted too" in str(sentence) for sentence in found.warnings)
+    assert any("if stiffness is fitted too" in str(sentence) for sentence in found.warnings)
 
 
 def test_weights_and_what_is_refused():
@@ -180,7 +180,10 @@ def test_joint_intervals_are_profiles():
 def test_no_friction_meets_a_series_far_above_the_wall():
     points = made_up(DRY, 1.0, stiffness=20.0)
     found = fit_friction(points, QUICK, solver=MadeUp())
-    assert any("no friction makes this wall meet" in str(sentence) for sentence in found.warnings)
+    assert any(
+        "no friction coefficient makes the model agree" in str(sentence)
+        for sentence in found.warnings
+    )
     assert found.friction.high is None
 
 

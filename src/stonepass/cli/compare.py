@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from stonepass.cli.help import OUTPUT, QUESTION, epilog
-from stonepass.cli.options import Json, Settings, takes_settings
+from stonepass.cli.options import Cache, Json, NoCache, Settings, cache_folder, takes_settings
 from stonepass.export.checks import checked_value
 from stonepass.export.input_options import FINE
 from stonepass.export.words import as_flag
@@ -62,6 +62,8 @@ def command(
             rich_help_panel=OUTPUT,
         ),
     ] = None,
+    cache: Cache = None,
+    no_cache: NoCache = False,
 ) -> int:
     """Compare the results of CalculiX for an exported input deck with those of stonepass.
 
@@ -71,13 +73,14 @@ def command(
     from stonepass.export.comparison import Comparison, compare
     from stonepass.export.results import read_contact
     from stonepass.export.seating import seating
+    from stonepass.studies.jobs import state_solver
 
     writable(figure, FIGURES)
     case = settings.case()
     mesh = None if fine is None else checked_value(FINE, fine, as_flag)
     contact = read_contact(seating(case, mesh), results)
     with working("solving the finite-element model"):
-        found = compare(case, contact)
+        found = compare(case, contact, state_solver(cache_folder(cache, no_cache)))
     if not isinstance(found, Comparison):
         show(f"{found.outcome.name}: {found.message}")
         return 1

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stonepass.cli.help import OUTPUT, epilog
-from stonepass.cli.options import Settings, takes_settings
+from stonepass.cli.options import Cache, NoCache, Settings, cache_folder, takes_settings
 from stonepass.errors import Misplaced
 from stonepass.export.api import write
 from stonepass.export.checks import find_writer
@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # loads NumPy and SciPy
 
 __all__ = ["EPILOG", "command", "make_command"]
 
+DEFAULTS = {"no_cache": False}  # of the options; None for all others
 HELP = """Write a case for CalculiX, Abaqus, FEBio or ParaView.
 
 Lengths in the file are in millimetres, with an inner radius of 1 mm if only ratios are given.
@@ -53,8 +54,15 @@ def make_command(writers: Sequence[Writer]) -> Callable[..., int]:
     Inputs that no format depends on have no options here.
     """
 
-    def command(settings: Settings, out: Path, format: str | None, **options: Any) -> int:
-        return _export(writers, settings, out, format, options)
+    def command(
+        settings: Settings,
+        out: Path,
+        format: str | None,
+        cache: Path | None,
+        no_cache: bool,
+        **options: Any,
+    ) -> int:
+        return _export(writers, settings, out, format, cache_folder(cache, no_cache), options)
 
     keyword = inspect.Parameter.KEYWORD_ONLY
     owners = _owners(writers)
@@ -78,6 +86,8 @@ def make_command(writers: Sequence[Writer]) -> Callable[..., int]:
             ),
         ],
         **{name: _flag(option, formats) for name, (option, formats) in owners.items()},
+        "cache": Cache,
+        "no_cache": NoCache,
     }
     command.__doc__ = HELP
     command.__annotations__ = {"settings": Settings, **own}
@@ -87,7 +97,7 @@ def make_command(writers: Sequence[Writer]) -> Callable[..., int]:
             name,
             keyword,
             annotation=annotation,
-            default=inspect.Parameter.empty if name in required else None,
+            default=inspect.Parameter.empty if name in required else DEFAULTS.get(name),
         )
         for name, annotation in command.__annotations__.items()
     ]
@@ -150,6 +160,7 @@ def _export(
     settings: Settings,
     out: Path,
     format: str | None,
+    folder: Path | None,
     options: dict[str, Any],
 ) -> int:
     """Write the file and name the next step; exit code 1 if the case has no result to write."""
@@ -165,9 +176,10 @@ def _export(
 
     def solved() -> Answer:
         from stonepass.model.critical import solve  # loads the finite elements
+        from stonepass.studies.jobs import state_solver
 
         with working("solving the finite-element model"):
-            return solve(case)
+            return solve(case, states=state_solver(folder, walls=True))
 
     made = write(case, out, format, solved=solved, writers=writers, words=as_flag, **options)
     warn(made.warnings)

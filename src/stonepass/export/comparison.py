@@ -14,6 +14,8 @@ from stonepass.model.models.seated_balance import (
     balance_pressure,
 )
 from stonepass.model.states.seated_state import Contact, SeatedState
+from stonepass.model.states.state_solver import StateSolver
+from stonepass.model.states.uncached import UNCACHED
 
 __all__ = ["Comparison", "compare"]
 
@@ -45,7 +47,7 @@ class Comparison:
     pressure: float | None
 
 
-def compare(case: Case, contact: Contact) -> Comparison | Answer:
+def compare(case: Case, contact: Contact, states: StateSolver = UNCACHED) -> Comparison | Answer:
     """Solve a case and compare it with the contact that another program computed.
 
     Parameters
@@ -54,6 +56,8 @@ def compare(case: Case, contact: Contact) -> Comparison | Answer:
         A case of the paper's model with the linear closure.
     contact : Contact
         Contact of the same case, e.g. from `results.read_contact`.
+    states : StateSolver, optional
+        Source of the finite-element states; by default they are solved.
 
     Returns
     -------
@@ -68,7 +72,7 @@ def compare(case: Case, contact: Contact) -> Comparison | Answer:
     model = case.model
     closure = model.closure if isinstance(model, SeatedBalance) else f"that of '{model.NAME}'"
     require(closure == "linear", "closure", closure, "'linear' for a comparison of contacts")
-    answer = solve(case)
+    answer = solve(case, states=states)
     seated, detail = answer.contact, answer.detail
     if not isinstance(seated, SeatedState) or not isinstance(detail, SeatedBalanceDetail):
         return answer

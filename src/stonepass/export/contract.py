@@ -1,7 +1,7 @@
 """The contract of an export format: its declaration, and the arguments and result of its function.
 
 A new format needs one file with a `Writer`, and one line in `export.registry`; see
-docs/developing.md, "An export format". This module loads no numerical library, because the help
+docs/developing.md, "Add an export format". This module loads no numerical library, because the help
 of the command line is made from these declarations.
 """
 

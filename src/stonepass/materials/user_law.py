@@ -26,7 +26,7 @@ OLD_PARAMETERS = 5
 class UserLaw:
     """A strain energy that the user has written as a Python function.
 
-    See "A law of one's own" in docs/laws.md.
+    See "Your own law" in docs/laws.md.
 
     Attributes
     ----------

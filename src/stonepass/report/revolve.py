@@ -49,7 +49,7 @@ def revolved_figure(wall: Field, case: Problem, top: float, extent: float = 3.0)
     )  # fmt: skip
     size = 1.05 * float(wall.r.max())
     axes.set(xlim=(-extent, extent), ylim=(-size, size), zlim=(-size, size))
-    axes.set_box_aspect((extent / size, 1.0, 1.0), zoom=1.3)
+    axes.set_box_aspect((extent / size, 1.0, 1.0), zoom=1.1)
     axes.view_init(elev=24.0, azim=-62.0)
     axes.set_axis_off()
     add_colour_bar(axes, scale, shrink=0.7)

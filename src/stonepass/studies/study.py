@@ -1,7 +1,7 @@
 """The contract of a study: the jobs that it needs, and the reduction of their results.
 
 A new study needs a frozen dataclass in a file of its own, and one line in `studies.registry`
-(docs/developing.md, "A study").
+(docs/developing.md, "Add a study").
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ def bridgeable(known: Bool[np.ndarray, " n"], longest: float) -> bool:
 
     References
     ----------
-    docs/friction.md, "What it reads".
+    docs/friction.md, "Which files it reads".
     """
     return bool(
         known[0]
@@ -66,7 +66,7 @@ def bridge(
 
     References
     ----------
-    docs/friction.md, "What it reads".
+    docs/friction.md, "Which files it reads".
     """
     places = np.arange(len(values))
     return np.interp(places, places[known], values[known])
@@ -92,7 +92,7 @@ def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | No
 
     References
     ----------
-    docs/friction.md, "What it reads".
+    docs/friction.md, "Which files it reads".
     """
     known = np.isfinite(values)
     left, top, right, bottom = area.left, area.top, area.right, area.bottom

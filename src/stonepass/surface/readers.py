@@ -52,7 +52,7 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
 
     References
     ----------
-    docs/friction.md, "What it reads".
+    docs/friction.md, "Which files it reads".
     """
     path = Path(path)
     check_file(path)

@@ -87,7 +87,7 @@ class SurfaceImage:
 
     References
     ----------
-    docs/friction.md, "What it reads".
+    docs/friction.md, "Which files it reads".
     """
 
     values: Num[np.ndarray, "rows columns"]

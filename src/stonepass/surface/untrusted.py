@@ -56,7 +56,7 @@ def read_untrusted(
 
     References
     ----------
-    docs/friction.md, "What it reads".
+    docs/friction.md, "Which files it reads".
     """
     path = Path(path)
     check_file(path)

@@ -402,9 +402,10 @@ def test_the_command(tmp_path, capsys):
     out, cache = tmp_path / "out", tmp_path / "cache"
     arguments = ["paper", "friction", "fig5", "--out", str(out), "--cache", str(cache)]
     assert run([*arguments, "--workers", "1"]) == 0
-    shown = capsys.readouterr()
-    assert "0.5239" in shown.out
-    assert "index.html" in shown.err
+    shown, told = capsys.readouterr()
+    assert "0.5239" in shown
+    assert told.startswith("solving 2 cases for fig5, friction: about ")
+    assert f"wrote {out / 'index.html'}" in told
     remembered = [path for path in cache.glob("[0-9a-f][0-9a-f]/*") if path.is_file()]
     assert len(remembered) == 2
     raw = bytearray(remembered[0].read_bytes())

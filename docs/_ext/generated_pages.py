@@ -139,9 +139,17 @@ def write(app):
 
 
 def link_pages(app, what, name, thing, options, lines):
-    """Link the pages that a docstring names as its source."""
-    for index, line in enumerate(lines):
-        lines[index] = re.sub(r"(?<![`\w])docs/([\w/-]+)\.md", r":doc:`docs/\1.md </\1>`", line)
+    """Link the pages and sections that a docstring names as its source."""
+    text = "\n".join(lines)
+    section = re.compile(r"(?<![`\w])docs/([\w/-]+)\.md,\s+(section\s+)?\"([^\"]+)\"")
+    text = section.sub(_link_to_section, text)
+    text = re.sub(r"(?<![`\w])docs/([\w/-]+)\.md(?!`)", r":doc:`docs/\1.md </\1>`", text)
+    lines[:] = text.split("\n")
+
+
+def _link_to_section(found):
+    page, title = found[1], " ".join(found[3].split())
+    return f':ref:`"{title}" <{page}:{title}>` (page {page})'
 
 
 def setup(app):

@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 
 # A warning is an error, and so is a reference without a target.
-SPHINX = $(BIN)/sphinx-build --quiet --fail-on-warning --keep-going --nitpicky -d docs/_build/doctrees
+SPHINX = $(BIN)/sphinx-build --quiet --jobs auto --fail-on-warning --keep-going --nitpicky -d docs/_build/doctrees
 
 # Tests that touch every library that is depended on.
 LOWEST := cli fit imports micrograph new_laws records user_law

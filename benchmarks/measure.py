@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import platform
@@ -84,6 +85,44 @@ def spend(command: list[str], folder: Path | None = None) -> Spent:
         check=True,
     )
     return Spent(*json.loads(launched.stdout))
+
+
+@dataclass
+class Decks:
+    """Runs decks of CalculiX in a folder, and keeps beside each deck what its run took.
+
+    Attributes
+    ----------
+    folder : Path
+        Decks and results.
+    resume : bool
+        Take the run of a deck that an interrupted benchmark left in the folder, if the deck is the
+        same apart from its comments.
+    resumed : int
+        How many runs were taken.
+    """
+
+    folder: Path
+    resume: bool = False
+    resumed: int = 0
+
+    def run(self, job: str, deck: str, seconds: float | None = None) -> Spent:
+        """Run a deck on one thread, for `seconds` of the clock at most."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        kept = self.folder / f"{job}.json"
+        same = "\n".join(line for line in deck.splitlines() if not line.startswith("**"))
+        digest = hashlib.sha256(same.encode()).hexdigest()
+        if self.resume and kept.exists():
+            before = json.loads(kept.read_text(encoding="utf-8"))
+            if before.pop("deck") == digest:
+                self.resumed += 1
+                return Spent(**before)
+        (self.folder / f"{job}.inp").write_text(deck, encoding="utf-8")
+        limit = [] if seconds is None else ["timeout", f"{seconds:g}"]
+        spent = spend([*limit, "ccx", job], self.folder)
+        record = json.dumps(asdict(spent) | {"deck": digest})
+        kept.write_text(record, encoding="utf-8")
+        return spent
 
 
 def stonepass(*arguments: str, repeats: int = 3) -> Spent:

@@ -15,6 +15,11 @@ def page(found: dict[str, Any], sections: dict[str, str]) -> str:
     """Markdown of everything."""
     machine = ", ".join(f"{name} {value}" for name, value in found["machine"].items())
     parts = [HEAD, f"*{found['date']}, code {found['code']}; {machine}.*"]
+    if found["resumed"]:
+        parts.append(
+            "The run was interrupted and resumed on the same machine: the processor times of "
+            f"{found['resumed']} decks of CalculiX were measured before the interruption."
+        )
     for section, title in sections.items():
         rows = [row for row in found["rows"] if row["section"] == section]
         parts.append(f"## {title}")

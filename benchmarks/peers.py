@@ -5,11 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from cases import tube
-from measure import Row, calculix, cpu_seconds, spend, stonepass
+from measure import Decks, Row, calculix, cpu_seconds, stonepass
 from rival import CASES, KINDS, Run, case, search
 
 import stonepass as sp
@@ -57,14 +56,13 @@ def latex(kind: str, accuracy: str = "standard") -> sp.Case:
     return tube(kind, "latex", 1.5, 1.2, 0.475, accuracy=accuracy)
 
 
-def peers(folder: Path) -> Iterator[tuple[str, list[Solved], Solved]]:
-    """Seating, those who solved it, and the reference; decks and results stay in `folder`."""
-    folder.mkdir(parents=True, exist_ok=True)
+def peers(decks: Decks) -> Iterator[tuple[str, list[Solved], Solved]]:
+    """Yield the seating, those who solved it, and the reference."""
     for kind in ("frictionless", "pressed"):
         exact = ours(kind, "reference", repeats=1)
         found = [ours(kind, level, alone=alone) for level in OURS for alone in (True, False)]
         if calculix() is not None:
-            found += [theirs(kind, element, folder) for element in ("CAX8", "CAX8R")]
+            found += [theirs(kind, element, decks) for element in ("CAX8", "CAX8R")]
         yield kind, found, exact
 
 
@@ -118,7 +116,7 @@ class Duel:
                 yield each.who, self.best.cpu / each.cpu
 
 
-def duels(folder: Path) -> Iterator[Duel]:
+def duels(decks: Decks) -> Iterator[Duel]:
     """Search the tuned decks of every case and put the cheapest beside ours."""
     exact = {
         (name, kind): _solved(case(name, kind, "reference"), "stonepass, reference", repeats=1)
@@ -133,7 +131,7 @@ def duels(folder: Path) -> Iterator[Duel]:
         pairs = zip(found.errors(exact[name, kind]), ALLOWED, strict=True)
         return all(error <= allowed for error, allowed in pairs)
 
-    for name, kind, runs in search(folder, usable):
+    for name, kind, runs in search(decks, usable):
         good = [each for each in runs if usable(name, kind, each)]
         if not good:
             continue
@@ -166,19 +164,18 @@ def duel_rows(fought: list[Duel]) -> Iterator[Row]:
                 yield Row("duels", text, ratio, "×")
 
 
-def theirs(kind: str, element: str, folder: Path) -> Solved:
+def theirs(kind: str, element: str, decks: Decks) -> Solved:
     """The exported deck, with the longest increments that converge."""
     model = seating(latex(kind), FINE)
     for times in INCREMENTS:
         job = f"{kind}_{element}_{times:g}"
         deck = write_inp(model, element, increment=times * model.increment)
-        (folder / f"{job}.inp").write_text(deck, encoding="utf-8")
         print(f"  ccx {job} …", file=sys.stderr, flush=True)
-        spent = spend(["ccx", job], folder)
+        spent = decks.run(job, deck)
         if spent.code == 0:
-            contact = read_contact(model, folder / f"{job}.dat")
+            contact = read_contact(model, decks.folder / f"{job}.dat")
             return Solved(f"CalculiX, {element}", spent.cpu, _numbers(contact))
-    raise SystemExit(f"ccx did not converge for {kind} {element}; its decks are in {folder}")
+    raise SystemExit(f"ccx did not converge for {kind} {element}; its decks are in {decks.folder}")
 
 
 def _numbers(contact: Contact) -> tuple[float, float, float]:

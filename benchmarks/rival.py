@@ -12,11 +12,10 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 from cases import tube
-from measure import spend
+from measure import Decks
 
 import stonepass as sp
 from stonepass.errors import BadInput
@@ -120,36 +119,34 @@ def _axial(even: float, fine: float, end: float) -> np.ndarray:
     return np.concatenate([lines[:count], lines[count] + beyond])
 
 
-def run(name: str, kind: str, settings: Settings, folder: Path) -> Run:
+def run(name: str, kind: str, settings: Settings, decks: Decks) -> Run:
     """Write a deck, run it on one thread and read its contact."""
-    folder.mkdir(parents=True, exist_ok=True)
     model = tuned(case(name, kind), settings)
     job = f"{list(CASES).index(name)}_{kind}_{'_'.join(map(str, vars(settings).values()))}"
     deck = write_inp(model, settings.element, increment=model.length / settings.increments)
-    (folder / f"{job}.inp").write_text(deck, encoding="utf-8")
-    spent = spend(["timeout", f"{SECONDS:g}", "ccx", job], folder)
+    spent = decks.run(job, deck, SECONDS)
     contact = None
     if spent.code == 0:
         with suppress(BadInput):  # it ended early, with an increment too small
-            contact = read_contact(model, folder / f"{job}.dat")
+            contact = read_contact(model, decks.folder / f"{job}.dat")
     print(f"  {job}: {spent.cpu:.1f} s, {'ended' if contact else 'no result'}", file=sys.stderr)
     return Run(settings, spent.cpu, contact)
 
 
-def search(folder: Path, usable: Usable) -> Iterator[tuple[str, str, list[Run]]]:
+def search(decks: Decks, usable: Usable) -> Iterator[tuple[str, str, list[Run]]]:
     """Yield case, seating and runs: the whole grid for the first case, its best for the others.
 
     Parameters
     ----------
-    folder : Path
-        For decks and results.
+    decks : Decks
+        Runs the decks.
     usable : callable
         Whether the run of a case with a seating is near enough to the solution.
     """
     first, *others = CASES
     for kind in KINDS:
-        runs = [run(first, kind, settings, folder) for settings in all_settings()]
+        runs = [run(first, kind, settings, decks) for settings in all_settings()]
         yield first, kind, runs
         good = sorted((each for each in runs if usable(first, kind, each)), key=lambda r: r.cpu)
         for name in others:
-            yield name, kind, [run(name, kind, each.settings, folder) for each in good[:TRIED]]
+            yield name, kind, [run(name, kind, each.settings, decks) for each in good[:TRIED]]

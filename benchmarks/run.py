@@ -1,6 +1,6 @@
 """One run, one table: stonepass against CalculiX, its own scaling, and what whole work takes.
 
-    python benchmarks/run.py [--out FOLDER] [--json]
+    python benchmarks/run.py [--out FOLDER] [--json] [--resume]
 
 Writes docs/benchmark.md and docs/data/benchmark.json; decks and results of CalculiX stay in FOLDER
 (build/benchmark). One thread; ratios are of one run. These machines are noisy: a missed target is
@@ -19,7 +19,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from measure import ONE_THREAD, Row, machine
+from measure import ONE_THREAD, Decks, Row, machine
 
 if TYPE_CHECKING:
     from peers import Duel
@@ -40,11 +40,16 @@ def main() -> None:
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--out", type=Path, default=ROOT / "build" / "benchmark")
     options.add_argument("--json", action="store_true", help="JSON on stdout as well")
+    options.add_argument(
+        "--resume",
+        action="store_true",
+        help="take the decks that an interrupted run left in FOLDER",
+    )
     given = options.parse_args()
     if not all(os.environ.get(name) == "1" for name in ONE_THREAD):
         # Libraries read these when they are loaded, so before this process began.
         os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | ONE_THREAD)
-    found = measured(given.out)
+    found = measured(Decks(given.out, given.resume))
     data = ROOT / "docs" / "data" / "benchmark.json"
     data.write_text(json.dumps(found, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     from page import page
@@ -54,7 +59,7 @@ def main() -> None:
         print(json.dumps(found, indent=2, ensure_ascii=False))
 
 
-def measured(folder: Path) -> dict:
+def measured(decks: Decks) -> dict:
     """Run everything; each row is printed as it is known."""
     from peers import calculix, cold_ratios, duel_rows, duels, peers, ratios
     from phases import phases
@@ -72,7 +77,7 @@ def measured(folder: Path) -> dict:
         bound = "" if row.target is None else f"{'≥' if row.at_least else '≤'} {row.target:g}"
         print(f"{row.what:<74}{row.value:>9.2f} {row.unit:<3}{bound:>8}  {mark}", flush=True)
 
-    for kind, solved, exact in peers(folder):
+    for kind, solved, exact in peers(decks):
         for each in (*solved, exact):
             angle, sigma, critical = each.errors(exact)
             beside.append({"seating": kind, "who": each.who, "cpu_s": each.cpu,
@@ -82,7 +87,7 @@ def measured(folder: Path) -> dict:
                   f"σ(90°) {sigma:.2%}, P_ucr {critical:.2%}")  # fmt: skip
         for row in chain(ratios(kind, solved, exact), cold_ratios(kind, solved)):
             tell(row)
-    fought = [] if calculix() is None else list(duels(folder))
+    fought = [] if calculix() is None else list(duels(decks))
     for row in duel_rows(fought) if fought else ():
         tell(row)
     for scaling in scalings():
@@ -96,6 +101,7 @@ def measured(folder: Path) -> dict:
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "code": commit(),
         "machine": described,
+        "resumed": decks.resumed,
         "beside": beside,
         "duels": [duel_record(each) for each in fought],
         "settings": {name: list(values) for name, values in SETTINGS.items()},

@@ -86,6 +86,7 @@ def test_the_page_has_every_number(benchmarks):
         "date": "2026-01-01",
         "code": "abc",
         "machine": {"cores": "2"},
+        "resumed": 3,
         "beside": [beside],
         "settings": {"element": ["CAX8R"], "rows": [3, 4]},
         "duels": [duel],
@@ -96,6 +97,26 @@ def test_the_page_has_every_number(benchmarks):
     text = page(
         found, {"peers": "Peers", "duels": "At its best", "scaling": "Growth", "memory": "Memory"}
     )
-    for words in ("123 ×", "met", "**missed**", "31.50", "0.500%", "| residual | 12% |", "abc",
+    for words in ("processor times of 3 decks", "123 ×", "met", "**missed**", "31.50", "0.500%", "| residual | 12% |", "abc",
                   "rows 3, 4", "5 of 8", "0.25°", "1.25%", "| 14 × | – | 3 × |"):  # fmt: skip
         assert words in text
+
+
+def test_an_interrupted_benchmark_goes_on_with_the_same_decks(tmp_path, monkeypatch):
+    import measure
+
+    runs = []
+
+    def spend(command, folder):
+        runs.append(command)
+        return measure.Spent(1.5, 2.0, 10.0, "", 0)
+
+    monkeypatch.setattr(measure, "spend", spend)
+    first = measure.Decks(tmp_path).run("job", "** made on Monday\n*NODE\n")
+    assert runs == [["ccx", "job"]]
+    again = measure.Decks(tmp_path, resume=True)
+    assert again.run("job", "** made on Tuesday\n*NODE\n") == first
+    assert (again.resumed, len(runs)) == (1, 1)
+    again.run("job", "*ELEMENT\n", 60.0)  # another deck of this name
+    measure.Decks(tmp_path).run("job", "*ELEMENT\n")  # not asked to resume
+    assert runs[1:] == [["timeout", "60", "ccx", "job"], ["ccx", "job"]]

@@ -10,6 +10,7 @@ import pytest
 from matplotlib.text import Text
 from options import asking
 from scipy.stats import binomtest
+from shown import check_shown
 
 from stonepass.cli import run
 from stonepass.clinic.assess import assess
@@ -387,6 +388,10 @@ def contradicting(tmp_path_factory):
     someone = patient(tmp_path_factory.mktemp("someone"), stone="4.6 mm ± 1 mm",
                       friction="0.05 to 0.5", dilated=dilated)  # fmt: skip
     return assess(replace(someone, title="Case 12 <b>"), MadeUp())
+
+
+def test_an_assessment_is_shown_like_other_results(contradicting):
+    check_shown(contradicting, "outcome", "no_larger_than_lumen")
 
 
 @pytest.fixture(scope="module")

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from options import asking
+from shown import check_shown
 
 import stonepass as sp
 from stonepass.cli import run
@@ -103,6 +104,7 @@ def test_energy_and_direct_agree_and_the_paper_lies_around_them(compared):
     assert compared.pressures["direct"] == pytest.approx(alone.pressure, rel=1e-7)
     printed = sp.solve(case(**asking(as_printed=True, accuracy="fast")))
     assert compared.pressures["printed"] == printed.pressure
+    check_shown(compared, "closure", "critical_pressure_kPa", "relative_to_direct")
 
 
 def test_rising_pressure_ends_where_the_stone_moves_and_the_seat_is_measured_against():
@@ -112,6 +114,7 @@ def test_rising_pressure_ends_where_the_stone_moves_and_the_seat_is_measured_aga
     assert np.all(np.diff(forces) > 0.0)
     assert forces[-1] == pytest.approx(0.0, abs=1e-3 * abs(forces[0]))
     assert np.all((rising.deviation > 0.01) & (rising.deviation < 0.3))
+    check_shown(rising, "urine_pressure_kPa", "net_force_kPa")
     # Without friction and pressure it is the seated state itself.
     bare = raise_pressure(case(0.0, **asking(seating="frictionless", accuracy="fast")), steps=2)
     assert bare.states[0].urine_pressure == 0.0

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from options import asking
+from shown import check_shown
 
 from stonepass.bench.agreement import disagreement
 from stonepass.bench.comparison import Setting, compare, size_curves
@@ -87,6 +88,7 @@ def test_a_point_without_an_answer_is_counted_not_averaged():
 def test_friction_and_stiffness_come_back_from_a_formula():
     points = made_up([*DRY, *WET], 0.35, stiffness=1.3)
     found = fit_friction(points, QUICK, solver=MadeUp())
+    check_shown(found, "size_ratio", "measured_kPa", "critical_pressure_kPa")
     assert found.joint.friction.value == pytest.approx(0.35, rel=1e-3)
     assert found.joint.stiffness.value == pytest.approx(1.3, rel=1e-3)
     assert found.friction.value > 0.4

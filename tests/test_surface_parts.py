@@ -8,6 +8,7 @@ import pytest
 import tifffile
 from picture_files import FEI, save_tiff
 from PIL import Image
+from shown import check_shown
 
 from stonepass.cli import run
 from stonepass.errors import BadInput
@@ -206,6 +207,7 @@ def test_small_gaps_are_bridged_and_told_of():
     """Four per cent of the heights missing, singly and in spots of up to 5 µm."""
     z = wave()
     exact = surface_friction(heights_of(z))
+    check_shown(exact, "friction_coefficient", "k0", "k1")
     generator = np.random.default_rng(2)
     y, x = np.mgrid[: z.shape[0], : z.shape[1]]
     holes = generator.random(z.shape) < 0.01

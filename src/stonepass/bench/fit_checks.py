@@ -58,9 +58,9 @@ def check_enough(data: Data, free: Sequence[str]) -> None:
 def check_told(objective: Objective, search: Search) -> None:
     """Refuse constants that this kind of test cannot identify, whatever their values are.
 
-    The data do not identify the constants separately if a combination of relative changes of them
-    leaves every prediction as it is. The constants are refused only if this is so at every starting
-    point of the search, since at one point alone it may be a coincidence.
+    The constants cannot be identified separately if some combination of relative changes of them
+    leaves every prediction unchanged. The constants are refused only if such a combination exists
+    at every starting point of the search, since at a single point it may be a coincidence.
 
     Parameters
     ----------

@@ -129,7 +129,7 @@ def surface_friction(
         orders the second baseline would be zero, since a least-squares residual is orthogonal to
         its basis.
     level : bool
-        Whether the least-squares plane of the area is subtracted first, which removes the tilt of
+        True if the least-squares plane of the area is subtracted first, which removes the tilt of
         the specimen. Without it a warning is given if the tilt influences the result.
     margin : float
         Margin at the ends of the paths in which slopes are not evaluated, in units of the shortest

@@ -166,7 +166,7 @@ def _means(
     edges: tuple[float, float],
     path: Path,
 ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
-    """Return angle and mean pressure in Pa of each element that touches.
+    """Return angle and mean pressure in Pa of each wall element that touches the stone.
 
     The angle is that of the middle of the part in contact; the pressure is averaged over the
     integration points of the element.
@@ -177,8 +177,8 @@ def _means(
     touched = np.flatnonzero((corners[1:] > edges[0]) & (corners[:-1] < edges[1]))
     full = [c for c in touched if edges[0] <= corners[c] and corners[c + 1] <= edges[1]]
     whole = set(full) <= set(columns) <= set(range(seating.facing.start, seating.facing.stop))
-    require(whole, "results", path.name, "contact stresses on every element of the wall that "
-            "touches, and no other")  # fmt: skip
+    require(whole, "results", path.name, "contact stresses on all elements of the wall that "
+            "touch the stone, and only on these")  # fmt: skip
     kept = np.array([c for c in touched if c in columns])
     low, high = np.maximum(corners[kept], edges[0]), np.minimum(corners[kept + 1], edges[1])
     return (low + high) / 2.0, np.array([pressures[columns == c].mean() for c in kept])

@@ -75,7 +75,7 @@ def read_columns(
     words : mapping of str to sequence of str
         Words in a column without numbers. They are returned as indices into the sequence.
     distinct : bool
-        Whether two equal rows are refused. Measurements may be repeated, but the points of an
+        True if two equal rows are refused. Measurements may be repeated, but the points of an
         outline may not.
 
     Returns

@@ -96,7 +96,7 @@ class FrictionRecord(Record):
     tilt_deg: float = Field(
         description="angle between the least-squares plane of the surface and that of the picture"
     )
-    levelled: bool = Field(description="whether the least-squares plane was subtracted (`--level`)")
+    levelled: bool = Field(description="true if the least-squares plane was subtracted (`--level`)")
     friction_levelled: float | None = Field(
         description=(
             "μ_f with the plane subtracted; null if the plane changes by less than 1 % of the "

@@ -122,7 +122,7 @@ class InVitroRecord(AgreementRecord, Record):
         description="friction and stiffness fitted together; null for fewer than four points"
     )
     weighted: bool = Field(
-        description="whether the residuals are weighted by the standard deviations of the points"
+        description="true if the residuals are weighted by the standard deviations of the points"
     )
     level: float = Field(description="confidence level of the intervals")
     points: list[InVitroPointRecord] = Field(description="the points of the series")

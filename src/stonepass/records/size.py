@@ -21,7 +21,7 @@ class SizeRecord(AnswerRecord):
     critical_size_ratio: float | None = Field(description="size ratio ξ of the critical size")
     critical_size_ratio_error: float | None = Field(
         description=(
-            "estimated discretisation error (±) of `critical_size_ratio`: the error of P_ucr "
+            "estimated error (±) of `critical_size_ratio`: the discretisation error of P_ucr "
             "divided by dP_ucr/dξ"
         )
     )

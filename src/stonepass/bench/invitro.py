@@ -181,7 +181,7 @@ def fit_friction(
     ------
     BadInput
         The model has an answer for fewer than two points, a standard deviation is 0, all pressures
-        are 0, or the model is the beam.
+        are 0, `friction` is out of bounds, or the model is the beam.
 
     References
     ----------

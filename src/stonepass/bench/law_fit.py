@@ -170,9 +170,10 @@ def fit_law(
     Raises
     ------
     BadInput
-        The law or a constant is unknown, there are no more points than constants, the data do not
-        identify some constants separately, a constant ends at a bound of the search, or the law
-        describes the data no better than chance.
+        The law or a constant is unknown, no constant is to be fitted, there are no more points than
+        constants, all points have the same stretch or the same load, the data do not identify some
+        constants separately, a constant ends at a bound of the search, or the law describes the
+        data no better than chance.
 
     References
     ----------

@@ -52,7 +52,8 @@ SAMPLES = 4  # least number of samples per term of a baseline
 FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # factors on both orders, for the spread
 MARGINS = (0.0, 0.25, MARGIN, 1.0)  # margins in shortest wavelengths, for the spread
 LARGEST = 2.0  # largest friction coefficient that a case accepts
-# The plane is ignored if its height changes by less than this fraction of the height range.
+# The plane is ignored if it changes along the paths by less than this fraction of the range of the
+# profiles.
 DRIFT = 0.01
 TELL_TILT = 0.02  # slope of the plane, divided by μ_f, above which a warning is given
 

@@ -51,8 +51,8 @@ def read_contact(seating: Seating, path: Path) -> Contact:
     Raises
     ------
     BadInput
-        The file does not contain the results at the end of the last step, or it contains results of
-        another input deck.
+        The file does not contain the results at the end of the last step, it contains results of
+        another input deck, or the wall in it does not touch the stone.
 
     References
     ----------

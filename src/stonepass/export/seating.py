@@ -201,8 +201,9 @@ def seating(case: Case, fine: float | None = None) -> Seating:
     Raises
     ------
     BadInput
-        The stone is hardly larger than the lumen, the law is unstable, the model of the case is not
-        the paper's, or the element strip would begin too close to the axis.
+        The stone is not larger than the lumen or only hardly so, the law is unstable, the model of
+        the case is not the paper's, `fine` is out of bounds, or the element strip would begin too
+        close to the axis.
 
     References
     ----------

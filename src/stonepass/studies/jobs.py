@@ -242,7 +242,8 @@ def state_solver(cache_folder: Path | None, *, walls: bool = False) -> StateSolv
     cache_folder : Path or None
         Folder of the solution cache; None for a solver without a cache.
     walls : bool
-        True if the states keep their stress fields.
+        True if the cache stores the stress fields of the states. Without a cache the states always
+        have their stress fields.
     """
     if cache_folder is None:
         return UNCACHED

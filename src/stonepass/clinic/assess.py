@@ -58,8 +58,8 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     Raises
     ------
     BadInput
-        The material is unstable, or almost no sample of the measurements is consistent with a wall
-        of constant volume.
+        The material is unstable, the model does not use finite elements, or fewer than 100 samples
+        of the measurements describe a possible wall (see `draws.draw_patient`).
 
     References
     ----------

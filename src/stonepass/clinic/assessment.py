@@ -140,7 +140,10 @@ class Assessment(Result):
 
     @property
     def fraction_noise(self) -> float:
-        """Standard error of the fraction below the limit that is due to the number of samples."""
+        """Standard error of the fraction below the limit that is due to the number of samples.
+
+        It is 0 if there is no such fraction.
+        """
         return 0.0 if self.below_limit is None else self.below_limit.noise(self.patient.samples)
 
     @property

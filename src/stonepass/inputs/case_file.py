@@ -131,6 +131,11 @@ def values_of(case: Case, folder: Path) -> dict[str, Any]:
         The case to be described.
     folder : Path
         Folder of the case file, at which relative paths start.
+
+    Raises
+    ------
+    BadInput
+        The law is a function that was not read from a file.
     """
     values: dict[str, Any] = {MODEL: case.model.NAME}
     for part in (case.stone, case.ureter, case.load, case.model, case.numerics):

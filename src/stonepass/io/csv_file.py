@@ -60,9 +60,9 @@ def read_columns(
     """Read columns of numbers by the names in the header, in any order.
 
     The header is the first line with all required names. Lines before it and a row of units below
-    it are ignored, as are empty lines, lines that begin with ``#``, and columns without a name and
-    without values. Cells may be separated by commas, semicolons or tabs (see `table_header`). Rows
-    in messages have the line numbers of an editor.
+    it are ignored, as are empty lines, lines that begin with ``#``, and empty columns to the right
+    of the last name. Cells may be separated by commas, semicolons or tabs (see `table_header`).
+    Rows in messages have the line numbers of an editor.
 
     Parameters
     ----------

@@ -189,6 +189,11 @@ def write_invitro(found: InVitro, path: Path) -> None:
         The comparison; pressures are written in kPa.
     path : Path
         File to write.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written.
     """
     columns = tuple(InVitroPointRecord.model_fields)
     rows = (each.to_dict() for each in _points(found.comparison))

@@ -152,7 +152,7 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
     noise = float(off @ off) / (len(off) - count)
     if explained < noise * float(f_distribution.ppf(LEVEL, count, len(off) - count)):
         raise BadInput(law_of, f"no better than chance, R² = {r_squared:.3g}",
-                       "significant beside the scatter of the data (F test, 5 %)",
+                       "significant compared with the scatter of the data (F test, 5 %)",
                        remedy)  # fmt: skip
     named = {dict(each.values)["name"] for each in told}
     inside = [each for each in search.free if each not in named]

@@ -75,7 +75,7 @@ def friction_of_slopes(k0: float, k1: float) -> float:
     ----------
     Liu et al. 2022, Eq. 18; docs/theory.md, "Friction from a surface".
     """
-    require(k0 >= 0.0 and k1 >= 0.0, "slopes", f"{k0:g} and {k1:g}", "not negative")
+    require(k0 >= 0.0 and k1 >= 0.0, "pair of slopes k0, k1", f"{k0:g}, {k1:g}", "not negative")
     if k0 * k1 >= 1.0:
         raise BadInput("product of the slopes k0 and k1", f"{k0:.3g} × {k1:.3g}", "below 1",
                        "check the height range and the pixel size")  # fmt: skip

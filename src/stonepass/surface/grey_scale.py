@@ -65,7 +65,8 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     greys = np.flatnonzero(counts)
     low, high = int(greys[0]), int(greys[-1])
     shown = f"flat, with greys from {low} to {high}"
-    require(high - low >= LEVELS, "picture", shown, f"of at least {LEVELS} grey levels")
+    allowed = f"with at least {LEVELS} grey levels between darkest and brightest"
+    require(high - low >= LEVELS, "picture", shown, allowed)
     ends = float(counts[low] + counts[high]) / values.size
     allowed = f"less than {SATURATED:.0%} of it"
     require(ends < SATURATED, "darkest or brightest grey", f"{ends:.0%} of the picture", allowed,

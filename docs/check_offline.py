@@ -18,7 +18,7 @@ LOADED = {
 }
 ELSEWHERE = re.compile(r"(https?:)?//", re.IGNORECASE)
 IN_STYLE = re.compile(r"""(?:url\(|@import)\s*["']?((?:https?:)?//[^"')\s]+)""", re.IGNORECASE)
-FEWEST_PAGES = 15  # fewer means that the site was not built
+FEWEST_PAGES = 40  # fewer means that the site was not built
 
 
 class _Loads(HTMLParser):

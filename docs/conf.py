@@ -17,6 +17,7 @@ extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
     "numpydoc",
+    "sphinx.ext.autosectionlabel",  # docstrings refer to sections of pages
     "sphinx.ext.doctest",
     "sphinx_copybutton",
     "mathml",  # docs/_ext: equations as MathML, without a script
@@ -24,6 +25,9 @@ extensions = [
     "generated_pages",  # docs/_ext: pages of the Python interface and of the command line
 ]
 exclude_patterns = ["_build", "_ext"]
+autosectionlabel_prefix_document = True
+# Pages that runs write have sections of the same title, to which nothing refers.
+suppress_warnings = ["autosectionlabel.verification", "autosectionlabel.reference"]
 nitpicky = True
 # Types of other libraries, whose documentation is on other machines.
 nitpick_ignore_regex = [

@@ -3,7 +3,8 @@
 Each figure is drawn by a public command into docs/img, as SVG; the site makes its dark version. The
 manifest beside the figures keeps a digest of all that each was drawn by and from: the command, its
 input files, the code that draws, and the version of the numbers. ``--check`` recomputes the digests
-without drawing and names the figures that are out of date; a test does the same.
+without drawing and names the figures that are out of date; a test does the same. Two figures need
+other programs: compare needs CalculiX (ccx), and assess needs chromium.
 """
 
 import argparse
@@ -25,6 +26,8 @@ from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.paper import fig8, headline_report, published, seated_figures, sensitivity
 from stonepass.report import (
+    assess_figure,
+    assess_page,
     balance,
     case_figure,
     case_line,
@@ -33,6 +36,7 @@ from stonepass.report import (
     curve_figure,
     fit_figure,
     friction_figure,
+    html,
     invitro_figure,
     push_figure,
     revolve,
@@ -47,6 +51,8 @@ from stonepass.studies.source_digest import NUMBERS, code_digest
 ROOT = Path(__file__).parents[1]
 IMAGES = ROOT / "docs" / "img"
 MANIFEST = IMAGES / "manifest.json"
+SCREENSHOT = ("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+              "--window-size=860,1250")  # fmt: skip
 EXAMPLE = ("--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.54mm")
 TUBE = ("--eta", "1.5", "--xi", "1.2", "--material", "latex", "--friction", "0.475")
 SECTIONS = (section, stone)
@@ -68,7 +74,8 @@ class Figure:
         Name of the figure in the folder of a paper.
     before : tuple of commands
         Commands that write what the command reads.
-    ending : {"svg", "gif"}
+    ending : {"svg", "gif", "png"}
+        Of the file; "png" is a screenshot of the page that the command writes as ``PAGE``.
     """
 
     command: tuple[str, ...]
@@ -115,6 +122,12 @@ FIGURES = {
         ("compare", *TUBE, "--results", "RESULTS", "--figure", "OUT"),
         (compare_report.compare_figure,),
         before=(("export", *TUBE, "--out", "DECK"),),
+    ),
+    "assess": Figure(
+        ("assess", "examples/patient.toml", "--html", "PAGE"),
+        (assess_figure, assess_page, html),
+        ("examples/patient.toml",),
+        ending="png",
     ),
     "closures-ureter": Figure(
         (), (closures_report.map_figure, closures_report._draw_errors),
@@ -174,16 +187,21 @@ def draw(name):
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / ("paper" if figure.made else file_of(name).name)
         if figure.command:
+            page = Path(folder) / "page.html"
             words = {
-                "OUT": str(out),
+                "OUT": out,
+                "PAGE": page,
                 "DECK": f"{folder}/stone.inp",
                 "RESULTS": f"{folder}/stone.dat",
             }
             for command in (*figure.before, figure.command):
-                if run([str(words.get(word, word)) for word in command]) == 2:
-                    raise SystemExit(f"{name}: the command was refused")
+                if run([str(words.get(word, word)) for word in command]) > 1:
+                    raise SystemExit(f"{name}: the command failed")
                 if "DECK" in command:
                     subprocess.run(["ccx", "stone"], cwd=folder, check=True, capture_output=True)
+            if page.is_file():
+                subprocess.run([*SCREENSHOT, f"--screenshot={out}", page.as_uri()], check=True,
+                               capture_output=True)  # fmt: skip
         else:
             _draw_map(ROOT / figure.inputs[0], out)
         drawn = out / figure.made if figure.made else out

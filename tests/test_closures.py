@@ -142,7 +142,7 @@ def test_closures_and_push_at_the_door(tmp_path, capsys):
     assert float(last["urine_pressure_kPa"]) == pytest.approx(10.0)
     bare = ["closures", "--map", "1.1:1.2:0.1"]
     assert run([*bare, "--map-eta", "1.5;2"]) == 2
-    assert "numbers with commas between" in capsys.readouterr().err
+    assert "numbers separated by commas" in capsys.readouterr().err
     assert run([*bare, "--xi", "1.2"]) == 2
     assert "--xi cannot be used with --map" in capsys.readouterr().err
     assert run(["closures", *stone, "--order", "9"]) == 2

@@ -1,6 +1,8 @@
 """Figures say what they show: cases, units and angles; colours and frames that can be told apart."""
 
 import importlib.util
+import json
+import re
 import sys
 from dataclasses import replace
 from itertools import combinations
@@ -350,3 +352,30 @@ def test_a_page_of_some_parts_does_not_claim_to_be_of_all(tmp_path):
     assert "Not on this page: fig5, fig6." in page
     write_page(sections, asked, path)
     assert "Every computed result" in path.read_text(encoding="utf-8")
+
+
+def test_the_figures_of_the_documentation_are_up_to_date():
+    """Every figure that the script has drawn; their pages refer to files that are there."""
+    maker = loaded("make_figures", ".")
+    drawn = json.loads(maker.MANIFEST.read_text(encoding="utf-8"))
+    assert len(drawn) >= 12
+    outdated = sorted(set(maker.stale()) & set(drawn))
+    assert outdated == [], "draw them again: python docs/make_figures.py"
+    pages = [*DOCS.glob("*.md"), DOCS.parent / "README.md"]
+    shown = [
+        page.parent / name
+        for page in pages
+        for name in re.findall(r"\]\(((?:docs/)?img/[^)]+)\)", page.read_text(encoding="utf-8"))
+    ]
+    assert len(shown) > 15
+    assert [path.name for path in shown if not path.is_file()] == []
+
+
+def test_a_figure_that_was_drawn_by_other_code_is_found(monkeypatch):
+    maker = loaded("make_figures", ".")
+    figure = maker.FIGURES["fit"]
+    before = maker.digest(figure)
+    assert maker.digest(replace(figure, command=(*figure.command, "--relative"))) != before
+    assert maker.digest(replace(figure, drawn_by=(signed,))) != before
+    monkeypatch.setattr(maker, "NUMBERS", maker.NUMBERS + 1)
+    assert maker.digest(figure) != before

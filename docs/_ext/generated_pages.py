@@ -11,52 +11,49 @@ from typer.main import get_command
 import stonepass
 from stonepass.cli.app import app as command_line
 
-# Groups of the Python interface: title, and the packages whose public names it has.
-GROUPS = {
-    "Questions, cases and answers": ("model",),
-    "Wall laws and materials": ("materials",),
-    "Reading and writing files": ("inputs", "export"),
-    "Studies of many cases": ("studies",),
-    "Laboratory": ("bench",),
-    "Friction from a surface": ("surface",),
-    "Patients": ("clinic",),
-    "Quantities": ("units",),
-    "Results": ("result",),
-    "Errors, outcomes and warnings": ("errors", "caution"),
-    "Records": ("records",),
-}
+# Pages of the Python interface: its name, its title, and the packages whose public names it has.
+GROUPS = (
+    ("cases", "Questions, cases and answers", ("model",)),
+    ("laws", "Wall laws and materials", ("materials",)),
+    ("files", "Reading and writing files", ("inputs", "export")),
+    ("studies", "Studies of many cases", ("studies",)),
+    ("laboratory", "Laboratory", ("bench",)),
+    ("surface", "Friction from a surface", ("surface",)),
+    ("patients", "Patients", ("clinic",)),
+    ("quantities", "Quantities and results", ("units", "result")),
+    ("errors", "Errors, outcomes and warnings", ("errors", "caution")),
+    ("records", "Records", ("records",)),
+)
 # Functions of the packages that are public as a whole.
 FUNCTIONS = {"export": ("formats", "write")}
 INTRODUCTION = """# Python interface
 
-This page lists every public name of the package, which is `import stonepass as sp` in the
-examples. Quantities are accepted as text with a unit (`"4.2 mm"`) or as SI numbers; results are in
-SI units. The [glossary](../glossary.md) explains the words and the symbols.
+These pages list every public name of the package, which is `import stonepass as sp` in the
+examples. Quantities are accepted as text with a unit (`"4.2 mm"`), as quantities of pint, or as SI
+numbers of the types `sp.Length` and `sp.Pressure`; results are in SI units. The
+[glossary](../glossary.md) explains the words and the symbols.
 """
-RECORDS = """
-Records are the results as they are printed by `--json`: typed, versioned and with units in
-their keys. The [keys of records](../reference.md) have a page of their own.
+RECORDS = """Records are the results as they are printed by `--json`: typed, versioned and with
+units in their keys. The [keys of records](../reference.md) have a page of their own.
 """
-
-
-def homes():
-    """Return the package in which each public name lives; a package lives in itself."""
-    homes = stonepass._HOME
-    return {name: homes.get(name, name).split(".")[0] for name in stonepass.__all__}
 
 
 def python_interface():
-    """Return the page of the Python interface: every name of `stonepass.__all__`, in groups."""
-    lines, left = [INTRODUCTION], homes()
-    for title, packages in GROUPS.items():
-        names = [name for name, home in left.items() if home in packages]
+    """Yield name and text of the pages of the Python interface: every name of `__all__`, once."""
+    homes = stonepass._HOME
+    left = {name: homes.get(name, name).split(".")[0] for name in stonepass.__all__}
+    tree = ["```{toctree}", ":hidden:", "", *(f"api_{page}" for page, _, _ in GROUPS), "```"]
+    overview = ["| page | names |", "| --- | --- |"]
+    for page, title, packages in GROUPS:
+        names = sorted((n for n, home in left.items() if home in packages), key=_functions_first)
         left = {name: home for name, home in left.items() if name not in names}
-        lines += [f"## {title}", RECORDS if title == "Records" else "", "```{eval-rst}"]
-        lines += [_directive(name) for name in sorted(names, key=_functions_first)]
-        lines += ["```", ""]
+        lines = [f"# {title}", RECORDS if page == "records" else "", "```{eval-rst}"]
+        yield f"api_{page}", "\n".join([*lines, *map(_directive, names), "```", ""])
+        listed = ", ".join(f"{{py:obj}}`{name} <stonepass.{name}>`" for name in names)
+        overview.append(f"| [{title}](api_{page}.md) | {listed} |")
     if left:
-        raise ValueError(f"no group of the page of the Python interface has {sorted(left)}")
-    return "\n".join(lines)
+        raise ValueError(f"no page of the Python interface has {sorted(left)}")
+    yield "api", "\n".join([INTRODUCTION, *overview, "", *tree, ""])
 
 
 def _functions_first(name):
@@ -132,19 +129,27 @@ def _code(text):
 
 
 def write(app):
-    """Write both pages where the build reads them; they are not under version control."""
+    """Write the pages where the build reads them; they are not under version control."""
     folder = Path(app.srcdir) / "generated"
     folder.mkdir(exist_ok=True)
-    for name, text in (("api.md", python_interface()), ("command_line.md", command_line_page())):
-        path = folder / name
+    for name, text in (*python_interface(), ("command_line", command_line_page())):
+        path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 
 
 def link_pages(app, what, name, thing, options, lines):
-    """Link the pages that a docstring names as its source."""
-    for index, line in enumerate(lines):
-        lines[index] = re.sub(r"(?<![`\w])docs/([\w/-]+)\.md", r":doc:`docs/\1.md </\1>`", line)
+    """Link the pages and sections that a docstring names as its source."""
+    text = "\n".join(lines)
+    section = re.compile(r"(?<![`\w])docs/([\w/-]+)\.md,\s+(section\s+)?\"([^\"]+)\"")
+    text = section.sub(_link_to_section, text)
+    text = re.sub(r"(?<![`\w])docs/([\w/-]+)\.md(?!`)", r":doc:`docs/\1.md </\1>`", text)
+    lines[:] = text.split("\n")
+
+
+def _link_to_section(found):
+    page, title = found[1], " ".join(found[3].split())
+    return f':ref:`"{title}" <{page}:{title}>` (page {page})'
 
 
 def setup(app):

@@ -3,6 +3,7 @@
 Few systems have a font with the measures that subscripts and fractions need, so the site has one.
 """
 
+import re
 import shutil
 from pathlib import Path
 
@@ -10,19 +11,28 @@ import ziamath
 from docutils import nodes
 from latex2mathml.converter import convert
 
+# A function and, in the second form, its power; what follows without a bracket needs a space.
+FUNCTION = r"<mi>(?:sin|cos|tan|arcsin|arctan|ln)</mi>"
+ARGUMENT = r"<m(?:i|n|sub|sup|frac)>"
+BEFORE_ARGUMENT = re.compile(rf"({FUNCTION}|<msup>{FUNCTION}<mn>\d</mn></msup>)(?={ARGUMENT})")
 FONT = Path(ziamath.__file__).parent / "fonts" / "STIXTwoMath-Regular.ttf"
+
+
+def mathml(equation, display):
+    """Return MathML of an equation in the notation of TeX."""
+    return BEFORE_ARGUMENT.sub(r'\1<mspace width="0.167em"/>', convert(equation, display=display))
 
 
 def inline(translator, node):
     """Write an equation within a line."""
-    translator.body.append(convert(node.astext(), display="inline"))
+    translator.body.append(mathml(node.astext(), "inline"))
     raise nodes.SkipNode
 
 
 def block(translator, node):
     """Write an equation that stands by itself."""
     translator.body.append(translator.starttag(node, "div", CLASS="math"))
-    translator.body.append(convert(node.astext(), display="block"))
+    translator.body.append(mathml(node.astext(), "block"))
     translator.body.append("</div>\n")
     raise nodes.SkipNode
 

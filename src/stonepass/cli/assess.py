@@ -76,6 +76,7 @@ def command(
     writable(html, (".html", ".htm"))
     patient = _patient(patient_file, limit)
     from stonepass.clinic.assess import assess
+    from stonepass.clinic.decisions import CONTRADICTIONS
     from stonepass.records.assess import CAUTION, assess_record
     from stonepass.report.assess_report import assess_summary, assess_tables
     from stonepass.studies.case_solver import JobSolver
@@ -88,7 +89,8 @@ def command(
     if json:
         print_json(assess_record(found, patient_file.name).to_dict())
     else:
-        warn(found.warnings)
+        # Contradictions stand at the head of the result itself.
+        warn(each for each in found.warnings if each.code not in CONTRADICTIONS)
         warn([f"at the measured values {each}" for each in found.at_values.warnings])
         show(*assess_summary(found), *assess_tables(found), CAUTION, DISCLAIMER)
     if html is not None:

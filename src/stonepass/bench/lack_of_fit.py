@@ -40,8 +40,8 @@ SMALL_PART = 1e-4  # relative change of a size at rest, for a difference quotien
 # Stretches up to which a strip may be slack; each is tried.
 SLACK = (1.01, 1.02, 1.03, 1.04, 1.05, 1.07, 1.1, 1.14, 1.2)
 FEWEST_OF_TOE = 2  # smallest number of points on the slack part of the curve
-# A mistake is not tested if its unit vector has a component perpendicular to the space of the known
-# vectors that is shorter than this.
+# A mistake is not tested if the part of its unit vector that is perpendicular to all known vectors
+# is shorter than this.
 INDISTINCT = 1e-3
 
 

@@ -1,4 +1,4 @@
-"""The critical pressure: checks that no model is needed for, then the solution by the model."""
+"""The critical pressure: checks that do not depend on the model, and the solution by the model."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ TOLERANCE = 1e-6
 FIRST_TOLERANCE = 1e-4  # tolerance on the coarser mesh, whose root is only a first guess
 # A critical size less than this fraction above the lumen is not distinguished from the lumen.
 SMALLEST_CRITICAL_OVERSIZE = 2e-4
-SMALL_LIMIT = 100.0  # Pa; only below it may every stuck stone need more than the limit
+SMALL_LIMIT = 100.0  # Pa; every stuck stone may need more than a limit that is smaller than this
 LIMIT = (1.0, 1e6)
 
 
@@ -258,7 +258,8 @@ class _OneMesh:
     def excess(self, size_ratio: float, tried: dict[float, Answer]) -> float | None:
         """Return P_ucr minus the limit in Pa; None if it is not known.
 
-        If P_ucr does not exist because the closure ends, the pressure at its end is used instead.
+        If P_ucr does not exist because the closure ends, the pressure at its end is used instead,
+        provided that it is not below the limit.
         """
         answer = self.answer(size_ratio, tried)
         if answer.pressure is not None:

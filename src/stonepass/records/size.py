@@ -22,7 +22,7 @@ class SizeRecord(AnswerRecord):
     critical_size_ratio_error: float | None = Field(
         description=(
             "estimated error (±) of `critical_size_ratio`: the discretisation error of P_ucr "
-            "divided by dP_ucr/dξ"
+            "divided by dP_ucr/dξ, plus the tolerance of the search, 1e-6"
         )
     )
     critical_diameter_mm: float | None = Field(

@@ -13,7 +13,8 @@ from stonepass.studies.uncertain_quantity import UncertainQuantity
 __all__ = ["Draws", "draw", "sobol_points"]
 
 Draws = Mapping[str, Float[np.ndarray, " n"]]
-# If too few samples are accepted, the number of draws is multiplied by 2 to these powers in turn.
+# As long as too few samples are accepted, the first number of draws is multiplied by 2 to these
+# powers, one after the other.
 MORE_DRAWS = (0, 2, 4, 6)
 
 
@@ -36,7 +37,8 @@ def draw(
     keep : callable
         Function that returns an array (n) of bool: True for an accepted sample. Its first argument
         is the samples. Its second argument is an array (n) of independent random numbers, uniform
-        between 0 and 1. To accept a sample with the probability p, compare its number with p.
+        between 0 and 1. A sample is accepted with the probability p if it is accepted whenever its
+        number is below p.
 
     Returns
     -------

@@ -6,9 +6,10 @@ from typing import Any
 
 HEAD = """# Benchmark
 
-Written by `make bench`. One run on one machine, one thread for each solve; ratios are of processor
-time within the run. The same numbers as JSON: [data/benchmark.json](data/benchmark.json). What was
-made faster, and how: [speed.md](speed.md). What the deck is: [export.md](export.md)."""
+`make bench` writes this page. All numbers come from one run on one machine, with one thread for
+each solve. Ratios compare processor times of the same run. The file
+[data/benchmark.json](data/benchmark.json) has the same numbers. The page [Computing time](speed.md)
+explains what reduced the times, and [Export to other programs](export.md) describes the deck."""
 
 
 def page(found: dict[str, Any], sections: dict[str, str]) -> str:
@@ -34,7 +35,7 @@ def page(found: dict[str, Any], sections: dict[str, str]) -> str:
     phases = list(next(iter(columns.values())))
     parts += [
         "## Where the time goes",
-        "By the profiler, on one core, error estimate included.",
+        "The fractions are those of a profiler on one core. They include the error estimate.",
         table(["", *columns], [[p, *(column[p] for column in columns.values())] for p in phases]),
     ]
     return "\n\n".join(parts) + "\n"
@@ -47,35 +48,39 @@ def table(header: list[str], rows: list[list[str]]) -> str:
 
 def _about_peers() -> str:
     return (
-        "The latex tube, η 1.5, ξ 1.2, friction 0.475, solved by us at two accuracies, the state "
-        "alone and with the estimate of its error (a second, coarser solve, which CalculiX does "
-        "not have), and by CalculiX from the exported deck (elements of 0.025 R_a in the contact, "
-        "ν 0.499, penalty contact). Errors are against our `reference` accuracy; CalculiX's are "
-        "those of its penalty, its ν and its mesh. P_ucr is the paper's balance on each contact."
-        "\n\n"
-        "Ours is the processor time of a call in a running process, median of seven; CalculiX's is "
-        "that of its process, once, with the longer increments of two and one times the deck's own "
-        "that converged. A single cold answer costs our imports too: the rows at the end of the "
-        "table compare whole commands. A target stands at the cheapest of ours whose three errors "
-        "are no larger than CalculiX's."
+        "The case is a latex tube with η 1.5, ξ 1.2 and friction 0.475. stonepass solves it at two "
+        "accuracies, with and without the estimate of the discretisation error, which needs a "
+        "second, coarser solve. CalculiX has no such estimate. It solves the exported deck, with "
+        "elements of 0.025 R_a in the contact, ν 0.499 and penalty contact. The errors are "
+        "differences to the accuracy `reference` of stonepass; those of CalculiX come from its "
+        "penalty, its ν and its mesh. P_ucr is computed from each contact by the balance of the "
+        "paper.\n\n"
+        "The time of stonepass is the median processor time of seven calls in a running process. "
+        "The time of CalculiX is the processor time of one run. Two lengths of the increments were "
+        "tried, once and twice that of the deck, and the longer one that converged counts. A "
+        "single command of stonepass also has to load its libraries: the last rows of the table "
+        "compare whole commands. A target applies to the fastest solve of stonepass whose three "
+        "errors are no larger than those of CalculiX."
     )
 
 
 def _about_duels(settings: dict[str, list[Any]]) -> str:
     grid = "; ".join(f"{name} {', '.join(map(str, values))}" for name, values in settings.items())
     return (
-        "The exported deck is made to converge for every case. A deck that is tuned for one case "
-        "is cheaper: fewer rows, a coarser stone, larger increments. For the first case every deck "
-        f"of a grid was run ({grid}), and its cheapest ones on the other cases. A deck counts "
-        "where α₀ is within 0.5°, σ(90°) within 2 % and P_ucr within 1 % of our reference; the "
-        "cheapest that does stands here. The ratios are of those of ours whose three errors are no "
-        "larger than its own."
+        "The exported deck is designed to converge for every case. A deck that is tuned to one "
+        "case is faster: it has fewer rows, a coarser stone and larger increments. For the first "
+        f"case every deck of a grid was run ({grid}), and the fastest of them were run for the "
+        "other cases. A deck is accepted if α₀ is within 0.5°, σ(90°) within 2 % and P_ucr within "
+        "1 % of the reference of stonepass. The table has the fastest accepted deck of each case. "
+        "Ratios are given for solves of stonepass whose three errors are no larger than those of "
+        "the deck."
     )
 
 
 def _duels(rows: list[dict[str, Any]]) -> str:
-    header = ["case", "seating", "cheapest deck", "decks near enough", "CPU s", "error of α₀",
-              "of σ(90°)", "of P_ucr", "over ours, fast alone", "fast", "standard"]  # fmt: skip
+    header = ["case", "seating", "fastest accepted deck", "accepted", "CPU s", "error of α₀",
+              "of σ(90°)", "of P_ucr", "over `fast`, state alone", "`fast`",
+              "`standard`"]  # fmt: skip
     cells = []
     for row in rows:
         ratio = {name: f"{value:.0f} ×" for name, value in row["ratios"].items()}
@@ -92,8 +97,9 @@ def _duels(rows: list[dict[str, Any]]) -> str:
 
 def _about_scaling() -> str:
     return (
-        "Seated states on finer and finer meshes of the same kind, increments of the path kept; "
-        "the power is that of a line through all points of log time over log unknowns."
+        "Seated states are solved on meshes of increasing fineness, with the same increments of "
+        "the path. The exponent is the slope of a line through all points of log time over log "
+        "unknowns."
     )
 
 

@@ -302,14 +302,15 @@ def test_arrows_grow_with_the_pressure(rising):
 
 
 def test_all_frames_of_an_animation_have_the_same_axes(rising, tmp_path):
-    save_animation(rising, tmp_path / "a.gif")
+    ends = replace(rising, states=rising.states[::2])
+    save_animation(ends, tmp_path / "a.gif")
     frames = []
     with Image.open(tmp_path / "a.gif") as made:
         for k in range(made.n_frames):
             made.seek(k)
             frames.append(np.asarray(made.convert("RGB")))
             assert made.info["duration"] >= 400
-    assert len(frames) == 3
+    assert len(frames) == 2
     assert tuple(frames[0][-2, 1]) == (255, 255, 255)
     # Tick labels and labels on the left stay where they are; what is inside the axes changes.
     height = len(frames[0])

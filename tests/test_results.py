@@ -352,3 +352,13 @@ def test_progress_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
     sp.critical_curve(CASE, [1.1, 1.2])
     assert shown == ['<progress value="1" max="2"></progress> jobs: 1 of 2',
                      "jobs: 2 of 2"]  # fmt: skip
+
+
+def test_sizes_of_a_strip_are_text_or_quantities() -> None:
+    pint = pytest.importorskip("pint")
+    data = Path(__file__).parents[1] / "examples" / "latex_tensile.csv"
+    read = sp.read_tension(data, "10 mm", "1.2 mm")
+    assert read == sp.read_tension(data, sp.length("10 mm"), sp.length("1.2 mm"))
+    assert read == sp.read_tension(data, section=12 * pint.UnitRegistry().mm ** 2)
+    with pytest.raises(sp.BadInput, match="width is 10, but must be a length with its unit"):
+        sp.read_tension(data, 10, "1.2 mm")  # type: ignore[arg-type]

@@ -46,8 +46,8 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 HEAD = """# Verification
 
-Written by `make verify`: every number was measured by the run whose date and code stand below its
-section. `python verification/run.py NAME` renews one section."""
+`make verify` writes this page. The date and the code of the run that measured the numbers of a
+section stand below it. `python verification/run.py NAME` renews one section."""
 MARK = re.compile(r"^<!-- (\w+) -->$", re.MULTILINE)
 
 

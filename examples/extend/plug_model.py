@@ -37,7 +37,7 @@ class Plug:
     far_field_ground: bool = declared(
         Kind.FLAG,
         "--far-field-ground/--far-field-fibres",
-        "Whether the far field contains the ground matrix.",
+        "Include the ground matrix in the far field, or only the fibres.",
         default=False,
         shown_default="fibres",
     )

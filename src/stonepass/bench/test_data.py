@@ -17,7 +17,7 @@ from stonepass.io.csv_file import Columns, read_columns
 from stonepass.materials.protocol import Law
 from stonepass.materials.uniaxial import AXES
 from stonepass.model.ureter import Ureter
-from stonepass.units import Length
+from stonepass.units import Area, Length, area, length
 
 __all__ = ["Inflation", "Tension", "read_inflation", "read_tension"]
 
@@ -179,10 +179,10 @@ class Inflation:
 
 def read_tension(
     path: str | Path,
-    width: Length | None = None,
-    thickness: Length | None = None,
-    gauge_length: Length | None = None,
-    section: float | None = None,
+    width: str | Length | None = None,
+    thickness: str | Length | None = None,
+    gauge_length: str | Length | None = None,
+    section: str | Area | None = None,
 ) -> Tension:
     """Read the tension tests of strips from a CSV file.
 
@@ -192,13 +192,13 @@ def read_tension(
         CSV file with a column ``stretch`` or ``extension_mm``, and a column ``nominal_stress_kPa``
         or ``force_N``. An optional column ``axis`` has the direction of each strip, circumferential
         (the default) or axial.
-    width, thickness : Length, optional
-        Width and thickness of the strip at rest in m; needed if the file has forces.
-    gauge_length : Length, optional
-        Gauge length at rest in m; needed if the file has extensions. The stretch is
+    width, thickness : str, Length or pint.Quantity, optional
+        Width and thickness of the strip at rest, e.g. ``"10 mm"``; needed if the file has forces.
+    gauge_length : str, Length or pint.Quantity, optional
+        Gauge length at rest; needed if the file has extensions. The stretch is
         1 + extension/gauge_length.
-    section : float, optional
-        Cross-section of the strip at rest in m², instead of `width` and `thickness`.
+    section : str, Area or pint.Quantity, optional
+        Cross-section of the strip at rest, e.g. ``"12 mm2"``, instead of `width` and `thickness`.
 
     Returns
     -------
@@ -215,6 +215,13 @@ def read_tension(
     docs/bench.md, "The data".
     """
     path = Path(path)
+    width, thickness, gauge_length = (
+        None if each is None else length(each, name)
+        for name, each in (
+            ("width", width), ("thickness", thickness), ("gauge_length", gauge_length),
+        )
+    )  # fmt: skip
+    section = None if section is None else area(section, "section")
     along = "stretch" if gauge_length is None else "extension_mm"
     try:
         columns = _read_strips(path, along)
@@ -232,7 +239,7 @@ def read_tension(
     if across == "force_N":
         stress = columns["force_N"] / _section(path, width, thickness, section)
     else:
-        if not width is thickness is section is None:
+        if any(each is not None for each in (width, thickness, section)):
             raise BadInput("section of the strip", "given", "left out",
                            f"{path.name} has a column of stresses")  # fmt: skip
         stress = 1e3 * columns["nominal_stress_kPa"]

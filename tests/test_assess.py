@@ -441,7 +441,9 @@ def test_decisions_follow_the_samples(contradicting, tmp_path):
     assert [each.decided for each in asked] == sorted(each.decided for each in asked)
     assert len([each for each in asked if not each.decided]) >= 3
     held = contradicting.below_limit_held.describe()
-    assert any(f"it is below it in {held} of the simulated" in each.sentence for each in asked)
+    assert any(
+        f"it is below the limit in {held} of the simulated" in each.sentence for each in asked
+    )
     assert "stone diameter contributes most" in next_measurement(contradicting)
     certain = assess(patient(tmp_path), MadeUp())  # 10.5 kPa, exactly
     told = {each.sentence: each.decided for each in decisions(certain)}

@@ -208,7 +208,7 @@ def test_the_constructor_of_a_value_reads_no_file(tmp_path):
         Ureter(wall_ratio=1.3, material=f"{law}:energy")
     with pytest.raises(BadInput, match="load_material"):
         Ureter(wall_ratio=1.3, material="law.toml")
-    with pytest.raises(BadInput, match="Python that runs"):
+    with pytest.raises(BadInput, match="a Python file that runs"):
         sp.load_material(f"{law}:energy")
 
 

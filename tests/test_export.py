@@ -394,12 +394,12 @@ def test_results_that_are_cut_or_scribbled_on_are_refused_or_say_the_same(faked)
     ],
 )
 def test_results_of_another_case_are_refused(faked, other_case):
-    with pytest.raises(BadInput, match="those of this case's input deck"):
+    with pytest.raises(BadInput, match="that of this case's input deck"):
         read_contact(seating(other_case, 0.02), faked[1])
 
 
 def test_results_of_another_mesh_are_refused(seated, faked):
-    with pytest.raises(BadInput, match="those of this case's input deck"):
+    with pytest.raises(BadInput, match="that of this case's input deck"):
         read_contact(seating(seated.case, 0.0201), faked[1])
 
 
@@ -470,7 +470,7 @@ def test_compare_puts_results_beside_our_own(faked, tmp_path, capsys):
     assert run(["compare", *given]) == 0
     assert "CalculiX" in capsys.readouterr().out
     assert run(["compare", *given, "--fine", "0.03"]) == 2
-    assert "those of this case's input deck" in capsys.readouterr().err
+    assert "that of this case's input deck" in capsys.readouterr().err
 
 
 # --- CalculiX itself

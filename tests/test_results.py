@@ -190,7 +190,7 @@ def test_a_curve_is_a_sequence() -> None:
         (lambda: sp.critical_pressure(URETER, CASE.stone),
          'stone is a Ureter, but must be a Stone; write it like Stone(diameter="4.2 mm").'),
         (lambda: sp.critical_pressure(CASE.stone),
-         "ureter is missing, but must be given beside the stone; write critical_pressure(stone, "
+         "ureter is missing, but must be given in addition to the stone; write critical_pressure(stone, "
          "ureter), or critical_pressure(case)."),
         (lambda: sp.critical_pressure(CASE.stone, URETER, model="direct"),
          "model is direct, but must be a Model; write it like PushThrough()."),

@@ -191,7 +191,7 @@ def test_a_law_of_ones_own_is_refused_where_laws_are_limited(writer, tmp_path):
         assert sum("law" in each.limits for each in ALL) >= 3
         return
     told = refused(case(law=OWN), tmp_path / f"x{writer.ending}")
-    assert told.startswith("law is a law of one's own, but must be")
+    assert told.startswith("law is a user-defined law, but must be")
     assert "yeoh" in told
 
 

@@ -38,8 +38,9 @@ def disagreement(comparison: Comparison, fitted: int) -> list[Caution]:
     Returns
     -------
     list of Caution
-        The list is empty if the errors explain the residuals. It is also empty if the errors are
-        unknown, because neither standard deviations nor repeated points are given.
+        The list is empty if the errors explain the residuals. It is also empty if the test is
+        impossible: the errors are unknown, because neither standard deviations nor repeated points
+        are given, or there are no more compared points than fitted parameters.
 
     References
     ----------

@@ -1,9 +1,10 @@
 """Stress of a strip and pressure of a tube, also for constants that make the law unstable.
 
-During a fit the search passes through constants for which the law is not stable. The prediction is
-the stress or pressure in equilibrium there too, whether or not that equilibrium is stable, so that
-it is a smooth function of the constants. All points are evaluated at once. Derivatives are taken by
-the complex-step method, which is exact to rounding for the analytic functions of the known laws.
+During a fit the search passes through constants for which the law is not stable. For these
+constants too, the prediction is the stress or pressure in equilibrium, even if the equilibrium is
+unstable. The prediction is therefore a smooth function of the constants. All points are evaluated
+at once. Derivatives are taken by the complex-step method, which is exact to rounding for the
+analytic functions of the known laws.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from stonepass.strain import INNER_WALL, CauchyGreen
 __all__ = ["strip_stress", "tube_pressure"]
 
 STEPS = 60  # largest number of Newton steps
-# Newton's method has converged when a step of ln b is below this; the error is then 1e-5 of it.
+# Newton's method has converged when a step of ln b is below this. The remaining error of ln b is
+# then about 1e-5 times that step.
 TOLERANCE = 1e-7
 LARGEST_STEP = 0.1  # largest change of the logarithm of the lateral stretch in one step
 IMAGINARY = 1e-30  # imaginary step; no difference is formed, so that no digits cancel

@@ -36,7 +36,7 @@ def confidence_band(
     Returns
     -------
     array (n)
-        Half-width in Pa at each point of the data.
+        Half-width in Pa at each point of the data; 0 if there are no more points than constants.
 
     References
     ----------

@@ -20,12 +20,15 @@ __all__ = ["check_inflation", "check_tension", "inner_ratio"]
 
 STRETCH = (0.1, 15.0)  # smallest and largest stretch that any rubber survives
 LARGEST_STRESS = 1e10  # Pa
-# Largest fraction of Σ |load × strain| whose sign may be wrong, by noise or an offset near rest.
+# Products load × strain are positive except for noise or an offset near rest. Data are refused if
+# the negative products are a larger fraction of Σ |load × strain| than this.
 WRONG_SHARE = 0.05
-# The fraction for a tube under axial stretch, whose width without pressure is only estimated.
+# This fraction is larger for a tube under axial stretch, since its diameter without pressure is not
+# measured but estimated.
 WRONG_SHARE_STRETCHED = 0.2
-FARTHEST_START = 2.0  # largest first stretch of data that are taken to begin at rest
-FARTHEST_TUBE = 1.7  # largest first radius, over the radius at rest, of such data of a tube
+# Data should begin near the state at rest. They are refused if the smallest stretch of the strips,
+# or the smallest diameter of the tube divided by that at rest, is larger than this.
+FARTHEST_START, FARTHEST_TUBE = 2.0, 1.7
 STRAINS = "a stretch is the length divided by that at rest: 1 + strain, or 1 + per cent/100"
 
 

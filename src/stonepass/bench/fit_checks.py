@@ -58,9 +58,9 @@ def check_enough(data: Data, free: Sequence[str]) -> None:
 def check_told(objective: Objective, search: Search) -> None:
     """Refuse constants that this kind of test cannot identify, whatever their values are.
 
-    The data do not identify the constants separately if a combination of relative changes of them
-    leaves every prediction as it is. The constants are refused only if this is so at every starting
-    point of the search, since at one point alone it may be a coincidence.
+    The constants cannot be identified separately if some combination of relative changes of them
+    leaves every prediction unchanged. The constants are refused only if such a combination exists
+    at every starting point of the search, since at a single point it may be a coincidence.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
     noise = float(off @ off) / (len(off) - count)
     if explained < noise * float(f_distribution.ppf(LEVEL, count, len(off) - count)):
         raise BadInput(law_of, f"no better than chance, R² = {r_squared:.3g}",
-                       "significant beside the scatter of the data (F test, 5 %)",
+                       "significant compared with the scatter of the data (F test, 5 %)",
                        remedy)  # fmt: skip
     named = {dict(each.values)["name"] for each in told}
     inside = [each for each in search.free if each not in named]

@@ -103,7 +103,7 @@ def best_fit(objective: Objective, search: Search, relative: bool) -> tuple[Obje
     search : Search
         Constants and starting points.
     relative : bool
-        Whether the errors are proportional to the predicted values.
+        True if the errors are proportional to the predicted values.
 
     Returns
     -------

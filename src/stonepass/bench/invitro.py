@@ -1,8 +1,8 @@
 """Fit of the friction coefficient to a measured series of critical pressures.
 
-A stiffer wall and a larger friction coefficient both raise P_ucr. Their effects differ only in how
-they depend on sizes, walls and loads, so that a second fit, of friction and stiffness together,
-shows how well the series determines both.
+A stiffer wall and a larger friction coefficient both raise P_ucr. The two effects can be separated
+only because they vary differently with the size of the stone, the wall and the load. A second fit,
+of friction and stiffness together, shows how well the series determines both.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ class InVitro(Result):
     setting : Setting
         Material, confinement, model and numerics.
     weighted : bool
-        Whether each residual is weighted by the standard deviation of its point.
+        True if every residual is weighted by the standard deviation of its point.
     warnings : tuple of Caution
         Warnings; those after which the fitted numbers must not be used come first.
     """
@@ -181,7 +181,7 @@ def fit_friction(
     ------
     BadInput
         The model has an answer for fewer than two points, a standard deviation is 0, all pressures
-        are 0, or the model is the beam.
+        are 0, `friction` is out of bounds, or the model is the beam.
 
     References
     ----------

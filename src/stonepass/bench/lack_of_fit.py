@@ -40,7 +40,8 @@ SMALL_PART = 1e-4  # relative change of a size at rest, for a difference quotien
 # Stretches up to which a strip may be slack; each is tried.
 SLACK = (1.01, 1.02, 1.03, 1.04, 1.05, 1.07, 1.1, 1.14, 1.2)
 FEWEST_OF_TOE = 2  # smallest number of points on the slack part of the curve
-# A mistake is not tested if less than this part of its unit vector is independent of known ones.
+# A mistake is not tested if the part of its unit vector that is perpendicular to all known vectors
+# is shorter than this.
 INDISTINCT = 1e-3
 
 
@@ -52,9 +53,9 @@ _Shift: TypeAlias = Float[np.ndarray, " n"]
 class _Mistake:
     """A kind of mistake and the k vectors along which it changes the residuals.
 
-    The function `told` returns the caution. Its arguments are the coefficients of the vectors, the
-    part of the residuals that the vectors explain in addition to the fitted constants, and the
-    p-value of the test.
+    The function `told` returns the caution. It has three arguments: the coefficients of the k
+    vectors; the part of the residuals that these vectors explain and the fitted constants do not;
+    and the p-value of the test.
     """
 
     code: str
@@ -255,7 +256,7 @@ def _shape(
 ) -> _Mistake:
     """Return the mistake of a wrong law: predictions multiplied by a parabola over the abscissa.
 
-    Any smooth law near the fitted one differs from it by about such a factor.
+    The quotient of the predictions of two similar, smooth laws is approximately a parabola.
     """
     x = data.abscissa
     u = (2.0 * x - x.min() - x.max()) / np.ptp(x)

@@ -55,7 +55,7 @@ class Constant:
         Lower and upper end of the 95 % confidence interval. Both are None if the constant was
         given; one is None if the data do not bound the constant on that side.
     given : bool
-        Whether the constant was given instead of fitted.
+        True if the constant was given instead of fitted.
     """
 
     name: str
@@ -156,7 +156,7 @@ def fit_law(
     name : str
         Name of the fitted material.
     relative : bool
-        Whether the measuring errors are proportional to the predicted values. By default they have
+        True if the measuring errors are proportional to the predicted values. By default they have
         the same size at all points. The intervals are right only if this choice is right.
     free : sequence of str
         Names of constants to be fitted although they normally keep their default value. Examples
@@ -170,9 +170,10 @@ def fit_law(
     Raises
     ------
     BadInput
-        The law or a constant is unknown, there are no more points than constants, the data do not
-        identify some constants separately, a constant ends at a bound of the search, or the law
-        describes the data no better than chance.
+        The law or a constant is unknown, no constant is to be fitted, there are no more points than
+        constants, all points have the same stretch or the same load, the data do not identify some
+        constants separately, a constant ends at a bound of the search, or the law describes the
+        data no better than chance.
 
     References
     ----------
@@ -246,7 +247,7 @@ def _doubts(
     *,
     proportional: bool,
 ) -> list[Caution]:
-    """Test for lack of fit; the errors are taken as proportional if the residuals look like it."""
+    """Test for lack of fit with errors of constant size, or with `proportional` errors."""
     spread = objective.spread
     if proportional:
         spread = proportional_spread(objective.predicted(values))

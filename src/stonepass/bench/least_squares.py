@@ -118,9 +118,10 @@ def _profiled(
 def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, Interval] | None:
     """Return Student's t intervals, or None if χ² is not a parabola out to their ends.
 
-    At an end of the interval of one parameter the others follow it according to the covariance
-    matrix. If χ² is a parabola, it has the value `profile_level` there. The search bounds of the
-    other parameters are ignored here, so that an interval may be too wide but not too narrow.
+    For each end of the interval of a parameter, the other parameters are set to the values that
+    minimise χ² according to the covariance matrix. If χ² is a parabola, it has the value
+    `profile_level` there. The search bounds of the other parameters are ignored, so that an
+    interval may be too wide but not too narrow.
     """
     if result.covar is None or not np.all(np.isfinite(result.covar)):
         return None

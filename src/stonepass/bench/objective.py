@@ -16,10 +16,12 @@ __all__ = ["SPAN", "Data", "Objective", "at_an_end", "starting_parameters", "sti
 
 NUMBER = (1e-6, 1e3)  # widest search range of a positive dimensionless constant
 ANY_SIGN = (-1e2, 1e2)  # widest search range of a dimensionless constant that may be negative
-SPAN = 1e6  # largest modulus of the search over the first guess
+SPAN = 1e6  # largest modulus of the search, divided by the first guess of the shear modulus
 IMPOSSIBLE = 1e3  # residual where the law predicts no stress, and largest residual
 STEP = 1e-5  # relative step of a constant in difference quotients
-LEAST = 1e-3  # least magnitude of a constant in a relative change, over a typical constant
+# Relative changes of a constant refer to its magnitude, but at least to this fraction of a typical
+# constant.
+LEAST = 1e-3
 AT_END = 1e-3  # relative distance from a search bound within which a constant lies at the bound
 
 
@@ -121,18 +123,18 @@ class Objective:
     def sensitivities(
         self, values: Mapping[str, float], free: Sequence[str]
     ) -> Float[np.ndarray, "n free"]:
-        """Compute the derivatives of the residuals by relative changes of the constants.
+        """Compute the derivatives of the residuals for relative changes of the constants.
 
-        Column k is the derivative of the residuals with respect to ln |constant k|. For a constant
-        near zero the relative change refers to 1e-3 of a typical constant instead, since the column
-        would otherwise vanish.
+        Column k is the derivative of the residuals with respect to constant k, multiplied by the
+        magnitude of that constant. A magnitude below 1e-3 of a typical constant is replaced by that
+        value, since the column would otherwise vanish.
 
         Parameters
         ----------
         values : mapping of str to float
             Constants of the law in SI units.
         free : sequence of str
-            Names of the constants by which the residuals are differentiated.
+            Names of the constants with respect to which the residuals are differentiated.
 
         Returns
         -------
@@ -154,7 +156,10 @@ class Objective:
 
 
 def stiffness_guess(data: Data) -> float:
-    """Guess a shear modulus in Pa: a third of the median of measured stress over strain."""
+    """Guess a shear modulus in Pa: a third of the median of |stress or pressure|/|strain|.
+
+    The median is taken over the points with more than a fifth of the largest strain.
+    """
     strain = np.abs(data.abscissa - 1.0)
     loaded = strain > 0.2 * strain.max()
     return float(max(np.median(np.abs(data.observed[loaded]) / strain[loaded]) / 3.0, 1e-3))

@@ -72,7 +72,10 @@ class OverFriction:
         return max(float(1.0 / most + slope), 0.0)
 
     def __call__(self, mu: Values) -> Values:
-        """Return P_ucr in Pa at friction μ, extrapolated linearly beyond the solved range."""
+        """Return P_ucr in Pa at friction μ, but at most `end`.
+
+        Above the largest solved friction coefficient P_ucr is extrapolated linearly.
+        """
         most = max(self.friction)
         inside = np.minimum(mu, most)
         value = inside * np.exp(np.polyval(self.coefficients, np.sqrt(inside)))

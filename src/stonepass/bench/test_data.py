@@ -86,9 +86,11 @@ class Tension:
         return {"rest_size": lambda part: replace(self, stretch=self.stretch * (1.0 + part))}
 
     def taut_from(self, stretch: float) -> Tension:
-        """Return the data with the length at which the strips become taut as length at rest.
+        """Return the data corrected for strips that are slack up to a stretch.
 
-        Points with a smaller stretch keep the stretch 1, at which a strip carries no load.
+        The length at which the strips become taut becomes the length at rest, so that all stretches
+        are divided by `stretch`. A point at which a strip was slack gets the stretch 1, at which it
+        carries no load. Stretches below 1 are unchanged.
         """
         loose = np.minimum(self.stretch, 1.0)
         return replace(self, stretch=np.maximum(self.stretch / stretch, loose))

@@ -30,7 +30,8 @@ from stonepass.studies.sensitivity_indices import SensitivityIndex, rank_sensiti
 
 __all__ = ["assess"]
 
-# Opening r_a/R_a up to which the present pressure is computed; beyond it is a lower bound.
+# Largest r_a/R_a at which the present pressure is computed. In wider samples the pressure at this
+# radius is a lower bound.
 WIDEST = 1.0 + OVERSIZE[1]
 SIZES = np.arange(1.0, 10.01, 0.5)  # stone diameters in mm at which the fraction is computed
 SAMPLES = "the simulated input combinations"  # name of the samples in sentences
@@ -57,8 +58,8 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     Raises
     ------
     BadInput
-        The material is unstable, or almost no sample of the measurements is consistent with a wall
-        of constant volume.
+        The material is unstable, the model does not use finite elements, or fewer than 100 samples
+        of the measurements describe a possible wall (see `draws.draw_patient`).
 
     References
     ----------
@@ -69,7 +70,8 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     case = patient.case()
     draws, possible = draw_patient(patient)
     at_values = solver.answers([case])[0]
-    under_load = replace(case, load=patient.load)  # samples divide the load by their own stiffness
+    # `conditions` divides the confining pressure of each sample by the stiffness of that sample.
+    under_load = replace(case, load=patient.load)
     present = _present(patient, under_load, draws)
     surface = response_surface(under_load, conditions(draws), solver)
     known = Assessment(

@@ -40,8 +40,9 @@ class Assessment(Result):
     message : str
         The outcome as a sentence.
     at_values : Answer
-        Answer at the measured values, for the stiffness of the material and the confining pressure
-        divided by the measured relative stiffness.
+        Answer at the measured values, except that the wall has the stiffness of the material, and
+        the confining pressure is divided by the measured relative stiffness s. P_ucr at the
+        measured values is s times the pressure of this answer.
     cohorts : tuple of Row
         Published passage rates of stones of this size and place.
     critical : Range or None
@@ -139,7 +140,10 @@ class Assessment(Result):
 
     @property
     def fraction_noise(self) -> float:
-        """Standard error of the fraction below the limit that is due to the number of samples."""
+        """Standard error of the fraction below the limit that is due to the number of samples.
+
+        It is 0 if there is no such fraction.
+        """
         return 0.0 if self.below_limit is None else self.below_limit.noise(self.patient.samples)
 
     @property

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 __all__ = ["COHORTS", "PLACES", "Cohort", "Rate", "Row", "place_meant", "rows_for", "wilson"]
 
 PLACES = ("proximal", "mid", "distal", "UVJ")
-# Other words for the places, as far as they have one meaning.
+# Other words for the places; only words with a single meaning are listed.
 _OTHER_WORDS = {
     "upper": "proximal", "upj": "proximal", "pelviureteric junction": "proximal",
     "ureteropelvic junction": "proximal", "middle": "mid", "lower": "distal",

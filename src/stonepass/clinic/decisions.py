@@ -9,8 +9,8 @@ from stonepass.clinic.fractions import Fraction, Range
 
 __all__ = ["CONTRADICTIONS", "Decision", "decisions", "next_measurement"]
 
-# A question is decided if its answer is the same in at least this fraction of the samples. Each end
-# of a 90 % interval leaves the same fraction on its side.
+# A question is decided if its answer is the same in at least this fraction of the samples. The same
+# fraction of the samples lies above the lower end of a 90 % interval, and below its upper end.
 DECIDED = 0.95
 # Codes of cautions about contradictions between the measurements, or with the model.
 CONTRADICTIONS = ("inputs_contradict", "samples_loose")
@@ -25,7 +25,7 @@ class Decision:
     Attributes
     ----------
     decided : bool
-        Whether the measurements decide the question within the model.
+        True if the measurements decide the question within the model.
     sentence : str
         The answer with its numbers, or the statement that the question is undecided.
     """
@@ -70,12 +70,14 @@ def _limit(found: Assessment) -> Decision | None:
     among = "" if found.loose == 0.0 else " in which the stone is held"
     share = f"in {fraction.describe()} of the simulated input combinations{among}"
     if fraction.low >= DECIDED:
-        return Decision(True, f"The critical pressure is below {limit}: it is so {share}.")
+        return Decision(True, f"The critical pressure is below {limit}: this holds {share}.")
     if fraction.high <= 1.0 - DECIDED:
-        return Decision(True, f"The critical pressure is above {limit}: it is below it {share}.")
+        return Decision(
+            True, f"The critical pressure is above {limit}: it is below the limit {share}."
+        )
     return Decision(
         False,
-        f"Whether the critical pressure is below or above {limit}: it is below it {share}"
+        f"Whether the critical pressure is below or above {limit}: it is below the limit {share}"
         f"{_interval(found.critical)}.",
     )
 

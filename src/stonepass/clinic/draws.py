@@ -19,9 +19,10 @@ FEWEST = 100  # smallest number of accepted samples
 def draw_patient(patient: Patient) -> tuple[Draws, float]:
     """Draw samples of all inputs of a patient.
 
-    If both diameters of the dilated segment were measured, a sample is accepted with a probability
-    proportional to the likelihood of its outer diameter, given the constant volume of the wall. If
-    few samples are accepted, more are drawn.
+    A sample is rejected if its wall ratio is outside the bounds of a case. If both diameters of the
+    dilated segment were measured, it is accepted with a probability proportional to the likelihood
+    of its outer diameter, given the constant volume of the wall. If few samples are accepted, more
+    are drawn.
 
     Parameters
     ----------
@@ -39,7 +40,8 @@ def draw_patient(patient: Patient) -> tuple[Draws, float]:
     Raises
     ------
     BadInput
-        Fewer than 100 samples are accepted.
+        Fewer than 100 samples are accepted, or both diameters of the dilated segment are given and
+        the outer one is exact.
 
     References
     ----------

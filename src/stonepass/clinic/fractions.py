@@ -22,7 +22,8 @@ __all__ = [
 ]
 
 INTERVAL = (0.05, 0.5, 0.95)  # quantiles of the interval and the median
-# Largest relative change of a quantile that is stated if censored values are raised to infinity.
+# A quantile is stated only if replacing the censored values by infinity changes it by at most this
+# fraction.
 AGREE = 0.02
 MORE, FEWER, NEAR = "more than in the model", "fewer than in the model", "near the model"
 UNDECIDED = "undecided by the model"
@@ -95,7 +96,7 @@ class Present:
     pressure : array (n)
         Urine pressure in Pa.
     censored : array (n) of bool
-        Whether the pressure is only a lower bound.
+        True for a sample whose pressure is only a lower bound.
     opening : array (n)
         Radius ratio r_a/R_a of the dilated segment.
 
@@ -119,9 +120,9 @@ class Samples:
     critical : array (n)
         Critical pressure P_ucr in Pa.
     censored : array (n) of bool
-        Whether P_ucr is only a lower bound.
+        True for a sample whose P_ucr is only a lower bound.
     loose : array (n) of bool
-        Whether the stone is not larger than the lumen, so that P_ucr = 0.
+        True for a sample in which the stone is not larger than the lumen, so that P_ucr = 0.
     size_ratio : array (n)
         Size ratio ξ.
     diameter : array (n)
@@ -175,7 +176,7 @@ def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) 
     values : array (n)
         Values in Pa.
     censored : array (n) of bool
-        Whether a value is only a lower bound.
+        True for a value that is only a lower bound.
 
     References
     ----------
@@ -205,7 +206,7 @@ def median_noise(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n
     values : array (n)
         Values in Pa.
     censored : array (n) of bool
-        Whether a value is only a lower bound.
+        True for a value that is only a lower bound.
 
     Returns
     -------

@@ -40,7 +40,7 @@ LONGEST_TITLE = 120  # largest number of characters of a title
 # Values that are assumed if the file does not give friction and stiffness, which are not measured
 # in patients.
 ASSUMED_FRICTION, ASSUMED_STIFFNESS = "0.05 to 0.5", "1 ± 0.3"
-# Names in the file, by their title, of the inputs that a patient file shares with case files.
+# Names in the patient file, by title, of the inputs that it has in common with case files.
 SHARED_WORDS = {
     each.title: f"'{key}'"
     for key, each in all_inputs().items()
@@ -113,7 +113,7 @@ class Patient:
 
     @property
     def dilated(self) -> bool:
-        """Whether the segment above the stone was measured."""
+        """True if the segment above the stone was measured."""
         return "dilated_inner_diameter" in self.measured
 
     def with_limit(self, limit: str | Pressure) -> Patient:

@@ -1,4 +1,4 @@
-"""Export of a case to a file for another program, for Python and for the command line."""
+"""Export of a case to a file for another program; Python and the command line use it."""
 
 from __future__ import annotations
 

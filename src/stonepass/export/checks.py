@@ -17,8 +17,8 @@ if TYPE_CHECKING:  # loads NumPy and SciPy
 
 __all__ = ["check_case", "checked_options", "checked_value", "find_writer", "names_of"]
 
-OWN_LAW = "a law of one's own"
-WITH_OPTIONS = ("model", "seating")  # kinds that are named by an option in messages
+OWN_LAW = "a user-defined law"
+WITH_OPTIONS = ("model", "seating")  # kinds of limits for which messages name the option
 
 
 def find_writer(writers: Sequence[Writer], path: Path, format: str | None, words: Words) -> Writer:

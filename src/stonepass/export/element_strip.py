@@ -45,11 +45,12 @@ def element_strip(
     place : Profile
         Meridian of the stone in its final position, in inner radii.
     open_to : float
-        Largest radius of the strip in its initial position plus `CLEARANCE`, in inner radii.
+        Radius of the opening that the strip must fit into at the start, in inner radii. The largest
+        radius of the strip is then smaller by `CLEARANCE`.
     edges : (float, float)
         Guessed axial positions z of the upstream and downstream contact edge, in inner radii.
     whole : bool
-        Whether the wall is the whole tube. For half a tube the strip starts a little beyond the
+        True if the wall is the whole tube. For half a tube the strip starts a little beyond the
         plane of symmetry.
     column : float
         Largest angle of one element of the strip in rad.

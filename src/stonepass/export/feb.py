@@ -70,7 +70,7 @@ def write_feb(seating: Seating) -> str:
 def _header(s: Seating) -> str:
     lines = (
         *s.heading(),
-        f"units mm, mN, kPa; a wedge of {np.degrees(WEDGE):g} degrees about z, in front of y = 0",
+        f"units mm, mN, kPa; a wedge of {np.degrees(WEDGE):g} degrees about z, from y = 0 to y > 0",
         DISCLAIMER,
     )
     plain = (line.encode("ascii", "replace").decode().replace("--", "- -") for line in lines)

@@ -37,13 +37,14 @@ def fung_constants(law: Fung) -> dict[str, float]:
 
     FEBio's energy is Ψ = c/2 (exp Q̃ − 1) with c Q̃ = Σ λ_ab E_aa E_bb + Σ 2 μ_a (E²)_aa. The matrix
     λ + 2μ is the inverse of the compliance matrix with the elements 1/E_a and −ν_ab/E_a (FEBio
-    manual, "Fung orthotropic"). All G_ab are 0 here, so that all μ_a are 0. The block of θ and z of
-    λ must be c [a1111, a1122; a1122, a2222]. Its inverse, [a2222, −a1122; −a1122, a1111]/(c D) with
-    D = a1111 a2222 − a1122², gives E2, E3 and v23.
+    manual, "Fung orthotropic"). All G_ab are 0 here, so that all μ_a are 0. The 2 × 2 block of λ
+    for the directions θ and z must be c [a1111, a1122; a1122, a2222], written row by row. The
+    inverse of this block is [a2222, −a1122; −a1122, a1111]/(c D) with D = a1111 a2222 − a1122². Its
+    elements are 1/E2, −v23/E2 and 1/E3.
 
-    The law has no radial stiffness, but FEBio requires E1 > 0. With E1 = c ε a1111 and
-    ε = `VANISHING`, Q̃ is too large by ε a1111 E_rr², and the energy is too large by less than
-    C/2 exp(Q) times that, to first order.
+    The law has no radial stiffness, but FEBio requires E1 > 0. The value E1 = c ε a1111 with
+    ε = `VANISHING` adds ΔQ = ε a1111 E_rr² to the exponent. To first order it adds C/2 exp(Q) ΔQ
+    to the energy.
 
     Parameters
     ----------
@@ -104,7 +105,7 @@ def add_wall_material(parent: Element, law: Law, **attributes: str) -> None:
     """
     if type(law) not in FEBIO:
         *others, last = (name for name, each in KNOWN_LAWS.items() if each in FEBIO)
-        named = name_of_law(law) or "a law of one's own"
+        named = name_of_law(law) or "a user-defined law"
         allowed = f"{', '.join(others)} or {last} in a file for FEBio"
         raise BadInput("law", named, allowed, "write its constants as one of these")
     FEBIO[type(law)](parent, law, {"k": bulk_modulus(law)}, attributes)

@@ -47,11 +47,11 @@ class Grid:
         return self.numbers.shape[1] // 2
 
     def row_line(self, index: int) -> Int[np.ndarray, " nodes"]:
-        """Return the nodes along the first (0) or last (−1) line of the first index."""
+        """Return the nodes on the first (`index` 0) or last (−1) grid line along the rows."""
         return self.numbers[index]
 
     def column_line(self, index: int) -> Int[np.ndarray, " nodes"]:
-        """Return the nodes along the first (0) or last (−1) line of the second index."""
+        """Return the nodes on the first (`index` 0) or last (−1) grid line along the columns."""
         return self.numbers[:, index]
 
 

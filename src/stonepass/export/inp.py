@@ -94,7 +94,7 @@ def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
     yield from _elements(s.wall, 1, 1)
     first = len(s.wall.cells) + 1
     if has_overlaid_matrix(s.case.ureter.material.law):
-        yield "** ground matrix: copies of the wall elements, which alone constrain the volume"
+        yield "** ground matrix: copies of the wall elements; only the originals keep the volume"
         yield f"*ELEMENT, TYPE={element}, ELSET=MATRIX"
         yield from _elements(s.wall, first, 1)
         first += len(s.wall.cells)

@@ -92,7 +92,7 @@ def _law(law: Law, D1: float, flavour: str) -> Iterator[str]:
     if type(law) in known:
         yield from known[type(law)](law, D1)
         return
-    named = name_of_law(law) or "a law of one's own"
+    named = name_of_law(law) or "a user-defined law"
     *others, last = (name for name, each in KNOWN_LAWS.items() if each in known)
     program = "Abaqus" if flavour == "abaqus" else "CalculiX"
     elsewhere = "--flavour abaqus and --format feb have " if type(law) in ABAQUS else ""

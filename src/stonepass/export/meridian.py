@@ -50,7 +50,7 @@ def meridian(wall: Field, *, mirrored: bool) -> Meridian:
     wall : Field
         Solved wall of half a tube or of a whole one.
     mirrored : bool
-        Whether the wall is half a tube, whose mirror image is to be added.
+        True if the wall is half a tube, whose mirror image is to be added.
     """
     count = round(np.sqrt(wall.r.shape[1]))
     kept = np.array([0, count // 2, count - 1])

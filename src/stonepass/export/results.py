@@ -51,8 +51,8 @@ def read_contact(seating: Seating, path: Path) -> Contact:
     Raises
     ------
     BadInput
-        The file does not contain the results at the end of the last step, or it contains results of
-        another input deck.
+        The file does not contain the results at the end of the last step, it contains results of
+        another input deck, or the wall in it does not touch the stone.
 
     References
     ----------
@@ -66,7 +66,7 @@ def read_contact(seating: Seating, path: Path) -> Contact:
     first = 1 if seating.whole else 0
     sound = len(touching) > 0 and first <= touching[0] and touching[-1] < len(angle) - 1
     sound = sound and bool(np.all(np.diff(angle[touching[0] : touching[-1] + 2]) > 0.0))
-    require(sound, "results", path.name, "those of a wall that touches the stone of this case "
+    require(sound, "results file", path.name, "that of a wall that touches the stone of this case "
             "between the ends of the tube")  # fmt: skip
     low = _crossing(angle, overlap, int(touching[0])) if seating.whole else angle[0]
     high = _crossing(angle, overlap, int(touching[-1]) + 1)
@@ -86,7 +86,8 @@ def _last_blocks(path: Path, fingerprint: str) -> dict[str, list[list[float]]]:
     """Return the rows of the last block of displacements and of contact stresses in the file."""
     found: dict[str, list[list[float]]] = {}
     kind = None
-    for number, line in enumerate(read_text(path, MOST, KIND, "results").splitlines(), start=1):
+    text = read_text(path, MOST, KIND, "results file")
+    for number, line in enumerate(text.splitlines(), start=1):
         header = HEADER.match(line)
         if header is not None:
             kind = next((kind for kind in COLUMNS if kind in line), None)
@@ -94,20 +95,21 @@ def _last_blocks(path: Path, fingerprint: str) -> dict[str, list[list[float]]]:
                 ours = f"INNER_{fingerprint} " in line
                 require(
                     ours,
-                    "results",
+                    "results file",
                     path.name,
-                    f"those of this case's input deck, {fingerprint}",
+                    f"that of this case's input deck, {fingerprint}",
                     OF_THIS,
                 )
             # The file of an interrupted run ends before the end of the last step.
-            require(_is(header[1], END), "results", path.name, f"at time {END:g}, not {header[1]}",
+            require(_is(header[1], END), "results file", path.name, "one with results at time "
+                    f"{END:g} only, not at {header[1]}",
                     "let CalculiX complete both steps of the input deck")  # fmt: skip
             if kind is not None:
                 found[kind] = []
         elif line.strip() and kind is not None:
             found[kind].append(_numbers(line, COLUMNS[kind], f"{path.name}, line {number}"))
     for kind, what in ((DISPLACEMENTS, "displacements of INNER"), (STRESSES, "contact stresses")):
-        require(bool(found.get(kind)), "results", path.name, f"{KIND} with {what}",
+        require(bool(found.get(kind)), "results file", path.name, f"{KIND} with {what}",
                 "let CalculiX complete both steps of the input deck")  # fmt: skip
     return found
 
@@ -126,7 +128,7 @@ def _numbers(line: str, count: int, where: str) -> list[float]:
     except ValueError:
         row = []
     good = len(row) == count and all(math.isfinite(value) for value in row)
-    require(good, f"in {where}, results", line.strip(), f"{count} numbers")
+    require(good, f"in {where}, row of results", line.strip(), f"{count} numbers")
     return row
 
 
@@ -138,9 +140,9 @@ def _inner_wall(
     moved = {int(number): (u, w) for number, u, w, _ in rows}
     require(
         sorted(int(row[0]) for row in rows) == sorted((nodes + 1).tolist()),
-        "results",
+        "results file",
         path.name,
-        f"those of this case's input deck, {len(nodes)} nodes on the inner wall",
+        f"that of this case's input deck, with {len(nodes)} nodes on the inner wall",
         OF_THIS,
     )
     shift = np.array([moved[int(node) + 1] for node in nodes]) * MM / seating.inner_radius
@@ -166,7 +168,7 @@ def _means(
     edges: tuple[float, float],
     path: Path,
 ) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
-    """Return angle and mean pressure in Pa of each element that touches.
+    """Return angle and mean pressure in Pa of each wall element that touches the stone.
 
     The angle is that of the middle of the part in contact; the pressure is averaged over the
     integration points of the element.
@@ -177,8 +179,8 @@ def _means(
     touched = np.flatnonzero((corners[1:] > edges[0]) & (corners[:-1] < edges[1]))
     full = [c for c in touched if edges[0] <= corners[c] and corners[c + 1] <= edges[1]]
     whole = set(full) <= set(columns) <= set(range(seating.facing.start, seating.facing.stop))
-    require(whole, "results", path.name, "contact stresses on every element of the wall that "
-            "touches, and no other")  # fmt: skip
+    require(whole, "results file", path.name, "one with contact stresses on all elements of the "
+            "wall that touch the stone, and only on these")  # fmt: skip
     kept = np.array([c for c in touched if c in columns])
     low, high = np.maximum(corners[kept], edges[0]), np.minimum(corners[kept + 1], edges[1])
     return (low + high) / 2.0, np.array([pressures[columns == c].mean() for c in kept])

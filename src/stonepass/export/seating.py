@@ -38,11 +38,12 @@ __all__ = ["KPA", "MM", "Seating", "bulk_modulus", "seating"]
 COARSEST = 0.025  # largest default length of the elements in the contact, in inner radii
 PER_CONTACT = 16  # least default number of elements on each side of the guessed contact
 BEYOND = 1.3  # largest ratio of the lengths of neighbouring elements outside the contact
-# Length of the part of the wall that may touch the stone, over the guessed length of the contact.
+# Length of the part of the wall that may touch the stone, divided by the guessed contact length.
 FACING_REACH = 1.5
 UNIT_RADIUS = Length(1e-3)  # R_a in m for a case that has only ratios
-# Penalty of the contact times the element length divided by w″(1). With this value the contact
-# pressure of CalculiX is accurate to 1 %; with a stiffer penalty the contact state oscillates.
+# Dimensionless stiffness of the contact: penalty × element length in the contact/w″(1). With this
+# value the contact pressure of CalculiX is accurate to 1 %; with a larger one the contact state
+# oscillates.
 PENALTY = 2.0
 POISSON = 0.499  # Poisson's ratio for programs that cannot keep the volume exactly
 INCREMENT = 0.4  # largest displacement per increment, in element lengths
@@ -77,7 +78,7 @@ class Seating:
     facing : slice
         Columns of the wall whose inner faces may touch the stone.
     whole : bool
-        Whether the wall is the whole tube.
+        True if the wall is the whole tube.
     fine : float
         Length of the elements in the contact.
     stiffness : float
@@ -115,7 +116,7 @@ class Seating:
 
     @property
     def loaded(self) -> bool:
-        """Whether there is a pre-stretch or a confining pressure to apply in the first step."""
+        """True if there is a pre-stretch or a confining pressure to apply in the first step."""
         return self.case.load.prestretch != 1.0 or self.case.load.confining_pressure > 0.0
 
     @property
@@ -200,8 +201,9 @@ def seating(case: Case, fine: float | None = None) -> Seating:
     Raises
     ------
     BadInput
-        The stone is hardly larger than the lumen, the law is unstable, the model of the case is not
-        the paper's, or the element strip would begin too close to the axis.
+        The stone is not larger than the lumen or only hardly so, the law is unstable, the model of
+        the case is not the paper's, `fine` is out of bounds, or the element strip would begin too
+        close to the axis.
 
     References
     ----------

@@ -26,7 +26,7 @@ def vtu_file(wall: Field, *, mirrored: bool, inner_radius: float = 1.0) -> bytes
     wall : Field
         Solved wall of half a tube or of a whole one.
     mirrored : bool
-        Whether the wall is half a tube, whose mirror image is to be added.
+        True if the wall is half a tube, whose mirror image is to be added.
     inner_radius : float
         Inner radius R_a in the unit of length of the file.
 

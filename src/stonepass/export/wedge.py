@@ -47,7 +47,7 @@ class Wedge:
     def sides(self) -> tuple[Int[np.ndarray, " points"], ...]:
         """Node numbers at angle 0, on the rotated side, and halfway between, for each grid node.
 
-        There is no node halfway for a mid-side node of the grid; its number is −1.
+        A mid-side node of the grid has no node halfway; the third array contains −1 for it.
         """
         n = len(self.grid.points)
         halfway = np.full(n, -1)
@@ -55,7 +55,13 @@ class Wedge:
         return self.first + np.arange(n), self.first + n + np.arange(n), halfway
 
     def turned(self, vectors: Float[np.ndarray, "points 2"]) -> Float[np.ndarray, "nodes 3"]:
-        """Return the components x, y, z at every node of vectors r, z at the nodes of the grid."""
+        """Rotate vectors with the components r, z at the nodes of the grid.
+
+        Returns
+        -------
+        array (nodes, 3)
+            Components x, y, z at every node of the wedge.
+        """
         parts = []
         for angle, (r, z) in (
             (0.0, vectors.T),

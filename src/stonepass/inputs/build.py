@@ -52,8 +52,8 @@ def build_case(values: Values, folder: Path | None = None) -> Case:
     Raises
     ------
     BadInput
-        A value is out of bounds, or values do not go together. The message names the inputs by
-        their titles (see `in_words`).
+        A value is out of bounds, or two values contradict each other. The message names the inputs
+        by their titles (see `in_words`).
     """
     model, numerics = build_method(values, folder)
     stone = Stone(**_section("stone", values, folder))
@@ -105,6 +105,11 @@ def build_model(name: str, values: Values, folder: Path | None = None) -> Model:
         Raw values by key.
     folder : Path, optional
         Folder in which the relative path of an opening curve starts.
+
+    Raises
+    ------
+    BadInput
+        A value is out of bounds, or two values contradict each other.
     """
     owner = MODELS[name]
     own = _section("method", values, folder)

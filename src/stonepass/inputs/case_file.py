@@ -67,7 +67,14 @@ def read_case(path: str | Path) -> Case:
 
 
 def read_values(path: Path) -> dict[str, Any]:
-    """Return the raw values of a case file by key; only keys and types are checked."""
+    """Return the raw values of a case file by key; only keys and types are checked.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be read or is no valid TOML, a key is unknown, a required section is
+        missing, or a value has the wrong type.
+    """
     document, known = read_document(path), sections()
     for section, keys in document.items():
         if section not in known:
@@ -131,6 +138,11 @@ def values_of(case: Case, folder: Path) -> dict[str, Any]:
         The case to be described.
     folder : Path
         Folder of the case file, at which relative paths start.
+
+    Raises
+    ------
+    BadInput
+        The law is a function that was not read from a file.
     """
     values: dict[str, Any] = {MODEL: case.model.NAME}
     for part in (case.stone, case.ureter, case.load, case.model, case.numerics):

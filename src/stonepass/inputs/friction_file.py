@@ -31,7 +31,7 @@ def read_friction(path: Path) -> float:
     except (ValueError, RecursionError) as problem:
         raise BadInput("friction file", path, f"valid JSON ({problem})") from problem
     if not isinstance(document, dict) or KEY not in document:
-        allowed = "as 'stonepass friction IMAGE --json' writes it"
+        allowed = "given, as in the output of 'stonepass friction IMAGE --json'"
         raise BadInput(f"in {path.name}, '{KEY}'", "missing", allowed)
     value = document[KEY]
     try:

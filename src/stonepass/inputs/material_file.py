@@ -106,7 +106,9 @@ def _from_python(path: Path, name: str, text: str) -> Material:
             module = runpy.run_path(str(path))
     except (Exception, SystemExit) as problem:
         raise BadInput(
-            "material", text, f"Python that runs, not {type(problem).__name__}: {problem}"
+            "material",
+            text,
+            f"a Python file that runs; this one raises {type(problem).__name__}: {problem}",
         ) from problem
     finally:
         sys.path.remove(folder)

@@ -22,7 +22,8 @@ EXCLUSIVE = (
     ("method.circumferential_modulus", "method.secant_stretch"),
     ("method.longitudinal_modulus", "method.secant_stretch"),
 )
-# Values of an input that exclude another input: an option with this value removes it.
+# Values of an input that exclude another input. If an option has such a value, the other input is
+# removed from the values of the file.
 DISPLACING = {
     ("method.closure", "linear"): "method.opening_curve",
     ("method.seating", "frictionless"): "method.seating_friction",

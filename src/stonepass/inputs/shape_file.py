@@ -26,8 +26,8 @@ def find_shape(value: Any, folder: Path | None = None) -> Shape:
     Parameters
     ----------
     value : Shape, str, Path or dict
-        The name of a CSV file, a table with ``aspect`` and ``outline`` (see `Shape`), a table with
-        the lists of points ``z`` and ``rho``, or a shape.
+        The name of a CSV file, a table with ``aspect``, ``outline`` and ``deviation`` (see `Shape`;
+        all are optional), a table with the lists of points ``z`` and ``rho``, or a shape.
     folder : Path, optional
         Folder in which a relative path starts; by default the current one.
 

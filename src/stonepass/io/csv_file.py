@@ -60,9 +60,9 @@ def read_columns(
     """Read columns of numbers by the names in the header, in any order.
 
     The header is the first line with all required names. Lines before it and a row of units below
-    it are ignored, as are empty lines, lines that begin with ``#``, and columns without a name and
-    without values. Cells may be separated by commas, semicolons or tabs (see `table_header`). Rows
-    in messages have the line numbers of an editor.
+    it are ignored, as are empty lines, lines that begin with ``#``, and empty columns to the right
+    of the last name. Cells may be separated by commas, semicolons or tabs (see `table_header`).
+    Rows in messages have the line numbers of an editor.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def read_columns(
     words : mapping of str to sequence of str
         Words in a column without numbers. They are returned as indices into the sequence.
     distinct : bool
-        Whether two equal rows are refused. Measurements may be repeated, but the points of an
+        True if two equal rows are refused. Measurements may be repeated, but the points of an
         outline may not.
 
     Returns

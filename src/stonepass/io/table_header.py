@@ -96,7 +96,7 @@ def without_units(rows: list[Row], name: str) -> list[Row]:
                 f"in {name}, row {line}, the unit of column '{column.strip()}'",
                 given,
                 wanted or "empty, since the column is dimensionless",
-                "convert the values, or name the column by its unit if it may have that one",
+                f"convert the values{' to ' + wanted if wanted else ''}, and change this row",
             )
     return [rows[0], *rows[2:]]
 

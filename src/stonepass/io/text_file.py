@@ -67,7 +67,7 @@ def read_text(
     what : str
         Kind of the file in messages.
     other_encodings : bool
-        Whether UTF-16 (with a byte order mark) and Latin-1 (without control characters) are
+        True if UTF-16 (with a byte order mark) and Latin-1 (without control characters) are
         accepted in addition to UTF-8.
 
     Raises

@@ -38,9 +38,10 @@ _ENTRIES = (
         law=Fung(C=0.4056e6, a1111=0.7091, a2222=0.8892, a1122=0.1856, G=G_CALIBRATED),
         source=f"{_RASSOLI}; a2222 and a1122 read in exchanged order",
         test=_BIAXIAL,
-        verified=f"constants stated by the paper; {_TABLE_UNSEEN}; the order is our reading: as "
-        "printed the law is unstable, exchanged it is definite and stiffer along the axis, as "
-        "measured ureters are; G is ours, calibrated against the paper's two critical sizes",
+        verified=f"the paper states the constants; {_TABLE_UNSEEN}; we exchanged a2222 and a1122, "
+        "because the law is unstable with the printed order, and with the exchanged order it is "
+        "positive definite and stiffer along the axis, as measured ureters are; we calibrated G "
+        "against the paper's two critical sizes",
         strain_range=(1.0, 1.3),
     ),
     Material(
@@ -48,7 +49,8 @@ _ENTRIES = (
         law=Fung(C=0.4056e6, a1111=0.7091, a2222=0.1856, a1122=0.8892, G=G_CALIBRATED),
         source=f"{_RASSOLI}; in the printed order",
         test=_BIAXIAL,
-        verified=f"constants stated by the paper; {_TABLE_UNSEEN}; indefinite, so refused",
+        verified=f"the paper states the constants; {_TABLE_UNSEEN}; the law is indefinite and is "
+        "therefore refused",
         strain_range=(1.0, 1.3),
     ),
     Material(
@@ -56,8 +58,9 @@ _ENTRIES = (
         law=Fung(C=0.4056e6, a1111=0.7091, a2222=0.1856, a1122=0.0892, G=G_CALIBRATED),
         source=f"{_RASSOLI}; a1122 read as 0.0892",
         test=_BIAXIAL,
-        verified=f"our second reading (a slipped digit), for sensitivity; {_TABLE_UNSEEN}; softer "
-        "along the axis than around, against measured ureters",
+        verified="an alternative reading of the constants, in which one digit of a1122 is a "
+        f"misprint, for sensitivity studies; {_TABLE_UNSEEN}; the wall is softer along its axis "
+        "than around it, unlike measured ureters",
         strain_range=(1.0, 1.3),
     ),
 )

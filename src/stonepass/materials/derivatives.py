@@ -120,7 +120,8 @@ def energy_derivatives(
     own_row = np.repeat(np.eye(6), count, axis=1)
 
     def total(c: Any) -> Any:
-        # Adding zero times every component defines the derivatives by components that U ignores.
+        # With this sum the derivatives with respect to components that U does not use are zero;
+        # without it they would be undefined.
         energy = law.energy(CauchyGreen(*(c[i] for i in range(6))), everywhere, anp)
         return anp.sum(energy + 0.0 * anp.sum(c, axis=0))
 

@@ -58,7 +58,7 @@ def _slope(C: Float[np.ndarray, "6 ..."], a: float) -> Float[np.ndarray, "6 ..."
 def _slope_of_slope(
     along: Float[np.ndarray, "6 ..."], C: Float[np.ndarray, "6 ..."], a: float
 ) -> Float[np.ndarray, "6 ..."]:
-    """Return the second derivatives of S along the direction `along` and by each component."""
+    """Return the derivative of ∂S/∂C in the direction `along`, see the docstring of the module."""
     values, vectors = _eigen(C)
     turned = _transposed(vectors) @ _matrix(along) @ vectors
     return _components(vectors @ (_divided_difference(values, a) * turned) @ _transposed(vectors))
@@ -96,7 +96,7 @@ def _matrix(C: Float[np.ndarray, "6 ..."]) -> Float[np.ndarray, "... 3 3"]:
 
 
 def _components(full: Float[np.ndarray, "... 3 3"]) -> Float[np.ndarray, "6 ..."]:
-    """Return the derivatives by the six components, given the derivative by the matrix."""
+    """Convert a derivative with respect to the matrix C to derivatives for its six components."""
     return np.stack([twice * full[..., i, j] for twice, (i, j) in zip(_TWICE, _ROWS, strict=True)])
 
 

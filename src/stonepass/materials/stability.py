@@ -114,8 +114,8 @@ def check(material: Material) -> RestState:
     ------
     UnstableLaw
         The law is unstable for one of these reasons: a small strain from rest lowers its energy;
-        its constants are defective (`MayBeDefective`); or it loses strong ellipticity in the
-        uniform tube within its strain range.
+        it has no stiffness in r–z shear at rest; its constants are defective (`MayBeDefective`); or
+        it loses strong ellipticity in the uniform tube within its strain range.
     BadInput
         The law is not stress-free or not finite at rest, or its modulus is outside
         `MODULUS_RANGE`.

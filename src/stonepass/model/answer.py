@@ -1,4 +1,4 @@
-"""What a question about one case comes to, and the contract of the models that answer it."""
+"""The answer to one case, and the interface of the models that compute it."""
 
 from __future__ import annotations
 
@@ -22,18 +22,19 @@ __all__ = ["Answer", "Detail", "Model", "Quantity", "unanswered"]
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number that only one model knows, as tables and records show it.
+    """A result that only one of the models has, for tables and records.
 
     Attributes
     ----------
     key : str
-        Its name in records, without the unit.
+        Name of the quantity in records, without the unit.
     value : float or tuple of float or None
-        In `unit`; None where there is none.
+        Value in `unit`; None if it does not exist.
     unit : str
-        ``kPa``, ``Pa`` or ``deg``, which records append to the key; ``R_a``; or empty.
+        Unit of the value. Records append ``kPa``, ``Pa`` or ``deg`` to the key. The unit is ``R_a``
+        for a length in inner radii, and empty for a dimensionless number.
     title : str
-        Its name in tables; a quantity without a title is not shown there.
+        Name of the quantity in tables; tables leave out a quantity without a title.
     """
 
     key: str
@@ -43,35 +44,36 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        """Its name in records."""
+        """Name of the quantity in records, with the unit."""
         return f"{self.key}_{self.unit}" if self.unit in ("kPa", "Pa", "deg") else self.key
 
 
 @runtime_checkable
 class Detail(Protocol):
-    """What only one model knows beside the answer."""
+    """The additional results of one of the models."""
 
     def quantities(self) -> tuple[Quantity, ...]:
-        """Its numbers, in the order of tables."""
+        """Return the additional results in the order in which tables list them."""
 
 
 @runtime_checkable
 class Model(Protocol):
-    """A model that finds the critical pressure of a stuck stone.
+    """A model that computes the critical pressure of a stuck stone.
 
-    A model is a frozen dataclass: its fields are its options, each declared as an input (see
-    `stonepass.declaration`) with ``SECTION = "method"``, so that the command line, case files and
-    the documentation offer them. It is registered by its name in `model.models.registry`.
+    A model is a frozen dataclass whose fields are its options. Each field is declared as an input
+    (see `stonepass.declaration`), and the class has ``SECTION = "method"``, so that the command
+    line, case files and the documentation offer the options. Models are registered by their names
+    in `model.models.registry`.
 
     Attributes
     ----------
     NAME : str
-        The word at the doors (``--model NAME``).
+        Name of the model on the command line (``--model NAME``), in case files and in records.
     MEANING : str
-        What the model is, in a few words for the help.
+        Description of the model in a few words, for the help.
     NEEDS_ELEMENTS : bool
-        Whether its answers are finite-element solutions, which do not resolve an oversize below
-        1e-4 of the lumen.
+        True if the model uses finite elements. They cannot resolve a stone that exceeds the lumen
+        by less than the fraction 1e-4.
     """
 
     NAME: ClassVar[str]
@@ -80,13 +82,16 @@ class Model(Protocol):
 
     @property
     def far_field_ground(self) -> bool:
-        """Whether the far field contains the ground matrix of the law."""
+        """True if the far field includes the ground matrix of the law."""
 
     def require_any_size(self) -> None:
-        """Refuse a case whose size varies where an option belongs to one stone (`BadInput`)."""
+        """Raise `Misplaced` if an option of the model is valid for a single stone size only.
+
+        This method is called before the model is used for stones of other sizes.
+        """
 
     def largest_size(self, case: Problem) -> float:
-        """The largest size ratio that the model is used for (the search of a critical size)."""
+        """Return the largest size ratio at which a critical size is searched with this model."""
 
     def solve(
         self,
@@ -95,69 +100,72 @@ class Model(Protocol):
         states: StateSolver,
         resolution: Resolution | None = None,
     ) -> Answer:
-        """Answer a stone that is larger than the lumen.
+        """Compute the critical pressure of a stone that is larger than the lumen.
 
         Parameters
         ----------
         case : Problem
-            Its stone exceeds the lumen that the load leaves open.
+            The stone must be larger than the lumen of the loaded tube.
         numerics : Numerics
+            Accuracy of the solution and length of the tube.
         states : StateSolver
-            Where finite-element states come from.
+            Source of the finite-element states.
         resolution : Resolution, optional
-            Solve on this mesh alone, without an estimate of the error; by default both meshes of
-            the accuracy are solved.
+            Resolution of a single solve without an error estimate. By default both resolutions of
+            the accuracy level are solved, and the error is estimated from their difference.
 
         Returns
         -------
         Answer
-            Every way the physics can end is an `Outcome`.
+            If no critical pressure exists, its `outcome` and `reason` say why.
 
         Raises
         ------
         BadInput
-            The case lies outside what the model is for.
+            The model does not apply to this case, e.g. because of the shape of the stone.
         """
 
 
 @array_dataclass
 @dataclass(frozen=True, repr=False)
 class Answer(Result):
-    """The critical pressure of one case, or why there is none.
+    """The critical pressure of one case, or the reason why it does not exist.
 
-    Two answers are equal where all their numbers are; the time that they took does not count.
+    Two answers are equal if all their attributes except `seconds` are equal.
 
     Attributes
     ----------
     case : Problem
-        The stone, the ureter and the load.
+        Stone, ureter and load.
     model : Model
-        The model that answered.
+        The model that computed the answer.
     numerics : Numerics
-        Accuracy and length of the tube.
+        Accuracy of the solution and length of the tube.
     outcome : Outcome
-        How the question ended; `outcome.answered` is False where there is no answer.
+        Outcome of the calculation; `outcome.answered` is False if there is no answer.
     reason : str
-        Why there is no answer; empty where there is one.
+        Reason why there is no answer; empty if there is one.
     pressure : float or None
-        Critical urine pressure P_ucr in Pa; None where there is none, 0 for a loose stone.
+        Critical urine pressure P_ucr in Pa. It is 0 for a loose stone, and None if it does not
+        exist.
     critical_angle : float or None
-        α_cr in rad, the contact angle at which the stone starts to move.
+        Contact angle α_cr in rad at which the stone starts to move.
     contact : ContactState or None
-        Where stone and wall touch: the seated state of the paper's model, the loaded state of the
-        direct model in which the stone starts to move (or the last one before urine passes), or the
-        contact of sphere and beam.
+        Contact of stone and wall. With the paper's model it is that of the seated state. With the
+        direct model it is that of the loaded state in which the stone starts to move, or of the
+        last state before urine passes the stone. With the beam model it is that of sphere and beam.
     detail : Detail or None
-        The numbers that only this model knows.
+        Additional results that only this model has.
     error : ErrorEstimate or None
-        Estimated discretisation error of α₀ (in the direct model, of the upstream edge of the
-        contact), σ(π/2) and P_ucr; None where there is no state or no second solve could be made.
+        Estimated discretisation errors of the contact angle, of σ(π/2) and of P_ucr. The contact
+        angle is α₀, or the angle of the upstream contact edge in the direct model. None if there
+        was no solve with a second resolution.
     newton_steps : int
-        Newton steps of all finite-element solves, also of those that failed.
+        Number of Newton steps of all finite-element solves, including those that failed.
     seconds : float
         Wall-clock time of the solves in s.
     warnings : tuple of Caution
-        Where the answer must be read with care; ``str`` of one is its sentence.
+        Warnings about the answer; ``str(warning)`` returns the sentence of a warning.
 
     Examples
     --------
@@ -200,17 +208,17 @@ class Answer(Result):
 
     @property
     def pressure_kPa(self) -> float | None:
-        """P_ucr in kPa; None where there is none."""
+        """P_ucr in kPa; None if it does not exist."""
         return self._pressure_in("kPa")
 
     @property
     def pressure_mmHg(self) -> float | None:
-        """P_ucr in mmHg; None where there is none."""
+        """P_ucr in mmHg; None if it does not exist."""
         return self._pressure_in("mmHg")
 
     @property
     def pressure_cmH2O(self) -> float | None:
-        """P_ucr in cmH₂O; None where there is none."""
+        """P_ucr in cmH₂O; None if it does not exist."""
         return self._pressure_in("cmH2O")
 
     def _pressure_in(self, unit: str) -> float | None:
@@ -218,12 +226,12 @@ class Answer(Result):
 
     @property
     def message(self) -> str:
-        """The outcome as a sentence, with the reason where there is one."""
+        """The outcome as a sentence, which includes the reason if there is one."""
         return self.outcome.sentence(self.reason)
 
     @property
     def closure_end_pressure(self) -> float | None:
-        """P_u in Pa at which a closure ends (r_a = R_s); None in models without one."""
+        """P_u in Pa at the end of the closure (r_a = R_s); None for a model without a closure."""
         found: float | None = getattr(self.detail, "closure_end_pressure", None)
         return found
 
@@ -241,7 +249,19 @@ def unanswered(
     steps: int = 0,
     seconds: float = 0.0,
 ) -> Answer:
-    """Make the answer of a case for which no equilibrium was found, with the reason."""
+    """Return the answer to a case for which no equilibrium was found.
+
+    Parameters
+    ----------
+    case, model, numerics
+        See `Answer`.
+    reason : str
+        Reason why no equilibrium was found, as part of a sentence.
+    steps : int
+        Number of Newton steps.
+    seconds : float
+        Wall-clock time in s.
+    """
     return Answer(
         case,
         model,

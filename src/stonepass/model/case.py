@@ -1,4 +1,4 @@
-"""A case: a physical problem, the model that answers it, and its numerics."""
+"""A case: a physical problem, the model that solves it, and the numerics."""
 
 from __future__ import annotations
 
@@ -20,27 +20,29 @@ __all__ = ["Case", "Load", "Stone", "Ureter"]
 
 @dataclass(frozen=True)
 class Case(Problem):
-    """A stone in a ureter under a load, the model and its numerics: all an answer depends on.
+    """A stone in a ureter under a load, with the model and its numerics.
+
+    A case contains everything that an answer depends on.
 
     Parameters
     ----------
     stone : Stone
-        The stone by its diameter, or by its size ratio.
+        Size, shape and friction coefficient of the stone. The size is a diameter or a size ratio.
     ureter : Ureter
-        The wall by its diameters, or by its wall ratio.
+        Size and material of the ureter. The size is two diameters, or a wall ratio.
     load : Load, optional
         Confining pressure and pre-stretch; none by default.
     model : Model, optional
-        `SeatedBalance` (the paper's, the default), `PushThrough` or `ElasticFoundation`, each with
-        its own options.
+        `SeatedBalance` (the paper's model, the default), `PushThrough` or `ElasticFoundation`, each
+        with its own options.
     numerics : Numerics, optional
-        Accuracy and length of the tube.
+        Accuracy of the solution and length of the tube.
 
     Raises
     ------
     BadInput
-        The parts do not go together: a stone with a diameter in a ureter without one, a size ratio
-        out of bounds, a tube that is too short for the stone, or an argument of another type.
+        The stone has a diameter but the ureter has none, the size ratio is out of bounds, the tube
+        is too short for the stone, or an argument has the wrong type.
 
     Examples
     --------
@@ -64,12 +66,18 @@ class Case(Problem):
         self.numerics.check(self.extent)
 
     def with_size_ratio(self, size_ratio: float) -> Case:
-        """Return the same case with another stone of the same friction and shape.
+        """Return the same case with a stone of another size but the same friction and shape.
+
+        Parameters
+        ----------
+        size_ratio : float
+            Size ratio ξ of the new stone, 0.1 to 3.
 
         Raises
         ------
         BadInput
-            Where an option of the model belongs to the stone that the case has.
+            The size ratio is out of bounds, or an option of the model, such as an opening curve, is
+            valid for the original stone only.
         """
         if size_ratio != self.size_ratio:
             self.model.require_any_size()
@@ -77,6 +85,9 @@ class Case(Problem):
 
 
 def _model_example(given: Any) -> str:
-    """The constructor of the model that a name stands for; that of another model otherwise."""
+    """Return Python code that makes the model of this name, as an example for an error message.
+
+    If `given` is not the name of a model, the example is the direct model.
+    """
     named = MODELS.get(given, PushThrough) if isinstance(given, str) else PushThrough
     return f"{named.__name__}()"

@@ -179,6 +179,11 @@ def series_through(case: Problem, curve: OpeningCurve, order: int) -> Series | N
     -------
     Series or None
         None if the curve has too few points for the order.
+
+    Raises
+    ------
+    BadInput
+        The order is out of bounds.
     """
     alpha, radius = curve.arrays
     if len(alpha) <= order:

@@ -1,4 +1,4 @@
-"""The critical pressure: what can be said before any model answers, and the model's answer."""
+"""The critical pressure: checks that do not depend on the model, and the solution by the model."""
 
 from __future__ import annotations
 
@@ -34,35 +34,36 @@ def critical_pressure(
     *,
     states: StateSolver = UNCACHED,
 ) -> Answer:
-    """Find the urine pressure at which a stone starts to move.
+    """Compute the urine pressure at which a stone starts to move.
 
     Parameters
     ----------
     stone : Stone or Case
-        A case contains everything that follows, apart from `states`.
+        The stone; or a complete case, which then replaces all arguments except `states`.
     ureter : Ureter
-        Required beside a stone.
+        The ureter; required unless the first argument is a case.
     load : Load, optional
         Confining pressure and pre-stretch; none by default.
     model : Model, optional
-        `SeatedBalance` (the paper's, the default), `PushThrough` or `ElasticFoundation`.
+        `SeatedBalance` (the paper's model, the default), `PushThrough` or `ElasticFoundation`.
     numerics : Numerics, optional
-        Accuracy and length of the tube.
+        Accuracy of the solution and length of the tube.
     states : StateSolver, optional
-        Where finite-element states come from: a `SolutionCache` reads and stores them; by default
-        they are solved.
+        Source of the finite-element states, e.g. a `SolutionCache`; by default they are solved.
 
     Returns
     -------
     Answer
-        Its `outcome` says how the question ended; `pressure` is P_ucr in Pa where there is one.
+        Its attribute `pressure` is P_ucr in Pa, or None if P_ucr does not exist; its `outcome` and
+        `reason` then say why.
 
     Raises
     ------
     BadInput
-        The parts do not go together, or the model is not made for such a case.
+        An argument is missing, out of bounds, of the wrong type, or given in addition to a case; or
+        the model does not apply to the case.
     UnstableLaw
-        The material law describes no solid.
+        The material law is not stable.
 
     Notes
     -----
@@ -81,13 +82,24 @@ def critical_pressure(
         return solve(stone, states=states)
     if ureter is None:
         remedy = "write critical_pressure(stone, ureter), or critical_pressure(case)"
-        raise BadInput("ureter", "missing", "given beside the stone", remedy)
+        raise BadInput("ureter", "missing", "given in addition to the stone", remedy)
     case = Case(stone, ureter, load or Load(), model or SeatedBalance(), numerics or Numerics())
     return solve(case, states=states)
 
 
 def refuse_parts(**parts: Any) -> None:
-    """Refuse arguments that stand beside a case, which has them itself."""
+    """Refuse arguments that are given in addition to a case, because the case contains them.
+
+    Parameters
+    ----------
+    **parts
+        Values of the arguments by name; None stands for an argument that is not given.
+
+    Raises
+    ------
+    Misplaced
+        One of the arguments is given.
+    """
     given = next((name for name, value in parts.items() if value is not None), None)
     if given is not None:
         remedy = "change the case, e.g. with dataclasses.replace"
@@ -97,27 +109,29 @@ def refuse_parts(**parts: Any) -> None:
 def solve(
     case: Case, resolution: Resolution | None = None, states: StateSolver = UNCACHED
 ) -> Answer:
-    """Answer one case; every way in which it can end is an `Outcome`.
+    """Compute the critical pressure of a case.
 
     Parameters
     ----------
     case : Case
-        The problem, the model and its numerics.
+        The problem, the model and the numerics.
     resolution : Resolution, optional
-        Solve on this mesh alone, without an estimate of the error.
+        Resolution of a single solve without an error estimate. By default both resolutions of the
+        accuracy level are solved, and the error is estimated from their difference.
     states : StateSolver, optional
-        Where finite-element states come from; by default they are solved.
+        Source of the finite-element states; by default they are solved.
 
     Returns
     -------
     Answer
+        If no critical pressure exists, its `outcome` and `reason` say why.
 
     Raises
     ------
     BadInput
-        The model is not made for such a case.
+        `case` is not a `Case`, or the model does not apply to it.
     UnstableLaw
-        The material law describes no solid.
+        The material law is not stable.
     """
     require_kind("case", case, Case, "Case(stone, ureter)")
     check(case.ureter.material)

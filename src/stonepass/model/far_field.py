@@ -129,7 +129,7 @@ def lumen_ratio(wall_ratio: float, law: Law, load: Load) -> float | None:
     Returns
     -------
     float or None
-        None if the load closes the lumen.
+        None if the load closes the lumen, or if no uniform tube is in equilibrium under the load.
     """
     if load.confining_pressure == 0.0 and load.prestretch == 1.0:
         return 1.0

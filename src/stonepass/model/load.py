@@ -1,4 +1,4 @@
-"""The load on the tube besides stone and urine."""
+"""The load on the tube in addition to stone and urine: confining pressure and pre-stretch."""
 
 from __future__ import annotations
 
@@ -16,17 +16,25 @@ PRESTRETCH = (0.8, 1.6)
 
 @dataclass(frozen=True, init=False)
 class Load:
-    """What acts on the tube besides stone and urine.
+    """The load on the tube in addition to stone and urine.
 
     Parameters
     ----------
-    confining_pressure : str or Pressure
-        P_out on the outer wall, 0 to 100 kPa.
+    confining_pressure : str, Pressure or pint.Quantity
+        Pressure P_out on the outer wall, 0 to 100 kPa; text has a unit, e.g. ``"5.4 kPa"``. The
+        attribute is in Pa. The default is 0.
     confinement : {"dead", "hydrostatic"}
-        Whether the radial resultant of P_out is kept as the tube widens (dead load; paper, Eq. 10)
-        or the pressure itself follows the wall (a water bath).
+        Behaviour of the confining pressure when the tube widens. A dead load, the default, keeps
+        its radial resultant (paper, Eq. 10). A hydrostatic pressure, like that of a water bath,
+        keeps its value and stays normal to the deformed wall. See "Far field" in docs/theory.md.
     prestretch : float
-        Axial stretch λ_z put on the tube before everything else; R_a, R_b are before it.
+        Axial stretch λ_z, 0.8 to 1.6, which is applied before all other loads; 1 by default. The
+        radii R_a and R_b are those of the tube before it is stretched.
+
+    Raises
+    ------
+    BadInput
+        A value is out of bounds, or a pressure has no unit.
     """
 
     SECTION: ClassVar[str] = "load"
@@ -73,5 +81,5 @@ class Load:
 
     @property
     def hydrostatic(self) -> bool:
-        """Whether the confining pressure follows the deformed wall."""
+        """True if the confining pressure keeps its value and stays normal to the deformed wall."""
         return self.confinement == "hydrostatic"

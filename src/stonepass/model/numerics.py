@@ -1,4 +1,4 @@
-"""How finely a case is solved, apart from the model that answers it."""
+"""The numerics of a case: accuracy of the finite elements, and length of the modelled tube."""
 
 from __future__ import annotations
 
@@ -17,14 +17,22 @@ HALF_LENGTH = (3.0, 100.0)
 
 @dataclass(frozen=True)
 class Numerics:
-    """Mesh and length of the tube in the finite elements.
+    """Accuracy of the finite elements, and length of the modelled tube.
 
     Parameters
     ----------
     accuracy : {"standard", "fast", "reference"}
-        How fine the meshes are; every answer carries an estimate of its discretisation error.
+        Accuracy level, which determines meshes and increments. Every finite-element answer contains
+        an estimate of its discretisation error. See "How far a number is from the limit" in
+        docs/theory.md.
     half_length : float
-        L/R_a, half the length of the tube in inner radii, 3 to 100; its ends keep their place.
+        Half-length L/R_a of the tube in inner radii, 3 to 100. The ends of the tube are held
+        axially at the pre-stretch.
+
+    Raises
+    ------
+    BadInput
+        A value is not allowed.
     """
 
     SECTION: ClassVar[str] = "method"
@@ -51,16 +59,28 @@ class Numerics:
 
     @property
     def level(self) -> Level:
-        """Both resolutions of this accuracy, and how their difference becomes an error."""
+        """The accuracy level: both resolutions, and the rule of the error estimate."""
         return LEVELS[self.accuracy]
 
     @property
     def resolution(self) -> Resolution:
-        """The finer resolution, that of the answer."""
+        """The finer of the two resolutions; the answer is computed with it."""
         return self.level.resolution
 
     def check(self, extent: float) -> None:
-        """Refuse a tube that is too short for a stone that reaches `extent` R_a from its middle."""
+        """Refuse a tube that is too short for a stone.
+
+        Parameters
+        ----------
+        extent : float
+            Axial distance from the widest place of the stone to its farther pole, but at least R_s,
+            in inner radii.
+
+        Raises
+        ------
+        BadInput
+            The half-length is less than twice `extent`.
+        """
         least = 2.0 * extent
         require(
             self.half_length >= least,

@@ -1,4 +1,4 @@
-"""The opening curve of one stone: opened angle and the tube's radius above it (Eqs 13–14)."""
+"""The opening curve of one stone: contact angle and radius of the tube upstream (Eqs 13–14)."""
 
 from __future__ import annotations
 
@@ -16,9 +16,24 @@ RADIUS = (0.1, 10.0)
 
 @dataclass(frozen=True)
 class OpeningCurve:
-    """α in rad, up to π/2, and r_a/R_a, as rising pressure opens the wall round one stone.
+    """Points of the relation between the contact angle α and the radius r_a of the tube upstream.
 
-    `reference` is the file they were read from; empty where they were not.
+    The points describe how the wall opens round one stone while the urine pressure rises. The
+    series closure is fitted to them.
+
+    Attributes
+    ----------
+    alpha : tuple of float
+        Contact angles α in rad, above 0 and at most π/2.
+    radius : tuple of float
+        Radius ratios r_a/R_a, one for each angle, from 0.1 to 10.
+    reference : str
+        File from which the points were read; empty if they were not read from a file.
+
+    Raises
+    ------
+    BadInput
+        The numbers of angles and radii differ or are zero, or a number is out of bounds.
     """
 
     alpha: tuple[float, ...]
@@ -38,5 +53,5 @@ class OpeningCurve:
 
     @property
     def arrays(self) -> tuple[Float[np.ndarray, " pairs"], Float[np.ndarray, " pairs"]]:
-        """Both columns."""
+        """Angles α in rad and radius ratios r_a/R_a as two arrays (pairs,)."""
         return np.array(self.alpha), np.array(self.radius)

@@ -53,7 +53,7 @@ class Problem:
             require_kind(name, value, kind, EXAMPLES[name])
         if self.stone.diameter is not None and self.ureter.inner_diameter is None:
             raise BadInput(
-                "inner diameter", "missing", "given where the stone has a diameter", BY_RATIO
+                "inner diameter", "missing", "given if the stone has a diameter", BY_RATIO
             )
         low, high = SIZE_RATIO
         require(

@@ -81,7 +81,7 @@ class Shape:
             abs(middle - 1.0) < WIDEST and abs(tilt) < WIDEST,
             "outline of the stone",
             f"g = {1.0 / middle:.6g} with slope {0.0 - round(tilt, 9):.3g} at θ = 90°",
-            "1 and level there, where the stone is widest",
+            "1 with slope 0 there, because the stone is widest at this angle",
         )
         low, high = ASPECT
         length = round(self.length, 6)

@@ -90,7 +90,8 @@ def _meridian(
     """Check that the points are a meridian from pole to pole; return them as arrays of floats."""
     z, rho = np.asarray(z, dtype=float), np.asarray(rho, dtype=float)
     name = "shape of the stone"
-    require(z.ndim == 1 and z.shape == rho.shape, name, f"{z.shape} and {rho.shape}", "two columns")
+    require(z.ndim == 1 and z.shape == rho.shape, name, f"z and rho with shapes {z.shape} and "
+            f"{rho.shape}", "two columns of equal length")  # fmt: skip
     require(FEWEST_POINTS <= len(z) <= MOST_POINTS, name, f"{len(z)} points",
             f"at least {FEWEST_POINTS} points and at most {MOST_POINTS}")  # fmt: skip
     require(bool(np.isfinite([z, rho]).all()), name, "a number that is not finite", "finite")
@@ -105,7 +106,7 @@ def _meridian(
         raise BadInput(
             place(at + 1, "z"),
             f"{z[at + 1]:g} after {z[at]:g}",
-            "in order from the upstream pole to the downstream one, z never falling",
+            "in order from the upstream to the downstream pole, with z never falling",
         )
     low, high = ASPECT
     aspect = float(z[-1] - z[0]) / (2.0 * most)

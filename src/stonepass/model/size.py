@@ -35,39 +35,44 @@ from stonepass.units import Length, Pressure, pressure
 
 __all__ = ["SizeAnswer", "critical_size"]
 
-TOLERANCE = 1e-6  # of ξ, and of the limit: P_ucr grows at several limits per unit of ξ
-FIRST_TOLERANCE = 1e-4  # on the coarser mesh, whose root is only where to begin
+# Absolute tolerance of ξ, and relative tolerance of the pressure limit. The second one is not
+# coarser than the first, because P_ucr grows by several limits per unit of ξ.
+TOLERANCE = 1e-6
+FIRST_TOLERANCE = 1e-4  # tolerance on the coarser mesh, whose root is only a first guess
 # A critical size less than this fraction above the lumen is not distinguished from the lumen.
 SMALLEST_CRITICAL_OVERSIZE = 2e-4
-SMALL_LIMIT = 100.0  # Pa; only below it can a limit lie under every stuck stone
+SMALL_LIMIT = 100.0  # Pa; every stuck stone may need more than a limit that is smaller than this
 LIMIT = (1.0, 1e6)
 
 
 @array_dataclass
 @dataclass(frozen=True, repr=False)
 class SizeAnswer(Result):
-    """The critical size at a pressure limit, or why there is none.
+    """The critical size at a pressure limit, or the reason why it does not exist.
 
     Attributes
     ----------
     case : Case
-        The question; its stone has the largest size ratio that was searched, not an answer.
+        Ureter, friction, load, model and numerics of the search. The size of its stone is not a
+        result but the upper end of the range that was searched.
     outcome : Outcome
-        SOLVED where a size was found.
+        SOLVED if a critical size was found.
     message : str
         The outcome as a sentence.
     size_ratio : float or None
-        ξ_cr, critical stone size over inner diameter.
+        Critical size ratio ξ_cr; None if no size was found.
     diameter : Length or None
-        Critical stone diameter in m, where the ureter has lengths.
+        Critical stone diameter in m; None if no size was found or the ureter has only a ratio.
     limit : Pressure
-        The pressure limit in Pa.
+        Pressure limit in Pa.
     at_size : Answer or None
-        The answer at the critical size; without one, at the size where the search ended.
+        Answer at the critical size. If no size was found, it is the answer at the size at which the
+        search ended, or None if every held stone needs more than the limit.
     size_ratio_error : float or None
-        Estimated discretisation error of ξ_cr: that of P_ucr over its slope dP_ucr/dξ.
+        Estimated error of ξ_cr: the discretisation error of P_ucr divided by dP_ucr/dξ, plus the
+        tolerance of the search, 1e-6. None if it is not known.
     warnings : tuple of Caution
-        Where the answer must be read with care.
+        Warnings about the answer at the critical size.
     """
 
     case: Case
@@ -81,7 +86,7 @@ class SizeAnswer(Result):
     warnings: tuple[Caution, ...] = ()
 
     def summary(self) -> str:
-        """Return outcome, size and question in one line."""
+        """Return outcome, critical size, limit and case in one line."""
         case, size = self.case, ""
         if self.size_ratio is not None:
             error = "" if self.size_ratio_error is None else f" ± {self.size_ratio_error:.1g}"
@@ -96,7 +101,7 @@ class SizeAnswer(Result):
 
     @property
     def diameter_mm(self) -> float | None:
-        """Critical stone diameter in mm; None without a size or without lengths."""
+        """Critical stone diameter in mm; None if `diameter` is None."""
         return None if self.diameter is None else self.diameter * 1e3
 
 
@@ -111,46 +116,49 @@ def critical_size(
     shape: Shape | None = None,
     states: StateSolver = UNCACHED,
 ) -> SizeAnswer:
-    """Find the largest stone that moves at a pressure limit.
+    """Compute the size of the stone whose critical pressure equals a pressure limit.
 
-    P_ucr rises with ξ from 0 at the lumen, so ξ_cr is bracketed by the lumen and the largest size
-    that the model is used for (the end of the material's strain range, or what the beam model holds
-    for) and found to 1e-6.
+    P_ucr rises with ξ, from 0 for a stone of the size of the lumen. Therefore ξ_cr is searched
+    between the lumen and the largest size for which the model is used, with a tolerance of 1e-6.
+    That size is the upper end of the material's strain range. In the beam model it is the size at
+    which the contact becomes as long as the stone, but at most ξ = 2.
 
     Parameters
     ----------
     ureter : Ureter or Case
-        A case contains friction, load, model, numerics and shape; the size of its stone is ignored.
+        The ureter; or a case, which then also replaces `friction`, `load`, `model`, `numerics` and
+        `shape`. The size of its stone is ignored.
     limit : str, Pressure or pint.Quantity
         Maximum tolerable urine pressure, e.g. ``"12 kPa"``; 0.001 to 1000 kPa.
     friction : float, optional
-        Coefficient of friction between stone and wall, 0 to 2; by default that of `Stone`.
+        Friction coefficient between stone and wall, 0 to 2; by default that of `Stone`.
     load : Load, optional
         Confining pressure and pre-stretch; none by default.
     model : Model, optional
-        `SeatedBalance` (the paper's) by default.
+        `SeatedBalance` (the paper's model, the default), `PushThrough` or `ElasticFoundation`.
     numerics : Numerics, optional
-        Accuracy and length of the tube.
+        Accuracy of the solution and length of the tube.
     progress : callable, optional
-        Called with every size ratio that is tried.
+        Function that is called with every size ratio that is tried.
     shape : Shape, optional
-        Shape of the stone; a sphere by default, ``Shape(1.4)`` is a spheroid 1.4 times as long as
-        wide.
+        Shape of the stone; a sphere by default. ``Shape(1.4)`` is a spheroid whose length is 1.4
+        times its diameter.
     states : StateSolver, optional
-        Where finite-element states come from: a `SolutionCache` reads and stores them; by default
-        they are solved.
+        Source of the finite-element states, e.g. a `SolutionCache`; by default they are solved.
 
     Returns
     -------
     SizeAnswer
-        `size_ratio` is ξ_cr and `diameter` the critical diameter, where there is one.
+        Its attribute `size_ratio` is ξ_cr, and `diameter` is the critical diameter in m; both are
+        None if no size was found.
 
     Raises
     ------
     BadInput
-        A limit out of bounds, or parts that do not go together.
+        An argument is out of bounds, of the wrong type, or given in addition to a case; or the
+        model does not apply to the case.
     UnstableLaw
-        The material law describes no solid.
+        The material law is not stable.
 
     Notes
     -----
@@ -187,14 +195,14 @@ def _search(
 ) -> SizeAnswer:
     level = case.numerics.level
     lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
-    if lumen is None:  # then solve() says why, and so do we
+    if lumen is None:  # the answer of solve() contains the reason
         progress(case.size_ratio)
         return _without_size(case, limit, solve(case, level.resolution, states))
     mesh = _OneMesh(case, limit, lumen, level.resolution, TOLERANCE, progress, states)
     tried: dict[float, Answer] = {}
     whole: dict[float, Answer] = {}
     found: Root | NoValue | TooSmall | None = None
-    if case.model.NEEDS_ELEMENTS:  # else there is no coarser mesh to begin on
+    if case.model.NEEDS_ELEMENTS:  # a solve on a coarser mesh provides the first guess
         coarse = replace(mesh, resolution=level.companion, tolerance=FIRST_TOLERANCE)
         start = coarse.root({})
         if isinstance(start, Root):
@@ -212,10 +220,10 @@ def _search(
 
 @dataclass(frozen=True)
 class _OneMesh:
-    """The question of a critical size on one mesh; what was solved is kept by the caller.
+    """The search of a critical size with one resolution; the caller stores the solved answers.
 
-    The search needs no estimate of the error. Close to the root the whole answer, which has one, is
-    solved in its place.
+    The search needs answers without an error estimate. Close to the root, complete answers with an
+    error estimate are solved instead.
     """
 
     case: Case
@@ -228,11 +236,11 @@ class _OneMesh:
 
     @property
     def smallest(self) -> float:
-        """The smallest size that is distinguished from the lumen."""
+        """Smallest size ratio that is distinguished from the lumen."""
         return self.lumen * (1.0 + SMALLEST_CRITICAL_OVERSIZE)
 
     def answer(self, size_ratio: float, tried: dict[float, Answer]) -> Answer:
-        """The answer of a size on this mesh, solved once and put into `tried`."""
+        """Return the answer for a size ratio on this mesh; `tried` keeps the solved answers."""
         self.progress(size_ratio)
         if size_ratio not in tried:
             question = self.case.with_size_ratio(size_ratio)
@@ -240,7 +248,7 @@ class _OneMesh:
         return tried[size_ratio]
 
     def whole_answer(self, size_ratio: float, whole: dict[float, Answer]) -> Answer:
-        """The answer of a size with the estimate of its error, solved once."""
+        """Return the answer for a size ratio with its error estimate; it is solved once."""
         if size_ratio not in whole:
             self.progress(size_ratio)
             question = self.case.with_size_ratio(size_ratio)
@@ -248,16 +256,24 @@ class _OneMesh:
         return whole[size_ratio]
 
     def excess(self, size_ratio: float, tried: dict[float, Answer]) -> float | None:
-        """P_ucr less the limit in Pa; without a balance the end of the closure stands in."""
+        """Return P_ucr minus the limit in Pa; None if it is not known.
+
+        If P_ucr does not exist because the closure ends, the pressure at its end is used instead,
+        provided that it is not below the limit.
+        """
         answer = self.answer(size_ratio, tried)
         if answer.pressure is not None:
             return answer.pressure - self.limit
         end = answer.closure_end_pressure
-        # No balance below the closure's end: P_ucr is above the limit where that end is.
+        # P_ucr would be above the end of the closure, and so above the limit if the end is.
         return None if end is None or end < self.limit else end - self.limit
 
     def root(self, tried: dict[float, Answer]) -> Root | NoValue | TooSmall | None:
-        """The root between the lumen and the largest size; None where it lies below every size."""
+        """Find the root between the lumen and the largest size.
+
+        The result is None if the root lies below the smallest size that is distinguished from the
+        lumen.
+        """
         low, high, limit = self.lumen, self.case.size_ratio, float(self.limit)
 
         def excess(size_ratio: float) -> float | None:
@@ -281,7 +297,7 @@ class _OneMesh:
 def _from_coarse(
     mesh: _OneMesh, start: Root, tried: dict[float, Answer], whole: dict[float, Answer]
 ) -> Root | None:
-    """The root by secants from that on a coarser mesh; None where they do not lead to one."""
+    """Find the root by secants, from the root on a coarser mesh; None if they do not converge."""
 
     def pressure_of(size_ratio: float, last: bool) -> float | None:
         if last:
@@ -293,7 +309,7 @@ def _from_coarse(
 
 
 def _without_size(case: Case, limit: Pressure, answer: Answer) -> SizeAnswer:
-    """The search ended at a size without an answer."""
+    """Return the result of a search that ended at a size for which there is no answer."""
     where = f"at size ratio {answer.case.size_ratio:.4g}"
     return SizeAnswer(case, answer.outcome, _located(answer, where), limit, at_size=answer)
 
@@ -318,13 +334,13 @@ def _found(mesh: _OneMesh, found: Root, at_size: Answer) -> SizeAnswer:
 
 
 def _located(answer: Answer, where: str) -> str:
-    """The sentence of an answer, with the size that it is of."""
+    """Return the sentence of an answer, and the size to which it applies."""
     reason = f": {answer.reason}" if answer.reason else ""
     return f"{answer.outcome.value}{reason} ({where})."
 
 
 def _size_ratio_error(at_size: Answer, slope: float | None) -> float | None:
-    """The error of P_ucr over its slope."""
+    """Return the error of P_ucr divided by dP_ucr/dξ, plus the tolerance of the search."""
     if at_size.error is None or at_size.error.critical_pressure is None or slope is None:
         return None
     return abs(at_size.error.critical_pressure / slope) + TOLERANCE
@@ -342,13 +358,15 @@ def _beyond_range(case: Case, limit: Pressure, top: Answer) -> SizeAnswer:
     assert top.pressure is not None
     if case.stone.friction == 0.0:
         message = (
-            "Without friction nothing holds the stone: every size moves, and none is critical."
+            "Without friction a stone of any size moves without urine pressure, "
+            "so that there is no critical size."
         )
         return SizeAnswer(case, Outcome.BEYOND_RANGE, message, limit, at_size=top)
     within = Outcome.BEYOND_RANGE.value
     if not case.model.NEEDS_ELEMENTS:
         within = (
-            f"The pressure limit is not reached within the sizes of the model '{case.model.NAME}'"
+            "The pressure limit is not reached within the range of sizes of the model "
+            f"'{case.model.NAME}'"
         )
     message = (
         f"{within}: at its end, size ratio {case.size_ratio:.4g}, the "

@@ -22,7 +22,8 @@ FARTHEST = 0.03  # largest length of a secant step
 SMALLER = (0.75, 0.5, 0.35, 0.25)
 LARGER = 3  # number of bisections between a point below the target and a point without a value
 
-# Returns the function minus its target, or None where the function has no value.
+# A function that returns the difference of another function and its target, or None if the other
+# function has no value.
 Excess = Callable[[float], float | None]
 
 

@@ -1,4 +1,4 @@
-"""The stone: its size, its shape, and its friction on the wall."""
+"""The stone: size, shape, and friction coefficient between stone and wall."""
 
 from __future__ import annotations
 
@@ -19,21 +19,30 @@ DIAMETER = (1e-5, 1.0)  # m
 
 @dataclass(frozen=True, init=False)
 class Stone:
-    """A rigid stone, convex and of revolution, by its diameter or its size ratio ξ = R_s/R_a.
+    """A rigid stone: a convex body of revolution whose axis lies along the ureter.
+
+    Either the diameter or the size ratio must be given.
 
     Parameters
     ----------
-    diameter : str or Length, optional
-        The largest across the ureter. Text with a unit, e.g. ``"4.2 mm"``; in metres once read.
+    diameter : str, Length or pint.Quantity, optional
+        Largest diameter 2 R_s across the ureter, 0.01 mm to 1 m; text has a unit, e.g.
+        ``"4.2 mm"``. The attribute is in m.
     friction : float, optional
-        Coulomb coefficient μ_f between stone and wall, 0 to 2; by default 0.5, the paper's.
+        Coulomb coefficient μ_f between stone and wall, 0 to 2; by default 0.5, the paper's value.
     size_ratio : float, optional
-        ξ, where no length is known; 0.1 to 3.
+        Size ratio ξ = R_s/R_a, 0.1 to 3.
     aspect : float, optional
-        Length of a spheroid along the ureter over its diameter across it, 0.5 to 2; 1, the
-        default, is a sphere.
+        Length of a spheroid along the ureter divided by its diameter across it, 0.5 to 2. The
+        default of 1 is a sphere.
     shape : Shape, optional
-        Any other shape (`read_shape`, `shape_through`); not beside another `aspect`.
+        Any other convex shape, e.g. from `read_shape` or `shape_through`. It replaces `aspect`.
+
+    Raises
+    ------
+    BadInput
+        The size is missing, given twice, without a unit or out of bounds, another value is out of
+        bounds, or both a shape and a different aspect are given.
     """
 
     SECTION: ClassVar[str] = "stone"
@@ -92,7 +101,7 @@ class Stone:
         if shape is not None:
             require(isinstance(shape, Shape), "shape", shape, "a Shape, as read_shape gives it")
             if aspect is not None and aspect != shape.aspect:
-                raise Misplaced("aspect", "a shape", "", "a shape has its own")
+                raise Misplaced("aspect", "a shape", "", "a shape has its own aspect")
         set_inputs(
             self,
             diameter=diameter,

@@ -1,4 +1,4 @@
-"""The ureter: a uniform tube without load."""
+"""The ureter: material and size of a uniform tube in its unloaded state."""
 
 from __future__ import annotations
 
@@ -15,33 +15,35 @@ from stonepass.units import Length, format_length
 __all__ = ["BY_RATIO", "WALL_RATIO", "Ureter"]
 
 WALL_RATIO = (1.02, 10.0)
-CONSISTENT = 1e-9  # relative difference of a length that is given twice
+CONSISTENT = 1e-9  # largest relative difference of two values of one length or ratio
 BY_RATIO = "give the inner diameter with the outer one or the wall thickness, or the ratio alone"
 
 
 @dataclass(frozen=True, init=False)
 class Ureter:
-    """A uniform tube without load, by its lengths or by its wall ratio η = R_b/R_a.
+    """A uniform tube in its unloaded state, described by lengths or by its wall ratio η = R_b/R_a.
+
+    Text of a length has a unit; the attributes of all lengths are in m.
 
     Parameters
     ----------
     inner_diameter : str, Length or pint.Quantity, optional
-        Inner diameter 2 R_a, e.g. ``"3.5 mm"``; 0.01 mm to 1 m, in m once read.
+        Inner diameter 2 R_a, 0.01 mm to 1 m, e.g. ``"3.5 mm"``.
     outer_diameter : str, Length or pint.Quantity, optional
-        Outer diameter 2 R_b; not beside `wall_thickness`.
+        Outer diameter 2 R_b, 0.01 mm to 1 m.
     material : str or Material, optional
-        Catalogue name or a `Material`; the human wall, ``"ureter"``, by default. `load_material`
-        reads one from a file.
+        Name in the catalogue, or a `Material`, which `load_material` can read from a file. The
+        default, ``"ureter"``, is the wall of the human ureter.
     wall_ratio : float, optional
-        η, 1.02 to 10, where no outer diameter is given.
+        Wall ratio η, 1.02 to 10; required unless the outer diameter or the wall thickness is given.
     wall_thickness : str, Length or pint.Quantity, optional
-        R_b − R_a, e.g. ``"0.52 mm"``, with `inner_diameter` and in place of `outer_diameter`.
+        Wall thickness R_b − R_a, e.g. ``"0.52 mm"``, instead of `outer_diameter`.
 
     Raises
     ------
     BadInput
-        A size is missing or given twice, has no unit, or is out of bounds; or the material is
-        unknown.
+        A size is missing, has no unit or is out of bounds, two sizes contradict each other, or the
+        material is unknown.
 
     Examples
     --------

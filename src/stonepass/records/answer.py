@@ -70,15 +70,16 @@ class AnswerRecord(Record):
     )
     detail: dict[str, float | list[float] | None] = Field(
         description=(
-            "quantities that only this model has. `paper`: `closure_end_pressure_kPa`, P_u at the "
-            "end of the closure (r_a = R_s), which is no physical bound; `series_coefficients` "
-            "c₁, c₂, … of the series closure in t = (ρ_α − ρ₀)/(R_s − ρ₀); "
-            "`printed_series_coefficients` a₀, a₁, … of Eq. 14 in inner radii. `direct`: "
-            "`leak_pressure_kPa`, P_u at which urine passes the held stone, from the coarser "
-            "solve; `seal_angle_deg`, the angle of the largest contact pressure in the loaded "
-            "state. `beam`: `closure_end_pressure_kPa`; `circumferential_modulus_Pa` and "
-            "`longitudinal_modulus_Pa`, E₁ and E₂; `foundation_Pa`, k R_a; `decay`, β R_a; "
-            "`half_contact_length`, a/R_a"
+            "additional results, which depend on the model. The model `paper` has "
+            "`closure_end_pressure_kPa` (P_u at the end of the closure, r_a = R_s, which is no "
+            "physical bound), and for a fitted series `series_coefficients` (c₁, c₂, … in powers "
+            "of t = (ρ_α − ρ₀)/(R_s − ρ₀)) and `printed_series_coefficients` (a₀, a₁, … of Eq. 14 "
+            "in inner radii). The model `direct` has `leak_pressure_kPa` (P_u at which urine "
+            "passes the held stone, from the coarser solve) and `seal_angle_deg` (angle of the "
+            "largest contact pressure in the loaded state). The model `beam` has "
+            "`closure_end_pressure_kPa`, `circumferential_modulus_Pa` (E₁), "
+            "`longitudinal_modulus_Pa` (E₂), `foundation_Pa` (k R_a), `decay` (β R_a) and "
+            "`half_contact_length` (a/R_a)"
         )
     )
     size_ratio: float | None = Field(

@@ -84,7 +84,10 @@ class CohortRecord(PartRecord):
     )
     days: float | None = Field(description="mean time to pass in days")
     model: FractionRecord | None = Field(
-        description="fraction of samples below the pressure limit, for such stones"
+        description=(
+            "fraction of the samples with P_ucr below the pressure limit, among the samples whose "
+            "stone belongs to `group` (all samples if `group` is a place)"
+        )
     )
     comparison: str = Field(description="difference of the two fractions in words")
 
@@ -149,8 +152,9 @@ class AssessRecord(Record):
     )
     at_values: AnswerRecord = Field(
         description=(
-            "answer at the measured values, for the stiffness of the material and the confining "
-            "pressure divided by the measured relative stiffness"
+            "answer at the measured values, except that the wall has the stiffness of the material "
+            "and the confining pressure is divided by the measured relative stiffness s; P_ucr at "
+            "the measured values is s times the pressure of this answer"
         )
     )
     present_pressure_kPa: PressureRangeRecord | None = Field(

@@ -94,6 +94,11 @@ def write_map(found: Iterable[ClosureComparison], path: Path) -> None:
         The comparisons; pressures are written in kPa.
     path : Path
         File to write.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written.
     """
     rows = (closures_record(each).to_dict() for each in found)
     write_csv(path, COLUMNS, ([row[name] for name in COLUMNS] for row in rows))

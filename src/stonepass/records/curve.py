@@ -81,6 +81,11 @@ def write_curve(answers: Iterable[Answer], path: Path) -> None:
         The answers of the curve; pressures are written in kPa and angles in degrees.
     path : Path
         File to write.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written.
     """
     columns = tuple(CurvePointRecord.model_fields)
     rows = []

@@ -34,7 +34,7 @@ class FittedConstantRecord(PartRecord):
     high: float | None = Field(
         description="upper end of the 95 % interval; null for a given constant or an open interval"
     )
-    given: bool = Field(description="whether the constant was given (`--fix`) instead of fitted")
+    given: bool = Field(description="true if the constant was given (`--fix`) instead of fitted")
 
 
 class FitPointRecord(PartRecord):
@@ -51,7 +51,7 @@ class FitInputsRecord(PartRecord):
 
     file: str = Field(description="name of the data file")
     relative: bool = Field(
-        default=False, description="whether errors are assumed proportional to the predicted values"
+        default=False, description="true if errors are assumed proportional to the predicted values"
     )
     data: list[FitPointRecord] = Field(description="the fitted points")
 
@@ -107,7 +107,7 @@ class FitRecord(Record):
     points: int = Field(description="number of fitted points")
     measured: str = Field(description="measured quantity")
     strain_range: list[float] = Field(description="smallest and largest stretch of the data")
-    stable: bool = Field(description="whether the law is stable over the strain range of the data")
+    stable: bool = Field(description="true if the law is stable over the strain range of the data")
     stability: str = Field(description="reason why the law is unstable; empty if it is stable")
     warnings: list[CautionRecord] = Field(description="warnings about the fit")
 

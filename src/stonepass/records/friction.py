@@ -96,11 +96,11 @@ class FrictionRecord(Record):
     tilt_deg: float = Field(
         description="angle between the least-squares plane of the surface and that of the picture"
     )
-    levelled: bool = Field(description="whether the least-squares plane was subtracted (`--level`)")
+    levelled: bool = Field(description="true if the least-squares plane was subtracted (`--level`)")
     friction_levelled: float | None = Field(
         description=(
-            "μ_f with the plane subtracted; null if the plane changes by less than 1 % of the "
-            "height range over the area, or if μ_f does not exist"
+            "μ_f with the plane subtracted; null if the plane changes along the paths by less than "
+            "1 % of the range of the profiles, or if μ_f does not exist"
         )
     )
     height_range_um: float | None = Field(

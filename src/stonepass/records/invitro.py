@@ -122,7 +122,7 @@ class InVitroRecord(AgreementRecord, Record):
         description="friction and stiffness fitted together; null for fewer than four points"
     )
     weighted: bool = Field(
-        description="whether the residuals are weighted by the standard deviations of the points"
+        description="true if the residuals are weighted by the standard deviations of the points"
     )
     level: float = Field(description="confidence level of the intervals")
     points: list[InVitroPointRecord] = Field(description="the points of the series")
@@ -189,6 +189,11 @@ def write_invitro(found: InVitro, path: Path) -> None:
         The comparison; pressures are written in kPa.
     path : Path
         File to write.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written.
     """
     columns = tuple(InVitroPointRecord.model_fields)
     rows = (each.to_dict() for each in _points(found.comparison))

@@ -32,6 +32,11 @@ def write_profile(state: ContactState, shape: Shape, path: Path) -> None:
         Shape of the stone.
     path : Path
         File to write.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written.
     """
     first = math.degrees(state.contact_angle)
     last = math.degrees(state.downstream_angle)

@@ -94,6 +94,11 @@ def write_rising(rising: Rising, path: Path) -> None:
         The states; pressures are written in kPa and angles in degrees.
     path : Path
         File to write.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be written.
     """
     columns = tuple(RisingStateRecord.model_fields)
     rows = (each.to_dict() for each in rising_record(rising).states)

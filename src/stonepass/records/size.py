@@ -21,8 +21,8 @@ class SizeRecord(AnswerRecord):
     critical_size_ratio: float | None = Field(description="size ratio ξ of the critical size")
     critical_size_ratio_error: float | None = Field(
         description=(
-            "estimated discretisation error (±) of `critical_size_ratio`: the error of P_ucr "
-            "divided by dP_ucr/dξ"
+            "estimated error (±) of `critical_size_ratio`: the discretisation error of P_ucr "
+            "divided by dP_ucr/dξ, plus the tolerance of the search, 1e-6"
         )
     )
     critical_diameter_mm: float | None = Field(

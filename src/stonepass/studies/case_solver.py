@@ -28,7 +28,7 @@ class CaseSolver(Protocol):
         cases : sequence of Case
             Cases to be solved.
         error : bool
-            Whether the discretisation error is estimated too, which needs a second solve per case.
+            True if the discretisation error is estimated too, which needs a second solve per case.
         """
 
 
@@ -59,7 +59,7 @@ class JobSolver:
         cases : sequence of Case
             Cases to be solved.
         error : bool
-            Whether the discretisation error is estimated too.
+            True if the discretisation error is estimated too.
         """
         jobs = [PressureJob(case, error=error) for case in cases]
         with reported(self.progress, "cases") as told:

@@ -45,7 +45,7 @@ CLOSURES = {
     "direct": "direct push-through",
 }
 SERIES_ORDER = 3  # default order of the fitted series
-# Relative distance from the direct answer of the two pressures at which D is computed.
+# D is computed at two pressures, which differ from the direct answer by ± this fraction of it.
 NEAR = 0.03
 
 
@@ -127,7 +127,7 @@ def closures(
     states : StateSolver
         Solver or cache of the finite-element states.
     wetted : bool
-        Whether the direct model is wetted (see `PushThrough`).
+        True if the direct model is wetted (see `PushThrough`).
 
     Returns
     -------

@@ -125,7 +125,8 @@ def critical_curve(
     Raises
     ------
     BadInput
-        There is no size ratio, a size ratio is out of bounds, or `case` is not a Case.
+        There is no size ratio, a size ratio is out of bounds, `case` is not a Case, or its model
+        has an opening curve, which is valid for one stone size only.
 
     References
     ----------

@@ -28,7 +28,7 @@ from stonepass.io.text_file import WRITING
 __all__ = ["CORES", "InProcessExecutor", "executor_for", "process_pool", "stream"]
 
 CORES = os.cpu_count() or 1  # number of processors
-BLOCK_SECONDS = 1.0  # time in s after which a block of items starts no further item
+BLOCK_SECONDS = 1.0  # time in s after which a block ends; its remaining items are sent again
 LARGEST_BLOCK = 256  # largest number of items in a block
 IN_FLIGHT = 64  # largest number of blocks that were sent and have not returned
 GRACE = 1.0  # time in s that a process has to end by itself after the work was cancelled
@@ -221,7 +221,7 @@ def stream(
                 block = [waiting.popleft() for _ in range(min(size, len(waiting)))]
                 future = executor.submit(_run_block, work, [item for _, item in block])
                 pending[future] = block
-                if future.done():  # it ran in this process; pass on its results first
+                if future.done():  # the executor runs in this process; the results are passed on
                     break
             done, _ = wait(pending, return_when=FIRST_COMPLETED)
             for future in done:

@@ -60,9 +60,9 @@ class PressureJob:
     case : Case
         The case to be solved.
     wall : bool
-        Whether the answer keeps the stress field of its state.
+        True if the answer keeps the stress field of its state.
     error : bool
-        Whether the discretisation error is estimated, which needs a second, coarser solve.
+        True if the discretisation error is estimated, which needs a second, coarser solve.
     """
 
     case: Case
@@ -149,9 +149,9 @@ class Results:
         case : Case
             The solved case.
         wall : bool
-            Whether the answer must have its stress field.
+            True if the answer must have its stress field.
         error : bool
-            Whether the answer must have an error estimate.
+            True if the answer must have an error estimate.
         """
         return self[PressureJob(case, wall, error)]
 
@@ -242,7 +242,8 @@ def state_solver(cache_folder: Path | None, *, walls: bool = False) -> StateSolv
     cache_folder : Path or None
         Folder of the solution cache; None for a solver without a cache.
     walls : bool
-        Whether the states keep their stress fields.
+        True if the cache stores the stress fields of the states. Without a cache the states always
+        have their stress fields.
     """
     if cache_folder is None:
         return UNCACHED

@@ -44,7 +44,8 @@ SCATTERED = {1: 8, 2: 16, 3: 32, 4: 64}
 TAILS = (0.002, 0.998)
 NARROW = 1e-9  # width below which a range counts as a single value
 FEWEST = 10  # smallest number of solved cases with an answer
-# Relative distance from the end of the closure within which P_ucr may lie on either side of it.
+# The surface cannot decide on which side of the end of the closure a pressure lies if the relative
+# difference of both is smaller than this.
 NEAR_END = 0.02
 HALF_LENGTHS = 2.5  # half length of the tube, in radii of the largest stone
 
@@ -63,7 +64,7 @@ class ResponseSurface:
     pressure : array (n)
         P_ucr of these cases in Pa, or the pressure at the end of the closure if P_ucr lies beyond.
     ended : array (n) of bool
-        Whether the closure ended before the stone moved.
+        True for a case in which the closure ended before the stone moved.
     lost : Conditions
         The cases without an answer.
     reason : str
@@ -88,23 +89,28 @@ class ResponseSurface:
 
     @property
     def usable(self) -> bool:
-        """Whether enough cases have an answer for an interpolant."""
+        """True if enough cases have an answer for an interpolant."""
         return len(self.pressure) >= FEWEST
 
     def __call__(self, asked: Conditions) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
-        """Return P_ucr in Pa for n conditions, and which values are censored.
+        """Return P_ucr in Pa for n conditions; some values are only lower bounds (*censored*).
 
-        A censored value is only a lower bound. Values are censored above the largest solved size
-        and where the paper's closure ends before the stone moves. They are censored with the lower
-        bound 0 if the load closes the lumen, or if the nearest case has no answer. P_ucr is 0 (not
-        censored) for a stone that is no larger than the lumen.
+        A value is censored if the stone is larger than the largest solved one, or if the paper's
+        closure ends before the stone moves. If the load closes the lumen, or if the nearest case
+        has no answer, the value is censored and the lower bound is 0. P_ucr is 0, and not censored,
+        for a stone that is no larger than the lumen.
+
+        Parameters
+        ----------
+        asked : Conditions
+            Size ratio, wall ratio, friction and load factor of the n conditions.
 
         Returns
         -------
         pressure : array (n)
             P_ucr or its lower bound in Pa.
         censored : array (n) of bool
-            Whether the value is only a lower bound.
+            True for a value that is only a lower bound.
         """
         lumen = lumen_ratios(self.case, asked.wall_ratio, asked.load_factor)
         closed = ~np.isfinite(lumen)
@@ -119,7 +125,7 @@ class ResponseSurface:
         # Below the smallest solved size P_ucr is proportional to the oversize.
         found *= np.minimum(held / OVERSIZE[0], 1.0)
         censored = over > top
-        if self.ended.any():  # near its end the surface cannot decide whether the closure has ended
+        if self.ended.any():
             end = self._closure_end(at)
             censored |= found >= (1.0 - NEAR_END) * end
             found = np.minimum(found, end)

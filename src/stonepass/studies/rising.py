@@ -121,7 +121,7 @@ def raise_pressure(
     states : StateSolver
         Solver or cache of the finite-element states.
     wetted : bool
-        Whether the direct model is wetted (see `PushThrough`).
+        True if the direct model is wetted (see `PushThrough`).
 
     Returns
     -------

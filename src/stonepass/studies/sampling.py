@@ -13,7 +13,8 @@ from stonepass.studies.uncertain_quantity import UncertainQuantity
 __all__ = ["Draws", "draw", "sobol_points"]
 
 Draws = Mapping[str, Float[np.ndarray, " n"]]
-# Binary logarithms of the factors on the number of draws that are tried one after the other.
+# As long as too few samples are accepted, the first number of draws is multiplied by 2 to these
+# powers, one after the other.
 MORE_DRAWS = (0, 2, 4, 6)
 
 
@@ -34,9 +35,10 @@ def draw(
     seed : int
         Seed of the scrambled Sobol sequence, 0 to 2³² − 1.
     keep : callable
-        Function that returns for each sample whether it is accepted. Its arguments are the samples
-        and an array (n) of independent random numbers, uniform between 0 and 1, with which it can
-        accept a sample with a given probability.
+        Function that returns an array (n) of bool: True for an accepted sample. Its first argument
+        is the samples. Its second argument is an array (n) of independent random numbers, uniform
+        between 0 and 1. A sample is accepted with the probability p if it is accepted whenever its
+        number is below p.
 
     Returns
     -------
@@ -44,7 +46,7 @@ def draw(
         All samples, accepted or not. n is a power of two and at most 64 times `count` (rounded up
         to a power of two).
     kept : array (n) of bool
-        Whether each sample is accepted. Fewer than `count` may be accepted.
+        True for an accepted sample. Fewer than `count` may be accepted.
 
     References
     ----------

@@ -64,7 +64,7 @@ class SolutionCache:
     folder : Path
         Folder of the cache, which is made if necessary. Several processes may share it.
     walls : bool
-        Whether states are stored with their stress fields.
+        True if states are stored with their stress fields.
     """
 
     folder: Path

@@ -107,8 +107,10 @@ def run_studies(
     ----------
     studies : sequence of Study
         The studies to be run.
-    executor, cache_folder, progress
+    executor, cache_folder
         As for `run_study`.
+    progress : callable, optional
+        Function that is called with (done, all) after each job.
     """
     jobs = [list(study.jobs()) for study in studies]
     results = run_jobs((job for each in jobs for job in each), executor, cache_folder, progress)

@@ -42,7 +42,7 @@ class UncertainQuantity:
     low, high : float
         Ends of the range, or bounds at which the distribution is truncated.
     factor : bool
-        Whether the quantity is a factor, such as a relative stiffness. Its distribution is then
+        True if the quantity is a factor, such as a relative stiffness. Its distribution is then
         lognormal with the median `value`.
 
     References
@@ -58,7 +58,7 @@ class UncertainQuantity:
 
     @property
     def exact(self) -> bool:
-        """Whether the quantity has no uncertainty."""
+        """True if the quantity has no uncertainty."""
         return self.sd == 0.0 or self.low == self.high
 
     @property
@@ -136,7 +136,7 @@ def measured_number(
     bounds : (float, float)
         Smallest and largest number.
     factor : bool
-        Whether the number is a factor with a lognormal distribution (see `UncertainQuantity`).
+        True if the number is a factor with a lognormal distribution (see `UncertainQuantity`).
 
     Raises
     ------

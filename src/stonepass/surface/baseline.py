@@ -67,7 +67,7 @@ class Baseline:
 
     @property
     def at_edge(self) -> bool:
-        """Whether the steepest slope lies at the edge of a margin."""
+        """True if the steepest slope lies at the edge of a margin."""
         steep = int(np.argmax(self.slopes()[1]))
         return steep in (0, PER_HALF_WAVE * max(self.order, 2))
 
@@ -124,7 +124,7 @@ def _terms(t: Float[np.ndarray, " n"], order: int) -> Float[np.ndarray, "n terms
 
 
 def _slopes(t: Float[np.ndarray, " n"], order: int) -> Float[np.ndarray, "n terms"]:
-    """Return the derivatives of the terms by t."""
+    """Return the derivatives of the terms with respect to t."""
     waves = np.pi * np.arange(1, order + 1)
     cosines = -waves * np.sin(np.outer(t, waves))
     return np.column_stack([np.zeros_like(t), np.ones_like(t), 2.0 * t, cosines])

@@ -14,16 +14,17 @@ from stonepass.array_types import Bool, Float, Num
 
 __all__ = ["drawn_rows", "find_bar"]
 
-# Grey levels nearer to each other than 1/LIKE of the range of the picture, and at most LIKE_MOST
-# levels, count as one background: JPEG compression spreads one level over so many.
+# JPEG compression spreads the grey level of a background over neighbouring levels. Levels that
+# differ from it by at most 1/LIKE of the range of the picture, but not by more than LIKE_MOST
+# levels, are therefore counted as the same background.
 LIKE = 64
 LIKE_MOST = 2
 BINS = 256  # number of grey levels that are distinguished
 GREYS = 3  # largest number of backgrounds of the cells of a bar
-# Least fractions of the pixels of a row of a bar that have its commonest grey level, or one of its
-# three commonest levels. A row that reaches one of them is called drawn.
+# A row is "drawn" if at least the first fraction of its pixels have its most frequent grey level,
+# or at least the second fraction have one of its three most frequent levels.
 DRAWN = (0.5, 0.85)
-SURFACE = (0.3, 0.5)  # largest values of these fractions in the rows next to a bar
+SURFACE = (0.3, 0.5)  # largest mean values of these two fractions in the rows next to a bar
 ROWS_DRAWN = 0.75  # least fraction of drawn rows in a bar; large letters hide some backgrounds
 THINNEST = 6  # smallest height of a bar in rows
 HIGHEST = 0.4  # largest height of a bar as a fraction of the picture
@@ -39,8 +40,9 @@ def drawn_rows(values: Num[np.ndarray, "rows columns"]) -> Bool[np.ndarray, " ro
 def find_bar(values: Num[np.ndarray, "rows columns"]) -> tuple[int, int]:
     """Return the heights of the data bars at the top and at the bottom of a grey picture.
 
-    At the edge of a bar, rows that few grey levels dominate must border on rows of the surface. A
-    bar is at most 40 % of the picture high. A height of 0 means that there is no bar.
+    A bar consists of rows with few dominating grey levels, and the rows next to it must have the
+    many grey levels of a surface. Its height is at most 40 % of that of the picture. A height of 0
+    means that there is no bar.
     """
     low, high = int(values.min()), int(values.max())
     most = int(HIGHEST * len(values))
@@ -53,7 +55,11 @@ def find_bar(values: Num[np.ndarray, "rows columns"]) -> tuple[int, int]:
 def _shares(
     values: Num[np.ndarray, "rows columns"], low: int, high: int
 ) -> Float[np.ndarray, "rows 2"]:
-    """Return the fractions of each row with its commonest grey level and its three commonest."""
+    """Return two fractions of the pixels of each row.
+
+    The first is the fraction with the most frequent grey level of the row, the second the fraction
+    with one of its three most frequent levels.
+    """
     shift = max((high - low).bit_length() - (BINS - 1).bit_length(), 0)
     near = 0 if shift else min(LIKE_MOST, (high - low) // LIKE)
     shares = np.zeros((len(values), 2))

@@ -33,7 +33,7 @@ class Decoded:
 
     @property
     def has_alpha(self) -> bool:
-        """Whether the last channel is alpha, the opacity of the pixel."""
+        """True if the last channel is alpha, the opacity of the pixel."""
         return self.values.ndim == 3 and self.values.shape[2] in (2, 4)
 
     def grey(self) -> Num[np.ndarray, "rows columns"]:

@@ -52,7 +52,8 @@ SAMPLES = 4  # least number of samples per term of a baseline
 FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # factors on both orders, for the spread
 MARGINS = (0.0, 0.25, MARGIN, 1.0)  # margins in shortest wavelengths, for the spread
 LARGEST = 2.0  # largest friction coefficient that a case accepts
-# The plane is ignored if its height changes by less than this fraction of the height range.
+# The plane is ignored if it changes along the paths by less than this fraction of the range of the
+# profiles.
 DRIFT = 0.01
 TELL_TILT = 0.02  # slope of the plane, divided by μ_f, above which a warning is given
 
@@ -74,7 +75,7 @@ def friction_of_slopes(k0: float, k1: float) -> float:
     ----------
     Liu et al. 2022, Eq. 18; docs/theory.md, "Friction from a surface".
     """
-    require(k0 >= 0.0 and k1 >= 0.0, "slopes", f"{k0:g} and {k1:g}", "not negative")
+    require(k0 >= 0.0 and k1 >= 0.0, "pair of slopes k0, k1", f"{k0:g}, {k1:g}", "not negative")
     if k0 * k1 >= 1.0:
         raise BadInput("product of the slopes k0 and k1", f"{k0:.3g} × {k1:.3g}", "below 1",
                        "check the height range and the pixel size")  # fmt: skip
@@ -129,7 +130,7 @@ def surface_friction(
         orders the second baseline would be zero, since a least-squares residual is orthogonal to
         its basis.
     level : bool
-        Whether the least-squares plane of the area is subtracted first, which removes the tilt of
+        True if the least-squares plane of the area is subtracted first, which removes the tilt of
         the specimen. Without it a warning is given if the tilt influences the result.
     margin : float
         Margin at the ends of the paths in which slopes are not evaluated, in units of the shortest

@@ -115,10 +115,10 @@ class SurfaceFriction(Result):
     tilt : float
         Angle in rad between the least-squares plane of the surface and the plane of the picture.
     levelled : bool
-        Whether the least-squares plane was subtracted.
+        True if the least-squares plane was subtracted.
     friction_levelled : float or None
-        μ_f with the plane subtracted. It is None if the plane changes by less than 1 % of the
-        height range over the area, or if μ_f does not exist with the plane subtracted.
+        μ_f with the plane subtracted. It is None if the plane changes along the paths by less than
+        1 % of the range of the profiles, or if μ_f does not exist with the plane subtracted.
     warnings : tuple of Caution
         Warnings about the picture, the paths and the result.
 

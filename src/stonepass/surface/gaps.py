@@ -36,7 +36,7 @@ def bridgeable(known: Bool[np.ndarray, " n"], longest: float) -> bool:
     Parameters
     ----------
     known : array (n) of bool
-        Whether each sample of the profile has a height.
+        True for a sample with a height.
     longest : float
         Length of the longest gap that may be bridged, in samples.
 
@@ -62,7 +62,7 @@ def bridge(
     values : array (n)
         Heights in m; the values in gaps are ignored.
     known : array (n) of bool
-        Whether each sample has a height.
+        True for a sample with a height.
 
     References
     ----------

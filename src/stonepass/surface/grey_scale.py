@@ -18,13 +18,13 @@ from stonepass.surface.surface_image import SurfaceImage
 __all__ = ["SCALINGS", "Greys", "check_surface", "grey_ranges", "to_heights"]
 
 ROWS = 512  # number of rows that are processed at a time, to limit the memory
-LEVELS = 16  # least difference of the darkest and brightest grey level
+LEVELS = 16  # smallest difference between the brightest and the darkest grey level
 # Largest fraction of pixels with the darkest or brightest level. Above it the picture is refused.
 SATURATED = 0.25
 # Fraction of such pixels above which a warning is given; a smooth surface has fewer.
 TELL_SATURATED = 0.1
-# Gap of unused levels below the brightest or above the darkest level, over the range of levels,
-# above which letters or a scale bar are suspected.
+# Letters or a scale bar are suspected if the brightest or the darkest level is farther from the
+# next used level than this fraction of the range of levels.
 GAP = 0.1
 DRAWN_ROWS = 0.01  # fraction of rows with few grey levels above which a data bar is suspected
 SMOOTHED = 5  # side in pixels of the square over which grey levels are averaged for their range
@@ -51,8 +51,8 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     Raises
     ------
     BadInput
-        A height map has no heights or is flat, a picture has fewer than 16 grey levels, or at least
-        a quarter of its pixels have the darkest or brightest level.
+        A height map has no heights or is flat, the darkest and the brightest level of a picture
+        differ by less than 16, or at least a quarter of its pixels have one of these two levels.
     """
     values = picture.surface
     if picture.has_heights:
@@ -65,7 +65,8 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     greys = np.flatnonzero(counts)
     low, high = int(greys[0]), int(greys[-1])
     shown = f"flat, with greys from {low} to {high}"
-    require(high - low >= LEVELS, "picture", shown, f"of at least {LEVELS} grey levels")
+    allowed = f"with at least {LEVELS} grey levels between darkest and brightest"
+    require(high - low >= LEVELS, "picture", shown, allowed)
     ends = float(counts[low] + counts[high]) / values.size
     allowed = f"less than {SATURATED:.0%} of it"
     require(ends < SATURATED, "darkest or brightest grey", f"{ends:.0%} of the picture", allowed,

@@ -31,7 +31,13 @@ MEMORY_REMEDY = "cut out the part that matters, or save it in a simpler format"
 
 
 def check_file(path: Path) -> None:
-    """Refuse a path that is not a file, and a file that is empty or larger than 200 MB."""
+    """Refuse a path that is not a file, and a file that is empty or larger than 200 MB.
+
+    Raises
+    ------
+    BadInput
+        The file does not exist, is empty or is too large.
+    """
     if not path.is_file():
         raise BadInput("image", str(path), "a file that exists", "check the path")
     size = path.stat().st_size

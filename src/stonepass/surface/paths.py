@@ -232,8 +232,9 @@ def profiles_along(
     Raises
     ------
     BadInput
-        The pixel size is unknown, or a path leaves the area of the picture, is shorter than two
-        pixels, has no height at one of its ends, or crosses a gap that is too long.
+        The pixel size is unknown, the number of paths is out of bounds, or a path leaves the area
+        of the picture, is shorter than two pixels, has no height at one of its ends, or crosses a
+        gap that is too long.
 
     References
     ----------

@@ -121,7 +121,7 @@ class SurfaceImage:
 
     @property
     def has_heights(self) -> bool:
-        """Whether the values are heights instead of grey levels."""
+        """True if the values are heights instead of grey levels."""
         return self.full_scale == 0
 
     @property

@@ -60,7 +60,8 @@ def solve_active_set(
         First guess; it also supplies the contact edges for the first mesh.
     resolution : Resolution
     friction : float
-        Coulomb coefficient, zero or positive. It has no effect if `start` has no slip origins.
+        Coulomb coefficient, zero or positive. It has no effect if `start` has no slip origins,
+        which the module `friction` explains.
 
     Returns
     -------

@@ -39,7 +39,7 @@ def axial_balance(solved: EquilibriumState) -> float:
 
 
 def loaded_balance(solved: SolvedWall, pressure: float, force: float) -> float:
-    """Return the unbalanced axial force on loaded tube and stone, relative to the end forces.
+    """Return the unbalanced axial force on tube and stone, relative to the forces at the ends.
 
     The resultants of the stress on both end sections, of the fluid pressure on the upstream
     section, of the force that holds the stone, of a hydrostatic pressure on the outer wall, and of
@@ -58,7 +58,8 @@ def loaded_balance(solved: SolvedWall, pressure: float, force: float) -> float:
     Returns
     -------
     float
-        Absolute value of the relative imbalance.
+        Absolute value of the unbalanced force, divided by the sum of the magnitudes of both section
+        forces and the force of the fluid.
     """
     tube, ends = solved.discretisation.tube, solved.layout.axial[[0, -1]]
     (first, outer_first), (last, outer_last) = (_section_force(solved, float(Z)) for Z in ends)

@@ -54,7 +54,8 @@ def buckling_half_wave(tube: Tube, lumen: float) -> float | None:
     -------
     float or None
         Reference half-wave length in inner radii, from a geometric sequence whose ratio is at most
-        `STEP`; None if the tube is stable for all lengths of the sequence.
+        `STEP`. None if the tube is stable for all lengths of the sequence, or if the solution for
+        the uniform tube does not converge.
     """
     d = discretise(tube, Arc.at(Profile(lumen)), _half_wave(tube, 1.0), ORDER)
     _uniform(d, lumen)

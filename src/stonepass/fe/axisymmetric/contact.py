@@ -79,8 +79,8 @@ class Arc:
 def unilateral(multiplier: Any, gap: Any, c: Any) -> Any:
     """Return the augmented Lagrangian of gap ≥ 0, λ ≥ 0, λ gap = 0, per reference length.
 
-    The density is (⟨λ − c gap⟩₊² − λ²)/2c, times R; the factor 2π is omitted. The density is
-    continuously differentiable, and its second derivative jumps at λ = c gap.
+    The density is R (⟨λ − c gap⟩₊² − λ²)/2c; the factor 2π is omitted. It is continuously
+    differentiable, and its second derivative jumps at λ = c gap.
 
     Parameters
     ----------

@@ -110,8 +110,8 @@ class Discretisation:
     def nodal(self) -> tuple[Any, Any, Any]:
         """Function space on the inner wall, inverse of its mass matrix, and integration measure.
 
-        The measure uses Gauss–Lobatto quadrature. Then the mass matrix is diagonal in the nodal
-        basis, so that an L² projection with it is an interpolation at the nodes.
+        The measure uses Gauss–Lobatto quadrature. With this quadrature the mass matrix is diagonal
+        in the nodal basis, so that an L² projection is an interpolation at the nodes.
         """
         inner = self.mesh.Boundaries(INNER)
         space = ng.H1(self.mesh, order=self.order, definedon=inner)

@@ -58,7 +58,8 @@ def solve_fitted_contact(
         First guess of the state and of the contact edges.
     resolution : Resolution
     friction : float
-        Coulomb coefficient, zero or positive. It has no effect if `start` has no slip origins.
+        Coulomb coefficient, zero or positive. It has no effect if `start` has no slip origins,
+        which the module `friction` explains.
 
     Returns
     -------

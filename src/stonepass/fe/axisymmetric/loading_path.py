@@ -51,7 +51,7 @@ MARGIN = 1.15  # length of the part with equal columns, relative to the friction
 MOST_HALVINGS = 4
 TOUCHES = 1e-6  # smallest contact force of a point in contact, relative to the largest force
 
-# Returns a first guess of the wall for a given position of the stone.
+# A function that returns a first guess of the wall for a given position of the stone.
 WrapAt = Callable[[Profile], Wrap]
 
 

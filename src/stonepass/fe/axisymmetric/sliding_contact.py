@@ -61,8 +61,8 @@ NEAREST_SEAL = 0.05  # smallest distance of the seal from an edge, as a fraction
 # the order of the penetration, which is therefore limited.
 PENETRATION = 1e-3
 
-# Returns a scalar, evaluated from the current state of the workspace, that vanishes at the
-# solution.
+# A function that evaluates the current state of the workspace and returns a scalar, which vanishes
+# at the solution.
 Condition = Callable[[], float]
 
 

@@ -120,7 +120,7 @@ def load(workspace: Workspace, configuration: Configuration) -> None:
     possible = move_contact(
         workspace, configuration.edges, configuration.pressure, configuration.seal
     )
-    assert possible, "a configuration has its edges in order"
+    assert possible, "the contact edges of the configuration are in the wrong order"
 
 
 def capture(workspace: Workspace, seal: float) -> Configuration:

@@ -56,7 +56,8 @@ def intervals(first: float, total: float, growth: float, least: int = 2) -> int:
     Returns
     -------
     int
-        The number n of intervals for which first (growthⁿ − 1)/(growth − 1) reaches `total`.
+        The smallest n, not below `least`, for which first (growthⁿ − 1)/(growth − 1) is at least
+        `total`.
     """
     if first >= total:
         return least

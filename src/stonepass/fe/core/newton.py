@@ -186,7 +186,10 @@ def _line_search(system: System, start: float) -> float:
 
 
 def _same_tangent(system: System, norm: float, tolerance: float) -> float:
-    """Reuse the last factorisation while the norm falls by `STEADY`; undo the first slower step."""
+    """Reuse the last factorisation while each step reduces the norm by the factor `STEADY`.
+
+    The first step that reduces it less is undone. The norm at the last state is returned.
+    """
     while norm > tolerance:
         try:
             system.direction(again=True)

@@ -238,7 +238,7 @@ class BorderedSystem(FormSystem):
         return np.column_stack(slopes)
 
     def _along(self, way: Any) -> Float[np.ndarray, " scalars"]:
-        """Return the derivative of the conditions along the change `way` of the state."""
+        """Return the directional derivative of the conditions for the change `way` of the state."""
         length = float(ng.Norm(way))
         if length == 0.0:
             return np.zeros_like(self._missed)

@@ -108,7 +108,8 @@ def solve_loaded(
     Returns
     -------
     list of PushedState or NoPush
-        One result for each pressure, in the same order.
+        One result for each pressure, in the same order. It is `NoPush` for the first pressure for
+        which no state is found, and for all pressures after it.
 
     Raises
     ------

@@ -73,7 +73,7 @@ def axisymmetric_buckling(case: Problem, half_length: float) -> str:
     -------
     str
         The reason why the case cannot be solved, as part of a sentence; empty if the tube is
-        stable.
+        stable. A tube that is neither compressed from outside nor shortened is not checked.
     """
     load = case.load
     if load.confining_pressure == 0.0 and load.prestretch >= 1.0:

@@ -36,6 +36,7 @@ DOORS = {
         ],
         "public questions refuse arguments in a wrong order with a sentence",
     ),
+    "stonepass.bench.test_data": "readers refuse a size without its unit with a sentence",
     "stonepass.materials.protocol": "the constructor of a material refuses a law with a sentence",
     "stonepass.materials.user_law": "a user's function may return anything; refused with a sentence",
 }

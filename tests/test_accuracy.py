@@ -53,7 +53,7 @@ def test_a_mesh_of_ones_own_is_solved_alone():
     answer = sp.solve(sp.Case(sp.Stone(size_ratio=1.2), LATEX, **FRICTIONLESS), Resolution())
     assert answer.error is None
     assert answer.contact.coarse is None
-    assert "the error is not estimated" in str(answer.warnings[-1])
+    assert "the discretisation error is not estimated" in str(answer.warnings[-1])
 
 
 def test_an_answer_whose_second_solve_fails_says_so(monkeypatch):
@@ -66,7 +66,7 @@ def test_an_answer_whose_second_solve_fails_says_so(monkeypatch):
     answer = sp.solve(sp.Case(sp.Stone(size_ratio=1.2), LATEX, **FRICTIONLESS))
     assert answer.outcome is sp.Outcome.MOVES
     assert answer.error is None
-    assert "the error is not estimated" in str(answer.warnings[-1])
+    assert "the discretisation error is not estimated" in str(answer.warnings[-1])
     assert answer.newton_steps > 7
 
 
@@ -99,7 +99,7 @@ def test_an_outcome_within_the_solver_error_says_so(tmp_path):
         low, high = (friction, high) if answer.outcome is sp.Outcome.MOVES else (low, friction)
     assert undecided
     assert answer.warnings[-1].code == "closure_undecided"
-    assert "within the discretisation error" in str(answer.warnings[-1])
+    assert "the discretisation error is too large to decide" in str(answer.warnings[-1])
     assert "closure_undecided" not in [each.code for each in sp.solve(case).warnings]
 
 

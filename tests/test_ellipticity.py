@@ -151,7 +151,7 @@ def test_a_tube_that_wrinkles_by_itself_has_no_seated_state():
     ureter = sp.Ureter(wall_ratio=1.07, material="latex")
     answer = sp.solve(sp.Case(sp.Stone(size_ratio=1.1), ureter, sp.Load("9.8 kPa", "hydrostatic")))
     assert answer.outcome is sp.Outcome.NO_SOLUTION
-    assert "far from the stone axisymmetric waves" in answer.message
+    assert "even without a stone it buckles axisymmetrically" in answer.message
     held = sp.Case(sp.Stone(size_ratio=1.1), ureter, sp.Load("2 kPa", "hydrostatic"))
     assert axisymmetric_buckling(held, 10.0) == ""
     assert axisymmetric_buckling(sp.Case(sp.Stone(size_ratio=1.1), ureter), 10.0) == ""

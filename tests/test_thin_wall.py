@@ -111,7 +111,7 @@ def test_a_contact_as_long_as_the_stone_is_no_contact_of_this_model():
     method = asking(model="beam", **PUBLISHED)
     never = sp.critical_size(sp.Ureter(wall_ratio=1.3), "60 kPa", 0.5, **method)
     assert never.outcome is Outcome.BEYOND_RANGE
-    assert "the sizes of the model 'beam'" in never.message
+    assert "the range of sizes of the model 'beam'" in never.message
 
 
 @pytest.mark.parametrize(

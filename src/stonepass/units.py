@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, Protocol, TypeAlias, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -20,6 +20,7 @@ __all__ = [
     "Area",
     "Length",
     "Pressure",
+    "Quantity",
     "Values",
     "area",
     "format_length",
@@ -46,6 +47,22 @@ class Pressure(float):
 
 class Area(float):
     """An area in square metres."""
+
+
+@runtime_checkable
+class Quantity(Protocol):
+    """A quantity of pint (``pint.Quantity``), which need not be installed otherwise."""
+
+    @property
+    def magnitude(self) -> Any:
+        """The number, in the quantity's own unit."""
+
+    @property
+    def units(self) -> Any:
+        """The unit."""
+
+    def m_as(self, units: Any) -> Any:
+        """Return the number in another unit."""
 
 
 Q = TypeVar("Q", Length, Pressure, Area)
@@ -180,7 +197,7 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
     if isinstance(value, kind):
         return value
     word, example = _WORDS[kind], _EXAMPLES[kind]
-    if _is_quantity(value):
+    if isinstance(value, Quantity):
         return _of_quantity(value, argument, kind)
     if not isinstance(value, str):
         raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
@@ -197,13 +214,8 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
     return kind(f"{si:.15g}")
 
 
-def _is_quantity(value: Any) -> bool:
-    """Whether a value has a magnitude and units, as the quantities of pint have."""
-    return all(hasattr(value, name) for name in ("magnitude", "units", "m_as"))
-
-
-def _of_quantity(value: Any, argument: str, kind: type[Q]) -> Q:
-    """Read a quantity of pint, which need not be installed otherwise."""
+def _of_quantity(value: Quantity, argument: str, kind: type[Q]) -> Q:
+    """Read a quantity of pint."""
     try:
         si = float(value.m_as(_SI[kind]))
     except (TypeError, ValueError) as problem:  # pint's DimensionalityError is a TypeError

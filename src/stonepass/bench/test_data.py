@@ -17,7 +17,7 @@ from stonepass.io.csv_file import Columns, read_columns
 from stonepass.materials.protocol import Law
 from stonepass.materials.uniaxial import AXES
 from stonepass.model.ureter import Ureter
-from stonepass.units import Area, Length, area, length
+from stonepass.units import Area, Length, Quantity, area, length
 
 __all__ = ["Inflation", "Tension", "read_inflation", "read_tension"]
 
@@ -179,10 +179,10 @@ class Inflation:
 
 def read_tension(
     path: str | Path,
-    width: str | Length | None = None,
-    thickness: str | Length | None = None,
-    gauge_length: str | Length | None = None,
-    section: str | Area | None = None,
+    width: str | Length | Quantity | None = None,
+    thickness: str | Length | Quantity | None = None,
+    gauge_length: str | Length | Quantity | None = None,
+    section: str | Area | Quantity | None = None,
 ) -> Tension:
     """Read the tension tests of strips from a CSV file.
 

@@ -28,7 +28,7 @@ from stonepass.model.shape import ASPECT, Shape
 from stonepass.model.stone import DIAMETER, FRICTION, SIZE_RATIO, Stone
 from stonepass.model.ureter import Ureter
 from stonepass.studies.uncertain_quantity import UncertainQuantity, measured_length, measured_number
-from stonepass.units import Length, Pressure, pressure
+from stonepass.units import Length, Pressure, Quantity, pressure
 
 __all__ = ["INPUTS", "Patient", "read_patient"]
 
@@ -116,7 +116,7 @@ class Patient:
         """True if the segment above the stone was measured."""
         return "dilated_inner_diameter" in self.measured
 
-    def with_limit(self, limit: str | Pressure) -> Patient:
+    def with_limit(self, limit: str | Pressure | Quantity) -> Patient:
         """Return the patient with another pressure limit, in Pa or as text with a unit."""
         return replace(self, limit=_limit(limit))
 
@@ -278,7 +278,7 @@ def _title(text: str) -> str:
     return " ".join(text.split())
 
 
-def _limit(value: str | Pressure) -> Pressure:
+def _limit(value: str | Pressure | Quantity) -> Pressure:
     limit = pressure(value, "limit")
     require(LIMIT[0] <= limit <= LIMIT[1], "limit", value, "0.1 kPa to 100 kPa")
     return limit

@@ -13,7 +13,7 @@ from stonepass.model.states.loaded import solve_loaded
 from stonepass.model.states.loaded_state import NoPush, PushedState
 from stonepass.model.states.seated import solve_seated
 from stonepass.model.states.seated_state import NoSeat, SeatedState
-from stonepass.units import Pressure
+from stonepass.units import Pressure, Quantity
 
 __all__ = ["push_along", "push_through", "seat"]
 
@@ -53,7 +53,7 @@ def seat(case: Case, resolution: Resolution | None = None) -> SeatedState | NoSe
 
 def push_through(
     case: Case,
-    urine: str | Pressure,
+    urine: str | Pressure | Quantity,
     resolution: Resolution | None = None,
     *,
     tether: float = 0.0,
@@ -84,7 +84,7 @@ def push_through(
 
 def push_along(
     case: Case,
-    urine: Sequence[str | Pressure],
+    urine: Sequence[str | Pressure | Quantity],
     resolution: Resolution | None = None,
     *,
     tether: float = 0.0,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from stonepass.declaration import Kind, declared, described, set_inputs
-from stonepass.units import Pressure
+from stonepass.units import Pressure, Quantity
 
 __all__ = ["CONFINING", "PRESTRETCH", "Load"]
 
@@ -66,7 +66,7 @@ class Load:
 
     def __init__(
         self,
-        confining_pressure: str | Pressure | None = None,
+        confining_pressure: str | Pressure | Quantity | None = None,
         confinement: str | None = None,
         prestretch: float | None = None,
     ) -> None:

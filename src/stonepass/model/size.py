@@ -31,7 +31,7 @@ from stonepass.model.states.uncached import UNCACHED
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.result import Result
-from stonepass.units import Length, Pressure, pressure
+from stonepass.units import Length, Pressure, Quantity, pressure
 
 __all__ = ["SizeAnswer", "critical_size"]
 
@@ -107,7 +107,7 @@ class SizeAnswer(Result):
 
 def critical_size(
     ureter: Ureter | Case,
-    limit: str | Pressure,
+    limit: str | Pressure | Quantity,
     friction: float | None = None,
     load: Load | None = None,
     model: Model | None = None,

@@ -8,7 +8,7 @@ from typing import ClassVar
 from stonepass.declaration import Kind, declared, described, set_inputs
 from stonepass.errors import BadInput, Misplaced, require
 from stonepass.model.shape import ASPECT, Shape
-from stonepass.units import Length
+from stonepass.units import Length, Quantity
 
 __all__ = ["DIAMETER", "FRICTION", "SIZE_RATIO", "Stone"]
 
@@ -89,7 +89,7 @@ class Stone:
 
     def __init__(
         self,
-        diameter: str | Length | None = None,
+        diameter: str | Length | Quantity | None = None,
         friction: float | None = None,
         size_ratio: float | None = None,
         aspect: float | None = None,

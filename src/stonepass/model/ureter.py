@@ -10,7 +10,7 @@ from stonepass.errors import BadInput, Misplaced, require
 from stonepass.materials.catalogue import material as catalogued
 from stonepass.materials.protocol import Material, names_a_file
 from stonepass.model.stone import DIAMETER
-from stonepass.units import Length, format_length
+from stonepass.units import Length, Quantity, format_length
 
 __all__ = ["BY_RATIO", "WALL_RATIO", "Ureter"]
 
@@ -99,11 +99,11 @@ class Ureter:
 
     def __init__(
         self,
-        inner_diameter: str | Length | None = None,
-        outer_diameter: str | Length | None = None,
+        inner_diameter: str | Length | Quantity | None = None,
+        outer_diameter: str | Length | Quantity | None = None,
         material: str | Material | None = None,
         wall_ratio: float | None = None,
-        wall_thickness: str | Length | None = None,
+        wall_thickness: str | Length | Quantity | None = None,
     ) -> None:
         thick = wall_thickness is not None
         if inner_diameter is None and (thick or outer_diameter is not None):

@@ -33,7 +33,7 @@ from stonepass.surface.paths import (
     rows_moved,
 )
 from stonepass.surface.surface_image import SurfaceImage
-from stonepass.units import Length, length
+from stonepass.units import Length, Quantity, length
 
 __all__ = [
     "CRYSTAL_DIAGONAL",
@@ -102,7 +102,7 @@ class _Surface:
 
 def surface_friction(
     picture: SurfaceImage,
-    height_range: str | Length | None = None,
+    height_range: str | Length | Quantity | None = None,
     paths: int | Sequence[StraightPath] = 6,
     baseline_order: int = 8,
     deviation_order: int | None = None,
@@ -260,7 +260,9 @@ def _chosen(
     return listed, []
 
 
-def _height_range(picture: SurfaceImage, height_range: str | Length | None) -> float | None:
+def _height_range(
+    picture: SurfaceImage, height_range: str | Length | Quantity | None
+) -> float | None:
     if picture.has_heights:
         if height_range is not None:
             raise BadInput(

@@ -53,7 +53,7 @@ from stonepass.model.states.stability import (
     oversize_hint,
     stability_of,
 )
-from stonepass.units import Pressure, pressure
+from stonepass.units import Pressure, Quantity, pressure
 
 __all__ = ["find_critical", "solve_loaded"]
 
@@ -73,7 +73,7 @@ UNSEALED = "the axial forces balance, but the contact pressure does not hold the
 def solve_loaded(
     case: Problem,
     numerics: Numerics,
-    urine: Sequence[str | Pressure],
+    urine: Sequence[str | Pressure | Quantity],
     resolution: Resolution | None = None,
     *,
     wetted: bool = False,

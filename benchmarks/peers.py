@@ -215,7 +215,7 @@ def cold_ratios(kind: str, found: list[Solved]) -> Iterator[Row]:
     """CalculiX's process over the whole command, which loads its libraries for one answer."""
     command = ("pressure", "--xi", "1.2", "--eta", "1.5", "--material", "latex",
                "--friction", "0.475", "--seating", kind)  # fmt: skip
-    cold = stonepass(*command).cpu
+    cold = stonepass(*command, "--no-cache").cpu
     for other in (each for each in found if not each.who.startswith("stonepass")):
         what = f"{kind}: {other.who} over a cold command, error estimated"
         yield Row("peers", what, other.cpu / cold, "×")

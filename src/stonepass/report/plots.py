@@ -11,9 +11,10 @@ from stonepass.clinic.assessment import Assessment
 from stonepass.errors import BadInput
 from stonepass.model.answer import Answer
 from stonepass.model.size import SizeAnswer
+from stonepass.report.case_line import case_line
+from stonepass.report.contact_figure import draw_contact
 from stonepass.report.curve_figure import draw_curve, frame_curve
-from stonepass.report.style import COLOURS, angle_label, tidy
-from stonepass.report.table import case_title
+from stonepass.report.style import COLOURS, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
@@ -40,13 +41,9 @@ LINES = ("-", "--", "-.", ":")
 
 def plot_answer(answer: Answer, axes: Axes) -> None:
     """Draw the contact pressure over the angle on the stone, and how far the wall opens."""
-    contact = answer.contact
-    if contact is None:
+    if answer.contact is None:
         raise BadInput("plot", answer.outcome.name, "asked for where there is a contact to draw")
-    theta = np.linspace(contact.contact_angle, contact.downstream_angle, POINTS)
-    pressure = contact.pressure_at(theta) / 1e3
-    axes.fill_between(np.degrees(theta), pressure, color=COLOURS["blue"], alpha=0.15, linewidth=0)
-    axes.plot(np.degrees(theta), pressure, color=COLOURS["blue"], label="contact pressure σ")
+    draw_contact(axes, answer)
     if answer.critical_angle is not None:
         axes.axvline(
             np.degrees(answer.critical_angle),
@@ -54,14 +51,8 @@ def plot_answer(answer: Answer, axes: Axes) -> None:
             linestyle="--",
             label=f"the wall opens to {np.degrees(answer.critical_angle):.1f}°",
         )
-    axes.set(
-        xlabel=angle_label(sphere=answer.case.stone.shape.spherical),
-        ylabel="contact pressure (kPa)",
-        ylim=(0.0, None),
-    )
-    axes.set_title(case_title(answer.case), loc="left", fontsize="medium")
+    axes.set_title(case_line(answer.case), loc="left", fontsize="medium")
     axes.legend()
-    tidy(axes)
 
 
 def plot_size(answer: SizeAnswer, axes: Axes) -> None:
@@ -75,7 +66,7 @@ def plot_curve(curve: CriticalCurve, axes: Axes) -> None:
     """Draw the critical pressure over the size ratio; unanswered sizes are crosses at zero."""
     draw_curve(axes, curve, 0, f"model {curve[0].model.NAME}")
     frame_curve(axes)
-    axes.set_title(case_title(curve[0].case, with_stone=False), loc="left", fontsize="medium")
+    axes.set_title(case_line(curve[0].case, with_stone=False), loc="left", fontsize="medium")
     axes.legend()
 
 
@@ -92,7 +83,7 @@ def plot_closures(found: ClosureComparison, axes: Axes) -> None:
         axes.legend()
     axes.invert_yaxis()
     axes.set(xlabel="critical pressure (kPa)", ylabel="closure")
-    axes.set_title(case_title(found.case), loc="left", fontsize="medium")
+    axes.set_title(case_line(found.case), loc="left", fontsize="medium")
     tidy(axes)
 
 
@@ -113,7 +104,7 @@ def plot_rising(rising: Rising, axes: Axes) -> None:
         axes.axvline(rising.critical.pressure / 1e3, color=COLOURS["orange"], linestyle="--",
                      label="critical pressure")  # fmt: skip
     axes.set(xlabel="urine pressure (kPa)", ylabel="net force / area (kPa)")
-    axes.set_title(case_title(rising.critical.case), loc="left", fontsize="medium")
+    axes.set_title(case_line(rising.critical.case), loc="left", fontsize="medium")
     axes.legend()
     tidy(axes)
 

@@ -25,7 +25,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.size import SizeAnswer
 from stonepass.records.answer import answer_record
 from stonepass.records.assess import assess_record
-from stonepass.records.base import Record
+from stonepass.records.base import Record, kilo
 from stonepass.records.closures import closures_record
 from stonepass.records.curve import curve_records
 from stonepass.records.fit import fit_record
@@ -183,15 +183,11 @@ def _closure_rows(found: ClosureComparison) -> list[Row]:
         {
             "closure": name,
             "meaning": meaning,
-            "critical_pressure_kPa": _kilo(found.pressures[name]),
+            "critical_pressure_kPa": kilo(found.pressures[name]),
             "relative_to_direct": found.error(name),
         }
         for name, meaning in CLOSURES.items()
     ]
-
-
-def _kilo(pascals: float | None) -> float | None:
-    return None if pascals is None else pascals / 1e3
 
 
 def _fit(found: FittedLaw) -> Row:

@@ -10,11 +10,11 @@ A Python implementation of the stone–ureter interaction model of Liu et al. 20
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from stonepass.about import VERSION
+from stonepass.errors import nearest
 from stonepass.result import Presentation, present_with
 
 if TYPE_CHECKING:
@@ -210,7 +210,7 @@ _HOME = {
 
 _PACKAGES = ("export",)  # public packages of their own: stonepass.export.write(case, "stone.inp")
 
-# What people look for under another name.
+# Names under which people look for a public name.
 _OTHER_NAMES = {
     "beam": "ElasticFoundation",
     "catalogue": "CATALOGUE",
@@ -355,7 +355,7 @@ def __getattr__(name: str) -> Any:
         return import_module(f"stonepass.{name}")
     if name in _HOME:
         return getattr(import_module(f"stonepass.{_HOME[name]}"), name)
-    meant = _OTHER_NAMES.get(name) or next(iter(get_close_matches(name, __all__, n=1)), None)
+    meant = _OTHER_NAMES.get(name) or nearest(name, __all__)
     remedy = f"; did you mean stonepass.{meant}?" if meant else ""
     raise AttributeError(f"module 'stonepass' has no attribute '{name}'{remedy}")
 

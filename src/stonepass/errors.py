@@ -18,6 +18,7 @@ __all__ = [
     "StonepassError",
     "UnstableLaw",
     "did_you_mean",
+    "nearest",
     "refuse_unknown",
     "require",
 ]
@@ -183,9 +184,15 @@ def did_you_mean(value: str, known: Iterable[str], near: float = NEAR) -> str:
     str
         The suggestion, or an empty text if no known name is similar.
     """
+    found = nearest(value, known, near)
+    return "" if found is None else f"; did you mean '{found}'"
+
+
+def nearest(value: str, known: Iterable[str], near: float = NEAR) -> str | None:
+    """Return the most similar known name, or None; for the parameters see `did_you_mean`."""
     names = {each.casefold(): each for each in known}
     found = get_close_matches(value.casefold(), names, n=1, cutoff=near)
-    return f"; did you mean '{names[found[0]]}'" if found else ""
+    return names[found[0]] if found else None
 
 
 def refuse_unknown(argument: str, value: str, known: list[str], otherwise: str = "") -> NoReturn:

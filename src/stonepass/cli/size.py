@@ -64,14 +64,9 @@ def command(
     with working("searching the critical size") as step:
         try:
             answer = critical_size(
-                case.ureter,
+                case,
                 limit,
-                case.stone.friction,
-                case.load,
-                case.model,
-                case.numerics,
                 progress=lambda size_ratio: step(f"size ratio {size_ratio:.4f}"),
-                shape=case.stone.shape,
                 states=state_solver(cache_folder(cache, no_cache)),
             )
         except BadInput as problem:

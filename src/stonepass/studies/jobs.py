@@ -99,17 +99,7 @@ class SizeJob:
 
     def run(self, cache_folder: Path | None) -> SizeAnswer:
         """Return the answer of `model.size.critical_size`, without its stress field."""
-        case = self.case
-        found = critical_size(
-            case.ureter,
-            self.limit,
-            case.stone.friction,
-            case.load,
-            case.model,
-            case.numerics,
-            shape=case.stone.shape,
-            states=state_solver(cache_folder),
-        )
+        found = critical_size(self.case, self.limit, states=state_solver(cache_folder))
         return replace(
             found, at_size=None if found.at_size is None else found.at_size.without_wall()
         )

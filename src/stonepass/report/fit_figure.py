@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from stonepass.array_types import Int
 from stonepass.bench.law_fit import FittedLaw
 from stonepass.materials.constants import shown_constant
 from stonepass.materials.known_laws import constants_by_name, name_of_law
 from stonepass.report.style import COLOURS, add_heading, in_style, new_figure, series, tidy
 
-__all__ = ["fit_figure"]
+__all__ = ["draw_fit", "fit_figure"]
 
 
 @in_style
@@ -23,38 +27,51 @@ def fit_figure(found: FittedLaw) -> Figure:
     constants = (f"{c.name} = {shown_constant(c.value, known[c.name])}" for c in found.constants)
     add_heading(figure, f"{name} law: {', '.join(constants)}")
     left, right = figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2)
-    data = found.data
-    for k, group in enumerate(dict.fromkeys(data.groups)):
-        _draw_group(left, right, found, group, k)
-    right.axhline(0.0, color=COLOURS["grey"], linewidth=0.9)
-    strip = data.measured == "nominal stress"
-    label = "stretch" if strip else "inner radius / inner radius at rest"
-    left.set(xlabel=label, ylabel=f"{data.measured} (kPa)")
+    draw_fit(left, found)
     left.set_title(f"Measured and fitted: R² = {found.r_squared:.4f}")
-    right.set(xlabel=label, ylabel="residual: law − measured (kPa)")
+    _draw_residuals(right, found)
     right.set_title(f"Residuals: root mean square {found.rmse / 1e3:.3g} kPa")
-    for axes in (left, right):
-        axes.legend()
-        tidy(axes)
     return figure
 
 
-def _draw_group(left: Axes, right: Axes, found: FittedLaw, group: str, k: int) -> None:
-    """One curve of the data: marks for what was measured, a line and a band for the law."""
-    data = found.data
-    chosen = np.array(data.groups) == group
-    order = np.argsort(data.abscissa[chosen])
+def draw_fit(axes: Axes, found: FittedLaw) -> None:
+    """Draw each curve of the data: marks for the data, a line and a 95 % band for the law."""
+    for k, (group, order) in enumerate(_groups(found)):
+        x, look = found.data.abscissa[order], series(k)
+        predicted, band = found.predicted[order] / 1e3, found.band[order] / 1e3
+        axes.plot(x, found.data.observed[order] / 1e3, **_marks(k), markersize=4,
+                  markerfacecolor="white", label=f"{group}, measured")  # fmt: skip
+        axes.fill_between(x, predicted - band, predicted + band, color=look["color"], alpha=0.2,
+                          lw=0, label=None if k else "95 % confidence band of the law")  # fmt: skip
+        axes.plot(x, predicted, **series(k, marker=False), label=f"{group}, law")
+    axes.set(xlabel=_abscissa(found), ylabel=f"{found.data.measured} (kPa)")
+    axes.legend()
+    tidy(axes)
 
-    def sorted_kpa(values: np.ndarray) -> np.ndarray:
-        kilopascals: np.ndarray = values[chosen][order] / 1e3
-        return kilopascals
 
-    x, look = data.abscissa[chosen][order], series(k)
-    points = {"color": look["color"], "marker": look["marker"], "linestyle": "none"}
-    predicted, band = sorted_kpa(found.predicted), sorted_kpa(found.band)
-    left.plot(x, sorted_kpa(data.observed), **points, markersize=4, markerfacecolor="white",
-              label=f"{group}, measured")  # fmt: skip
-    left.fill_between(x, predicted - band, predicted + band, color=look["color"], alpha=0.2, lw=0,
-                      label=None if k else "95 % confidence band of the law")  # fmt: skip
-    left.plot(x, predicted, **series(k, marker=False), label=f"{group}, law")
-    right.plot(x, sorted_kpa(found.residuals), **points, markersize=4, label=group)
+def _draw_residuals(axes: Axes, found: FittedLaw) -> None:
+    for k, (group, order) in enumerate(_groups(found)):
+        x = found.data.abscissa[order]
+        axes.plot(x, found.residuals[order] / 1e3, **_marks(k), markersize=4, label=group)
+    axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.9)
+    axes.set(xlabel=_abscissa(found), ylabel="residual: law − measured (kPa)")
+    axes.legend()
+    tidy(axes)
+
+
+def _groups(found: FittedLaw) -> Iterator[tuple[str, Int[np.ndarray, " points"]]]:
+    """Yield the name of each curve and the indices of its points, by rising abscissa."""
+    names = np.array(found.data.groups)
+    for name in dict.fromkeys(found.data.groups):
+        chosen = np.flatnonzero(names == name)
+        yield name, chosen[np.argsort(found.data.abscissa[chosen])]
+
+
+def _marks(k: int) -> dict[str, Any]:
+    look = series(k)
+    return {"color": look["color"], "marker": look["marker"], "linestyle": "none"}
+
+
+def _abscissa(found: FittedLaw) -> str:
+    strip = found.data.measured == "nominal stress"
+    return "stretch" if strip else "inner radius / inner radius at rest"

@@ -14,6 +14,7 @@ from stonepass.model.size import SizeAnswer
 from stonepass.report.case_line import case_line
 from stonepass.report.contact_figure import draw_contact
 from stonepass.report.curve_figure import draw_curve, frame_curve
+from stonepass.report.fit_figure import draw_fit
 from stonepass.report.style import COLOURS, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
@@ -34,9 +35,6 @@ __all__ = [
 
 POINTS = 400  # of a drawn line
 MICRO = 1e6
-SHADES = ("blue", "orange", "green", "pink", "grey")
-MARKS = ("o", "s", "^", "D", "v")
-LINES = ("-", "--", "-.", ":")
 
 
 def plot_answer(answer: Answer, axes: Axes) -> None:
@@ -110,21 +108,9 @@ def plot_rising(rising: Rising, axes: Axes) -> None:
 
 
 def plot_fit(found: FittedLaw, axes: Axes) -> None:
-    """Draw the measured points and the fitted law, a colour and a mark for each curve."""
-    data, groups = found.data, np.array(found.data.groups)
-    for k, group in enumerate(dict.fromkeys(found.data.groups)):
-        chosen = np.flatnonzero(groups == group)
-        order = chosen[np.argsort(data.abscissa[chosen])]
-        colour = COLOURS[SHADES[k % len(SHADES)]]
-        x = data.abscissa[order]
-        axes.plot(x, data.observed[order] / 1e3, MARKS[k % len(MARKS)], markersize=4, color=colour)
-        axes.plot(x, found.predicted[order] / 1e3, LINES[k % len(LINES)], color=colour, label=group)
-    stretch = data.measured == "nominal stress"
-    label = "stretch (–)" if stretch else "inner radius over that at rest (–)"
-    axes.set(xlabel=label, ylabel=f"{data.measured} (kPa)")
+    """Draw the measured points and the fitted law with its 95 % confidence band."""
+    draw_fit(axes, found)
     axes.set_title(found.summary().partition(";")[0], loc="left", fontsize="medium")
-    axes.legend(title="lines: law, marks: data")
-    tidy(axes)
 
 
 def plot_series(found: InVitro, axes: Axes) -> None:

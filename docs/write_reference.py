@@ -8,7 +8,7 @@ from stonepass.records.reference import reference
 
 DOCS = Path(__file__).parent
 CASE_FILE = DOCS / "howto" / "case-file.md"
-# What stands between these lines of the page of case files is written by this script.
+# This script writes the text between these two lines of the page of case files.
 START, END = "<!-- written by docs/write_reference.py -->\n", "<!-- end -->\n"
 
 

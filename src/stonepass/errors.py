@@ -58,9 +58,9 @@ class BadInput(StonepassError, ValueError):
     value : object
         The invalid value.
     allowed : str
-        What is allowed.
+        The values that are allowed.
     remedy : str
-        What the user can do; may be empty.
+        The action that helps the user; may be empty.
     """
 
     def __init__(self, argument: str, value: Any, allowed: str, remedy: str = "") -> None:

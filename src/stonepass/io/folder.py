@@ -20,7 +20,7 @@ def require_writable(folder: Path, what: str, remedy: str = "") -> None:
     what : str
         Name of the folder or option in messages.
     remedy : str
-        What the user can do if the check fails; may be empty.
+        The action that helps the user if the check fails; may be empty.
 
     Raises
     ------

@@ -18,7 +18,7 @@ def library(name: str, purpose: str, extra: str) -> Any:
     name : str
         Name of the module.
     purpose : str
-        What the library is needed for, an infinitive without "to" for the message.
+        The purpose of the library: an infinitive without "to" for the message.
     extra : str
         The extra of stonepass that installs the library.
 

@@ -31,11 +31,11 @@ from stonepass.studies.surrogates.surrogate import Surrogate
 __all__ = ["build_surrogate", "relative_errors"]
 
 CLAIM = 0.99  # fraction of the leave-one-out errors that the claimed error covers
-MARGIN = 1.5  # factor on the claimed relative error
+MARGIN = 2.0  # factor on the claimed relative error
 FLOOR = 5.0  # Pa, claimed absolute error
 ERROR_DEGREES, ERROR_TOTAL = (2, 2, 2, 2), 2  # degrees of the claimed relative error
 SMALLEST_ERROR = 1e-4  # smallest relative error in the fit of the claimed error
-FEWEST = 30  # smallest number of answers that a level is fitted to
+FEWEST = 8  # smallest number of answers that a level is fitted to
 
 
 def build_surrogate(
@@ -137,7 +137,7 @@ def _corrected(
     fitted, left_out = [], np.full(values.shape, np.nan)
     for k in range(values.shape[1]):
         known = np.isfinite(rest[:, k])
-        if known.sum() < min(FEWEST, len(known)):
+        if known.sum() < FEWEST:
             raise BadInput(
                 "number of cases with an answer", f"{known.sum()} of {len(known)}",
                 f"at least {FEWEST}", "make the box smaller",

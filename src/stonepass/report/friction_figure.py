@@ -25,8 +25,9 @@ from stonepass.surface.friction_result import SurfaceFriction
 __all__ = ["friction_figure"]
 
 MICRO = 1e6
-SHOWN = 1200  # pixels along the longer side, of the picture as drawn
-TANGENT, NEAR = 0.08, 1e-4  # of the profile's length: drawn of the steepest tangent, to find it
+SHOWN = 1200  # largest number of drawn pixels along the longer side
+# Length of the drawn tangent, and step of its difference quotient, over the profile's length.
+TANGENT, NEAR = 0.08, 1e-4
 
 
 @in_style
@@ -96,7 +97,7 @@ def _picture(axes: Axes, found: SurfaceFriction, shades: Sequence[Any]) -> None:
 
 
 def _baseline(axes: Axes, found: SurfaceFriction, heights: np.ndarray, which: int) -> None:
-    """A profile, its baseline, and the tangent where that is steepest."""
+    """Draw a profile, its baseline, and the steepest tangent of the baseline."""
     baseline = (found.baseline, found.deviation_baseline)[which]
     fitted = baseline.at(found.distance)
     x = found.distance * MICRO

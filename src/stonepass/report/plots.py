@@ -33,12 +33,12 @@ __all__ = [
     "plot_size",
 ]
 
-POINTS = 400  # of a drawn line
+POINTS = 400  # points of a drawn line
 MICRO = 1e6
 
 
 def plot_answer(answer: Answer, axes: Axes) -> None:
-    """Draw the contact pressure over the angle on the stone, and how far the wall opens."""
+    """Draw the contact pressure over the angle on the stone, and the critical angle."""
     if answer.contact is None:
         raise BadInput("plot", answer.outcome.name, "asked for where there is a contact to draw")
     draw_contact(axes, answer)
@@ -61,7 +61,7 @@ def plot_size(answer: SizeAnswer, axes: Axes) -> None:
 
 
 def plot_curve(curve: CriticalCurve, axes: Axes) -> None:
-    """Draw the critical pressure over the size ratio; unanswered sizes are crosses at zero."""
+    """Draw the critical pressure over the size ratio; crosses mark sizes without an answer."""
     draw_curve(axes, curve, 0, f"model {curve[0].model.NAME}")
     frame_curve(axes)
     axes.set_title(case_line(curve[0].case, with_stone=False), loc="left", fontsize="medium")

@@ -1,4 +1,4 @@
-"""How each result is shown: its record, its rows, its tables, its graph and its picture.
+"""The presentation of each result: its record, its rows, its tables, its graph and its picture.
 
 `SHOWN` has one entry for each type of result. The package names this module as the presentation of
 `stonepass.result`, so that ``answer.plot()`` ends here.
@@ -68,7 +68,7 @@ Row = dict[str, Any]
 
 @dataclass(frozen=True)
 class Shown:
-    """How one type of result is shown.
+    """The presentation of one type of result.
 
     Attributes
     ----------
@@ -150,7 +150,7 @@ def _of(result: Any) -> Shown:
 def _scalars(document: Row) -> Row:
     """Return the entries of a record that are single values; warnings become their codes.
 
-    What every record says of itself (version, disclaimer) is left out.
+    Entries that every record has (version, disclaimer) are left out.
     """
     found = {
         name: value
@@ -191,7 +191,7 @@ def _closure_rows(found: ClosureComparison) -> list[Row]:
 
 
 def _fit(found: FittedLaw) -> Row:
-    """The record without what only the command line knows: the file, and the sizes at rest."""
+    """Return the record without the inputs of the command line: file and sizes at rest."""
     document = fit_record(found, {"file": "", "relative": False}).to_dict()
     return document | {"data": document.pop("inputs")["data"]}
 

@@ -45,6 +45,7 @@ from stonepass.report.friction_figure import friction_figure
 from stonepass.report.friction_report import friction_table
 from stonepass.report.invitro_figure import invitro_figure
 from stonepass.report.invitro_report import invitro_table
+from stonepass.report.notebook_figure import displayed
 from stonepass.report.printing import Part, as_html, as_text
 from stonepass.report.rising_report import rising_figure, rising_table
 from stonepass.report.style import FORMATS
@@ -121,8 +122,8 @@ def plot(result: Any, axes: Axes) -> None:
 
 
 def figure(result: Any) -> Figure:
-    """Return the whole picture."""
-    return _of(result).figure(result)
+    """Return the whole picture, which a notebook displays."""
+    return displayed(_of(result).figure(result))
 
 
 def save(result: Any, path: Path) -> None:

@@ -15,6 +15,7 @@ from stonepass.report.case_line import case_line
 from stonepass.report.contact_figure import draw_contact
 from stonepass.report.curve_figure import draw_curve, frame_curve
 from stonepass.report.fit_figure import draw_fit
+from stonepass.report.friction_figure import draw_baseline
 from stonepass.report.style import COLOURS, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
@@ -34,7 +35,6 @@ __all__ = [
 ]
 
 POINTS = 400  # points of a drawn line
-MICRO = 1e6
 
 
 def plot_answer(answer: Answer, axes: Axes) -> None:
@@ -130,12 +130,8 @@ def plot_series(found: InVitro, axes: Axes) -> None:
 
 
 def plot_friction(found: SurfaceFriction, axes: Axes) -> None:
-    """Draw the mean profile of the surface with its baseline."""
-    x = found.distance * MICRO
-    axes.plot(x, found.mean * MICRO, color=COLOURS["ink"], linewidth=0.8, label="mean profile")
-    axes.plot(x, found.baseline.at(found.distance) * MICRO, color=COLOURS["orange"],
-              linestyle="--", label=f"baseline, order {found.baseline.order}")  # fmt: skip
-    axes.set(xlabel="distance along the path (µm)", ylabel="height (µm)")
+    """Draw the mean profile of the surface with its baseline and the steepest tangent."""
+    draw_baseline(axes, found, 0)
     axes.set_title(found.summary().partition(",")[0], loc="left", fontsize="medium")
     axes.legend()
     tidy(axes)

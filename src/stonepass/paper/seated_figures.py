@@ -80,10 +80,10 @@ class Fig5:
         for k, state in enumerate(states):
             _meshes(figure.add_subplot(grid[k]), state, "ab"[k])
         caption = (
-            "The finite elements after the stone is pressed in (blue, above the axis) and before "
-            "(grey, below it, with the outline of the stone where it first touches the lumen), at "
-            "the published critical sizes. Elements are of order "
-            "4, graded towards the edge of the contact, which is a grid line."
+            "The finite-element mesh with the stone pressed in (blue, above the axis) and without "
+            "the stone (grey, below the axis, with the outline of the stone where it first touches "
+            "the lumen), at the published critical sizes. The elements have order 4 and become "
+            "smaller towards the edge of the contact, which is a grid line."
         )
         rows = [
             [
@@ -137,7 +137,7 @@ class Fig7:
             "",
             "",
             folder,
-            [Illustration("fig7_sizes", figure, "Contact pressure over the size of the stone.")],
+            [Illustration("fig7_sizes", figure, "Contact pressure for several sizes.")],
             [_profiles("fig7_sizes", [state for row in others.values() for state in row])],
         )
         return Section(
@@ -197,13 +197,13 @@ def _single_peak(states: Sequence[SeatedState]) -> Claim:
         highest = theta[np.argmax(state.contact_pressure)]
         aside.append(abs(highest - np.pi / 2) / (np.pi / 2 - state.contact_angle))
     return Claim(
-        "form of the contact pressure over θ (Fig. 7)",
-        "one hump about the equator",
-        f"one in {sum(humps)} of {len(humps)} states; highest within {max(aside):.1%} of half the "
-        "contact from it",
+        "shape of the contact pressure over θ (Fig. 7)",
+        "one maximum near the equator",
+        f"one maximum in {sum(humps)} of {len(humps)} states, at most {max(aside):.1%} of half the "
+        "contact away from the equator",
         all(humps) and max(aside) < ASIDE,
-        "the figure's values are not published; about is read as 5 % of half the contact, and "
-        "ripples of the pressing's increments below 2 % of the peak are not counted as humps",
+        "the values of the figure are not published; near means within 5 % of half the contact, "
+        "and oscillations below 2 % of the peak, which come from the increments, do not count",
     )
 
 
@@ -241,8 +241,8 @@ def _sections(
     solid = revolved_figure(middle.wall, middle.case, middle.peak_contact_pressure)
     write_vtu(folder / f"{name}.vtu", middle.wall, mirrored=True)
     revolved = (
-        f"The same turned round its axis, a quarter cut away (η = {middle.case.wall_ratio:g}); "
-        f"{name}.vtu has the whole with its stresses."
+        f"The section revolved about its axis, with a quarter cut away (η = "
+        f"{middle.case.wall_ratio:g}); the file {name}.vtu has the whole tube with its stresses."
     )
     return Section.written(
         title,

@@ -112,7 +112,7 @@ def relative(state: SeatedState, limit: SeatedState) -> float:
 
 
 def equator_mismatch(state: SeatedState) -> float:
-    """Relative difference of the multiplier and −σ_rr at R = R_a, Z = 0."""
+    """Return the relative difference of the multiplier and −σ_rr at R = R_a, Z = 0."""
     wall = state.wall
     assert wall is not None
     at = np.argmin(np.abs(wall.R - 1.0) + np.abs(wall.Z))

@@ -312,7 +312,7 @@ class Caution:
     values: tuple[tuple[str, Any], ...] = ()
 
     def __str__(self) -> str:
-        """The sentence, without a period."""
+        """Return the sentence, without a period."""
         return SENTENCES[self.code].format(**dict(self.values))
 
 

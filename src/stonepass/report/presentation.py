@@ -1,4 +1,4 @@
-"""How each result is shown: its record, its rows, its tables, its graph and its picture.
+"""The presentation of each result: its record, its rows, its tables, its graph and its picture.
 
 `SHOWN` has one entry for each type of result. The package names this module as the presentation of
 `stonepass.result`, so that ``answer.plot()`` ends here.
@@ -45,6 +45,7 @@ from stonepass.report.friction_figure import friction_figure
 from stonepass.report.friction_report import friction_table
 from stonepass.report.invitro_figure import invitro_figure
 from stonepass.report.invitro_report import invitro_table
+from stonepass.report.notebook_figure import displayed
 from stonepass.report.printing import Part, as_html, as_text
 from stonepass.report.rising_report import rising_figure, rising_table
 from stonepass.report.style import FORMATS
@@ -68,7 +69,7 @@ Row = dict[str, Any]
 
 @dataclass(frozen=True)
 class Shown:
-    """How one type of result is shown.
+    """The presentation of one type of result.
 
     Attributes
     ----------
@@ -121,8 +122,8 @@ def plot(result: Any, axes: Axes) -> None:
 
 
 def figure(result: Any) -> Figure:
-    """Return the whole picture."""
-    return _of(result).figure(result)
+    """Return the whole picture, which a notebook displays."""
+    return displayed(_of(result).figure(result))
 
 
 def save(result: Any, path: Path) -> None:
@@ -150,7 +151,7 @@ def _of(result: Any) -> Shown:
 def _scalars(document: Row) -> Row:
     """Return the entries of a record that are single values; warnings become their codes.
 
-    What every record says of itself (version, disclaimer) is left out.
+    Entries that every record has (version, disclaimer) are left out.
     """
     found = {
         name: value
@@ -191,7 +192,7 @@ def _closure_rows(found: ClosureComparison) -> list[Row]:
 
 
 def _fit(found: FittedLaw) -> Row:
-    """The record without what only the command line knows: the file, and the sizes at rest."""
+    """Return the record without the inputs of the command line: file and sizes at rest."""
     document = fit_record(found, {"file": "", "relative": False}).to_dict()
     return document | {"data": document.pop("inputs")["data"]}
 

@@ -1,0 +1,481 @@
+"""Sensitivity to uncertain inputs: exact indices, missing answers, tornado, text, study files."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import stonepass as sp
+from stonepass.errors import BadInput, Outcome
+from stonepass.studies.sensitivity.conclusions import conclusions
+from stonepass.studies.sensitivity.estimate import Gap, Response
+from stonepass.studies.sensitivity.evaluator import OUTCOMES, REFUSED, evaluations
+from stonepass.studies.sensitivity.morris import morris_design, morris_sensitivities
+from stonepass.studies.sensitivity.responses import responses
+from stonepass.studies.sensitivity.sensitivity import sensitivity
+from stonepass.studies.sensitivity.sobol import saltelli_design, sobol_sensitivities
+from stonepass.studies.sensitivity.solved_cases import SolvedCases
+from stonepass.studies.sensitivity.study import SensitivityStudy
+from stonepass.studies.sensitivity.study_file import read_sensitivity
+from stonepass.studies.sensitivity.uncertain_case import uncertain_case
+from stonepass.studies.uncertain_quantity import UncertainQuantity
+
+ANY = Response("any", "the response", "kPa")
+# Ishigami and Homma 1990, a = 7, b = 0.1: first-order, total and second-order indices follow from
+# the variances V₁ = (1 + bπ⁴/5)²/2, V₂ = a²/8, V₁₃ = b²π⁸ 8/225.
+A, B = 7.0, 0.1
+V1, V2, V13 = (1 + B * np.pi**4 / 5) ** 2 / 2, A**2 / 8, 8 * B**2 * np.pi**8 / 225
+V = V1 + V2 + V13
+ISHIGAMI = {
+    "first": {"x1": V1 / V, "x2": V2 / V, "x3": 0.0},
+    "total": {"x1": (V1 + V13) / V, "x2": V2 / V, "x3": V13 / V},
+    "second": {("x1", "x2"): 0.0, ("x1", "x3"): V13 / V, ("x2", "x3"): 0.0},
+}
+UNIFORM = UncertainQuantity(0.0, None, -np.pi, np.pi)
+
+
+def ishigami(x1, x2, x3):
+    return np.sin(x1) + A * np.sin(x2) ** 2 + B * x3**4 * np.sin(x1)
+
+
+def sobol_of(function, quantities, samples=1024, seed=1):
+    design = saltelli_design(quantities, samples, seed)
+    values = np.ma.MaskedArray(function(*design.values()))
+    return sobol_sensitivities(quantities, ANY, values, seed)
+
+
+def estimates(found):
+    """All estimates by (order, key)."""
+    first = {("first", each.key): each.first for each in found.inputs}
+    total = {("total", each.key): each.total for each in found.inputs}
+    return first | total | {("second", each.keys): each.second for each in found.interactions}
+
+
+def missed(found, known):
+    """The known indices outside their confidence intervals."""
+    exact = {(order, key): value for order, each in known.items() for key, value in each.items()}
+    shown = estimates(found)
+    assert exact.keys() == shown.keys()
+    return [at for at, value in exact.items() if not shown[at].low <= value <= shown[at].high]
+
+
+# --- exact indices
+
+
+def test_ishigami_has_its_known_indices():
+    quantities = dict.fromkeys(("x1", "x2", "x3"), UNIFORM)
+    found = sobol_of(ishigami, quantities)
+    assert missed(found, ISHIGAMI) == []
+    assert [each.key for each in found.inputs] == ["x1", "x2", "x3"]
+    assert found.interactions[0].keys == ("x1", "x3")
+    assert max(each.half_width for each in estimates(found).values()) < 0.2
+
+
+def test_wrong_indices_would_be_found():
+    quantities = dict.fromkeys(("x1", "x2", "x3"), UNIFORM)
+    found = sobol_of(ishigami, quantities)
+    first, total = ISHIGAMI["first"], ISHIGAMI["total"]
+    swapped = ISHIGAMI | {"first": total, "total": first}
+    assert ("first", "x3") in missed(found, swapped)
+    assert ("total", "x3") in missed(found, swapped)
+    second = {("x1", "x2"): V13 / V, ("x1", "x3"): 0.0, ("x2", "x3"): 0.0}
+    assert len(missed(found, ISHIGAMI | {"second": second})) == 2
+
+
+def test_a_linear_model_has_the_variances_of_its_terms():
+    quantities = {
+        "a": UncertainQuantity(0.0, 1.0, -10.0, 10.0),
+        "b": UncertainQuantity(0.0, 2.0, -20.0, 20.0),
+        "c": UncertainQuantity(5.0, 0.5, 0.0, 10.0),
+    }
+    found = sobol_of(lambda a, b, c: 3.0 * a + b - 2.0 * c, quantities, samples=2048)
+    parts = {"a": 9.0 / 14.0, "b": 4.0 / 14.0, "c": 1.0 / 14.0}
+    none = dict.fromkeys([("a", "b"), ("a", "c"), ("b", "c")], 0.0)
+    assert missed(found, {"first": parts, "total": parts, "second": none}) == []
+    assert missed(found, {"first": dict(zip("abc", parts.values(), strict=True)) | {"a": 0.5},
+                          "total": parts, "second": none}) == [("first", "a")]  # fmt: skip
+
+
+def test_nineteen_of_twenty_intervals_cover_the_known_index():
+    """At least 85 % of 120 intervals, which 95 % intervals do with near certainty."""
+    quantities = {
+        "a": UncertainQuantity(0.0, 1.0, -9.0, 9.0),
+        "b": UncertainQuantity(0.0, 1.0, -9.0, 9.0),
+    }
+    known = {"a": 0.5, "b": 0.5}
+    lost = 0
+    for seed in range(30):
+        found = sobol_of(lambda a, b: a + b, quantities, samples=128, seed=seed)
+        assert len(found.inputs) == 2
+        lost += len(missed(found, {"first": known, "total": known, "second": {("a", "b"): 0.0}}))
+    assert lost <= 0.15 * 30 * 5
+
+
+def test_elementary_effects_of_a_linear_model_are_its_slopes():
+    quantities = {
+        "a": UncertainQuantity(0.5, None, 0.0, 1.0),
+        "b": UncertainQuantity(5.0, None, 0.0, 10.0),
+    }
+    design = morris_design(quantities, 10, 3)
+    values = np.ma.MaskedArray(7.0 * design["a"] - 0.2 * design["b"])
+    found = morris_sensitivities(quantities, ANY, values, 3)
+    effects = {each.key: each for each in found.inputs}
+    # Each input moves over 90 % of its range between the two quantiles.
+    assert effects["a"].mean == pytest.approx(0.9 * 7.0)
+    assert effects["b"].mean == pytest.approx(-0.9 * 2.0)
+    assert effects["b"].mean_absolute.value == pytest.approx(1.8)
+    assert max(each.spread for each in effects.values()) < 1e-9
+    assert [each.key for each in found.inputs] == ["a", "b"]
+
+
+# --- missing answers
+
+
+def test_groups_with_a_missing_member_are_dropped_and_counted():
+    quantities = dict.fromkeys(("x1", "x2", "x3"), UNIFORM)
+    design = saltelli_design(quantities, 64, 1)
+    values = np.ma.MaskedArray(ishigami(*design.values()))
+    complete = sobol_sensitivities(quantities, ANY, values.copy(), 1)
+    values[8 * 5 + 3] = np.ma.masked
+    values[8 * 40 : 8 * 42] = np.ma.masked
+    found = sobol_sensitivities(quantities, ANY, values, 1)
+    assert (found.groups, found.dropped, found.gap) == (64, 3, None)
+    assert found.inputs != complete.inputs
+    kept = np.ones(64, dtype=bool)
+    kept[[5, 40, 41]] = False
+    alone = sobol_sensitivities(quantities, ANY, values.reshape(64, 8)[kept].ravel(), 1)
+    assert found.inputs == alone.inputs
+
+
+def test_too_few_complete_groups_have_no_indices():
+    quantities = dict.fromkeys(("x1", "x2"), UNIFORM)
+    values = np.ma.MaskedArray(np.arange(6.0 * 64), np.arange(6 * 64) < 6 * 40)
+    found = sobol_sensitivities(quantities, ANY, values, 1)
+    assert (found.inputs, found.gap, found.dropped) == ((), Gap.INCOMPLETE, 40)
+    trajectories = np.ma.MaskedArray(np.arange(30.0), np.arange(30) < 24)
+    assert morris_sensitivities(quantities, ANY, trajectories, 1).gap is Gap.INCOMPLETE
+
+
+def test_a_constant_or_rare_response_has_no_indices():
+    quantities = dict.fromkeys(("x1", "x2"), UNIFORM)
+    values = np.ma.MaskedArray(np.ones(6 * 64))
+    assert sobol_sensitivities(quantities, ANY, values, 1).gap is Gap.CONSTANT
+    values[0] = 0.0
+    rare = dataclasses.replace(ANY, yes_or_no=True)
+    assert sobol_sensitivities(quantities, rare, values, 1).gap is Gap.RARE
+    values[: 6 * 32 : 6] = 0.0
+    assert sobol_sensitivities(quantities, rare, values, 1).gap is None
+
+
+def test_every_outcome_has_its_place_in_the_responses():
+    found = evaluations(
+        [Outcome.MOVES, Outcome.LOOSE, Outcome.BEYOND_CLOSURE, Outcome.LEAKS, Outcome.NO_SOLUTION, None,
+         Outcome.BEYOND_CLOSURE],
+        [4e3, 0.0, None, None, None, None, None],
+        [None, None, 9e3, 3e3, None, None, 5e3],
+        "impossible",
+    )  # fmt: skip
+    assert found.outcome[5] == REFUSED
+    assert OUTCOMES[found.outcome[3]] is Outcome.LEAKS
+    by_name = {each.name: values for each, values in responses(found, 6e3)}
+    none = None
+    assert by_name["pressure"].tolist() == [4.0, 0.0, none, none, none, none, none]
+    # Known values and bounds, sorted: 0, 3, 4, 5, 9 kPa.
+    assert by_name["rank"].tolist() == pytest.approx([0.4, 0.0, 0.8, 0.2, none, none, 0.6])
+    # A leak below the limit means that the stone does not move; a bound below it leaves this open.
+    assert by_name["moves"].tolist() == [1.0, 1.0, 0.0, 0.0, none, none, none]
+    assert by_name["answered"].tolist() == [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    assert "moves" not in {each.name for each, _ in responses(found, None)}
+
+
+# --- a real model: the beam, which takes a millisecond
+
+BEAM = sp.ElasticFoundation("0.4 MPa", "0.02 MPa")
+CASE = sp.Case(sp.Stone("3.8 mm"), sp.Ureter("3.5 mm", "4.5 mm"), model=BEAM)
+UNCERTAIN = {
+    "stone.friction": "0.1 to 0.5",
+    "stone.diameter": "3.8 mm ± 0.05 mm",
+    "method.circumferential_modulus": "0.4 MPa ± 1 %",
+}
+
+
+@pytest.fixture(scope="module")
+def beam():
+    study = SensitivityStudy(uncertain_case(CASE, UNCERTAIN), limit="4 kPa", samples=64)
+    return sensitivity(study, progress=False)
+
+
+def test_the_beam_is_ranked_and_its_text_says_so(beam):
+    assert beam.outcomes == (("MOVES", 1.0),)
+    assert beam.evaluated == 64 * 8
+    assert beam.main.inputs[0].key == "stone.friction"
+    text = " ".join(conclusions(beam))
+    assert "The friction matters most for the critical pressure: it takes part in " in text
+    assert "The circumferential modulus does not matter for the critical pressure" in text
+    assert "The critical pressure is known in all of them." in text
+    assert "NaN" not in text
+    assert "nan" not in text.split()
+
+
+def test_the_tornado_is_the_model_itself(beam):
+    bars = {bar.key: bar for bar in beam.pressures.bars}
+    median = sp.Case(sp.Stone("3.8 mm", 0.3), sp.Ureter("3.5 mm", "4.5 mm"), model=BEAM)
+    assert beam.pressures.centre.value == pytest.approx(sp.solve(median).pressure_kPa)
+    low = median.with_friction(0.12)
+    assert bars["stone.friction"].low.value == pytest.approx(sp.solve(low).pressure_kPa)
+    assert bars["stone.friction"].low.input == pytest.approx(0.12)
+    assert beam.sizes.unit == "mm"
+    assert beam.sizes.centre.value == pytest.approx(sp.critical_size(median, "4 kPa").diameter_mm)
+    of_size = {bar.key: bar for bar in beam.sizes.bars}
+    assert of_size.keys() == {"stone.friction", "method.circumferential_modulus"}
+    found = sp.critical_size(low, "4 kPa").diameter_mm
+    assert of_size["stone.friction"].low.value == pytest.approx(found)
+    spans = [bar.span for bar in beam.pressures.bars]
+    assert spans == sorted(spans, reverse=True)
+
+
+def test_the_critical_size_follows_an_uncertain_inner_diameter():
+    uncertain = {"ureter.inner_diameter": "3.4 mm to 3.6 mm", "stone.diameter": "3.7 mm to 3.9 mm"}
+    study = SensitivityStudy(uncertain_case(CASE, uncertain), limit="4 kPa", samples=32)
+    found = sensitivity(study, progress=False)
+    end = found.sizes.bars[0].high
+    assert end.input == pytest.approx(3.59e-3)
+    wide = sp.Case(sp.Stone("3.8 mm"), sp.Ureter("3.59 mm", "4.5 mm"), model=BEAM)
+    assert end.value == pytest.approx(sp.critical_size(wide, "4 kPa").diameter_mm)
+    assert [bar.key for bar in found.sizes.bars] == ["ureter.inner_diameter"]
+
+
+def test_refused_cases_are_counted_with_their_reason():
+    """The beam refuses walls thicker than η = 1.5, and some samples have one."""
+    uncertain = {"ureter.outer_diameter": "5 mm to 5.3 mm", "stone.friction": "0.1 to 0.5"}
+    study = SensitivityStudy(uncertain_case(CASE, uncertain), samples=64)
+    found = sensitivity(study, progress=False)
+    outcomes = dict(found.outcomes)
+    # 5.25 mm is the largest outer diameter.
+    assert outcomes["REFUSED"] == pytest.approx(1.0 / 6.0, abs=0.02)
+    told = {each.code: dict(each.values) for each in found.warnings}
+    assert "at most 1.5" in told["cases_refused"]["reason"]
+    assert told["groups_dropped"]["dropped"] == found.responses[0].dropped > 10
+    answered = found.response("answered")
+    assert answered.inputs[0].key == "ureter.outer_diameter"
+    assert answered.inputs[0].total.low <= 1.0 <= answered.inputs[0].total.high
+    assert answered.inputs[1].total.value == 0.0
+    text = " ".join(conclusions(found))
+    assert "the order of the inputs is that of its rank" in text
+    assert "The outer diameter matters most for the outcome that a critical pressure exists" in text
+
+
+def test_the_same_seed_gives_the_same_result(beam):
+    again = sensitivity(beam.study, progress=False)
+    assert again == beam
+    other = sensitivity(dataclasses.replace(beam.study, seed=2), progress=False)
+    assert other.responses != beam.responses
+
+
+def test_any_function_can_be_evaluated():
+    """Ishigami's function in the place of a model, through the whole study."""
+
+    class Function:
+        source = "a function"
+
+        def __call__(self, inputs):
+            unit = [(values - q.low) / (q.high - q.low) for values, q in
+                    zip(inputs.values(), study.uncertain.quantities.values(), strict=True)]  # fmt: skip
+            values = 1e3 * ishigami(*(np.pi * (2.0 * each - 1.0) for each in unit))
+            return evaluations([Outcome.MOVES] * len(values), values.tolist(), [None] * len(values))
+
+        def critical_sizes(self, inputs, limit):
+            raise AssertionError("no limit was given")
+
+    uncertain = {
+        "stone.friction": "0 to 2",
+        "stone.size_ratio": "1 to 1.2",
+        "load.prestretch": "0.9 to 1.1",
+    }
+    case = sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3))
+    study = SensitivityStudy(uncertain_case(case, uncertain), method="sobol", samples=1024)
+    found = sensitivity(study, Function())
+    names = dict(zip(uncertain, ("x1", "x2", "x3"), strict=True))
+    main = found.main
+    for each in main.inputs:
+        known = ISHIGAMI["total"][names[each.key]]
+        assert each.total.low <= known <= each.total.high
+    assert found.pressures.centre.value == pytest.approx(0.0, abs=1e-12)
+    text = " ".join(conclusions(found))
+    assert "The largest interaction is that of the friction and the prestretch" in text
+    assert found.sizes is None
+
+
+@pytest.mark.slow
+def test_elementary_effects_with_finite_elements(tmp_path):
+    """Every case is solved; a second run reads the states from the cache."""
+    case = sp.Case(
+        sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3), model=sp.SeatedBalance(seating="frictionless"),
+        numerics=sp.Numerics("fast"),
+    )  # fmt: skip
+    uncertain = {"stone.friction": "0.1 to 0.5", "ureter.material.G": "12 kPa ± 1 kPa"}
+    study = SensitivityStudy(uncertain_case(case, uncertain), samples=4)
+    assert study.method == "morris"
+    found = sensitivity(study, cache_folder=tmp_path, progress=False)
+    assert found.evaluated == 12
+    assert found.main.inputs[0].key == "stone.friction"
+    assert found.source == "finite elements of the model 'paper'"
+    again = sensitivity(study, cache_folder=tmp_path, progress=False)
+    assert again == found
+    low = found.pressures.bars[0].low
+    answer = sp.solve(case.with_friction(0.12), case.numerics.resolution)
+    assert low.value == pytest.approx(answer.pressure_kPa)
+
+
+# --- the study file and its errors
+
+STUDY = """
+[ureter]
+inner_diameter = "3.5 mm"
+wall_thickness = "0.5 mm"
+
+[method]
+model = "beam"
+longitudinal_modulus = "20 kPa"
+
+[uncertain]
+stone.friction = "0.05 to 0.5"
+"stone.diameter" = "3.8 mm ± 0.1 mm"
+method.circumferential_modulus = "0.4 MPa ± 20 %"
+
+[sensitivity]
+limit = "4 kPa"
+samples = 64
+"""
+
+
+def study_file(tmp_path, text=STUDY):
+    path = tmp_path / "study.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_study_file_is_read(tmp_path):
+    study = read_sensitivity(study_file(tmp_path))
+    assert study.uncertain.keys == (
+        "stone.friction",
+        "stone.diameter",
+        "method.circumferential_modulus",
+    )
+    assert (study.method, study.samples, study.seed, study.limit) == ("sobol", 64, 1, 4000.0)
+    assert study.cases == 64 * 8
+    shown = [each.describe() for each in study.uncertain.inputs]
+    assert shown == ["0.05 to 0.5", "3.8 ± 0.1 mm", "400 ± 80 kPa"]
+    case = study.uncertain.median_case
+    assert (case.wall_ratio, case.stone.friction) == (pytest.approx(4.5 / 3.5), 0.275)
+    changed = read_sensitivity(
+        study_file(tmp_path), method="morris", samples=6, limit="5 kPa", seed=None
+    )
+    assert (changed.method, changed.samples, changed.limit, changed.seed) == (
+        "morris",
+        6,
+        5000.0,
+        1,
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "stone.friction",
+            "stone.frction",
+            "uncertain input is stone.frction, but must be one of ",
+        ),
+        ('"0.05 to 0.5"', "0.3", "'stone.friction' is 0.3, but must be text in quotes"),
+        (
+            '"0.05 to 0.5"',
+            '"0.5 to 0.05"',
+            "'stone.friction' is 0.5 to 0.05, but must be a rising range",
+        ),
+        ("3.8 mm ± 0.1 mm", "3.8 ± 0.1", "must be a length with its unit"),
+        ('"4 kPa"', '"4"', "limit is 4, but must be a pressure with its unit"),
+        (
+            "samples = 64",
+            "samples = 60",
+            "samples is 60, but must be a number of base samples, a power of two",
+        ),
+        ("samples = 64", "sample = 64", "key of [sensitivity] is sample, but must be one of"),
+        ("samples = 64", 'method = "fast"', "method is fast, but must be one of sobol, morris"),
+        (
+            "[uncertain]",
+            "[stone]\nfriction = 0.3\n[uncertain]",
+            "'stone.friction' is fixed and uncertain",
+        ),
+        ("[uncertain]", "[uncertan]", "key is uncertan, but must be one of"),
+        ('inner_diameter = "3.5 mm"', "", "inner diameter"),
+        ("[uncertain]", '[uncertain]\n"stone.size_ratio" = "1 to 1.2"', "give one of the two"),
+        (
+            "[uncertain]",
+            '[uncertain]\n"ureter.material.H" = "1 ± 0.1"',
+            "must be one of C, a1111, a2222",
+        ),
+        (
+            "[uncertain]",
+            '[uncertain]\nload.confinement = "dead to hydrostatic"',
+            "uncertain input is load.confinement",
+        ),
+        ("samples = 64", "seed = -1", "seed is -1, but must be a whole number from 0"),
+    ],
+)
+def test_a_refused_study_file_says_what_is_wrong(tmp_path, old, new, message):
+    path = study_file(tmp_path, STUDY.replace(old, new, 1))
+    with pytest.raises(BadInput) as problem:
+        read_sensitivity(path)
+    assert message in str(problem.value)
+    assert "study.toml" in str(problem.value)
+
+
+def test_an_exact_quantity_is_fixed(tmp_path):
+    text = STUDY.replace("0.4 MPa ± 20 %", "0.3 MPa ± 0 MPa")
+    study = read_sensitivity(study_file(tmp_path, text))
+    assert study.uncertain.keys == ("stone.friction", "stone.diameter")
+    assert study.uncertain.median_case.model.circumferential_modulus == 3e5
+    only = {"stone.friction": "0.3 ± 0"}
+    with pytest.raises(BadInput, match="number of uncertain inputs is 0"):
+        uncertain_case(CASE, only)
+
+
+def test_constants_of_the_law_are_varied_in_their_units():
+    wall = sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3, material="ureter"))
+    uncertain = uncertain_case(
+        wall, {"ureter.material.G": "12 kPa ± 2 kPa", "ureter.material.a1111": "2 to 3"}
+    )
+    case = uncertain.case({"ureter.material.G": 11e3, "ureter.material.a1111": 2.5})
+    law = case.ureter.material.law
+    assert (law.G, law.a1111, law.C) == (11e3, 2.5, wall.ureter.material.law.C)
+    assert uncertain["ureter.material.G"].describe() == "12 ± 2 kPa"
+    hgo = sp.HolzapfelGasserOgden(3e3, 2e3, 1.0, 0.7, 0.1)
+    tube = dataclasses.replace(wall.ureter.material, law=hgo)
+    angle = uncertain_case(
+        sp.Case(wall.stone, sp.Ureter(wall_ratio=1.3, material=tube)),
+        {"ureter.material.angle": "40 deg ± 5 deg"},
+    )
+    assert angle.inputs[0].quantity.value == pytest.approx(np.radians(40.0))
+
+
+def test_an_unstable_law_is_a_refused_case():
+    """Samples in which the law is unstable are outcomes, and end nothing."""
+    case = sp.Case(
+        sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3), numerics=sp.Numerics("fast")
+    )
+    uncertain = uncertain_case(case, {"ureter.material.a1122": "-30 to 30"})
+    found = SolvedCases(uncertain)({"ureter.material.a1122": np.array([30.0])})
+    assert found.outcome.tolist() == [REFUSED]
+    assert found.reason
+    assert found.value.mask.all()
+
+
+def test_salib_is_named_if_it_is_missing(monkeypatch):
+    monkeypatch.setattr("stonepass.io.optional_imports.import_module", _missing)
+    with pytest.raises(BadInput, match=r"pip install 'stonepass\[studies\]'"):
+        saltelli_design({"x": UNIFORM}, 32, 1)
+
+
+def _missing(name):
+    raise ImportError(name)

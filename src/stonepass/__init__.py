@@ -77,6 +77,7 @@ if TYPE_CHECKING:
     from stonepass.records.friction import FrictionRecord, friction_record
     from stonepass.records.invitro import InVitroRecord, invitro_record
     from stonepass.records.rising import RisingRecord, rising_record
+    from stonepass.records.sensitivity import SensitivityRecord, sensitivity_record
     from stonepass.records.size import SizeRecord, size_record
     from stonepass.result import Result
     from stonepass.studies.case_solver import JobSolver
@@ -85,6 +86,11 @@ if TYPE_CHECKING:
     from stonepass.studies.executor import process_pool
     from stonepass.studies.jobs import PressureJob, SizeJob
     from stonepass.studies.rising import Rising, raise_pressure
+    from stonepass.studies.sensitivity.evaluator import Evaluations, Evaluator
+    from stonepass.studies.sensitivity.sensitivity import Sensitivity, sensitivity
+    from stonepass.studies.sensitivity.study import SensitivityStudy
+    from stonepass.studies.sensitivity.study_file import read_sensitivity
+    from stonepass.studies.sensitivity.uncertain_case import UncertainCase, uncertain_case
     from stonepass.studies.solution_cache import SolutionCache, default_folder
     from stonepass.studies.study import Study, run_study
     from stonepass.surface.friction import surface_friction
@@ -116,6 +122,8 @@ _HOME = {
     "CurvePointRecord": "records.curve",
     "Demiray": "materials.demiray",
     "ElasticFoundation": "model.models.elastic_foundation",
+    "Evaluations": "studies.sensitivity.evaluator",
+    "Evaluator": "studies.sensitivity.evaluator",
     "FitRecord": "records.fit",
     "FittedLaw": "bench.law_fit",
     "FrictionRecord": "records.friction",
@@ -148,6 +156,9 @@ _HOME = {
     "RisingRecord": "records.rising",
     "SeatedBalance": "model.models.seated_balance",
     "SeatedState": "model.states.seated_state",
+    "Sensitivity": "studies.sensitivity.sensitivity",
+    "SensitivityRecord": "records.sensitivity",
+    "SensitivityStudy": "studies.sensitivity.study",
     "Setting": "bench.comparison",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
@@ -162,6 +173,7 @@ _HOME = {
     "SurfaceFriction": "surface.friction_result",
     "SurfaceImage": "surface.surface_image",
     "Tension": "bench.test_data",
+    "UncertainCase": "studies.sensitivity.uncertain_case",
     "UnstableLaw": "errors",
     "Ureter": "model.ureter",
     "Yeoh": "materials.yeoh",
@@ -194,6 +206,7 @@ _HOME = {
     "read_opening_curve": "inputs.opening_curve_file",
     "read_patient": "clinic.patient",
     "read_points": "inputs.measured_pressures",
+    "read_sensitivity": "studies.sensitivity.study_file",
     "read_shape": "inputs.shape_file",
     "read_surface_image": "surface.readers",
     "read_tension": "bench.test_data",
@@ -201,10 +214,13 @@ _HOME = {
     "rising_record": "records.rising",
     "run_study": "studies.study",
     "seat": "model.case_states",
+    "sensitivity": "studies.sensitivity.sensitivity",
+    "sensitivity_record": "records.sensitivity",
     "shape_through": "model.shape_fit",
     "size_record": "records.size",
     "solve": "model.critical",
     "surface_friction": "surface.friction",
+    "uncertain_case": "studies.sensitivity.uncertain_case",
     "write_case": "inputs.case_file",
 }
 
@@ -247,6 +263,8 @@ __all__ = [
     "CurvePointRecord",
     "Demiray",
     "ElasticFoundation",
+    "Evaluations",
+    "Evaluator",
     "FitRecord",
     "FittedLaw",
     "FrictionRecord",
@@ -279,6 +297,9 @@ __all__ = [
     "RisingRecord",
     "SeatedBalance",
     "SeatedState",
+    "Sensitivity",
+    "SensitivityRecord",
+    "SensitivityStudy",
     "Setting",
     "Shape",
     "SizeAnswer",
@@ -293,6 +314,7 @@ __all__ = [
     "SurfaceFriction",
     "SurfaceImage",
     "Tension",
+    "UncertainCase",
     "UnstableLaw",
     "Ureter",
     "Yeoh",
@@ -326,6 +348,7 @@ __all__ = [
     "read_opening_curve",
     "read_patient",
     "read_points",
+    "read_sensitivity",
     "read_shape",
     "read_surface_image",
     "read_tension",
@@ -333,10 +356,13 @@ __all__ = [
     "rising_record",
     "run_study",
     "seat",
+    "sensitivity",
+    "sensitivity_record",
     "shape_through",
     "size_record",
     "solve",
     "surface_friction",
+    "uncertain_case",
     "write_case",
 ]
 

@@ -9,6 +9,7 @@ from typing import cast
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.caution import Caution, caution
+from stonepass.errors import Outcome
 from stonepass.result import Result
 from stonepass.studies.jobs import Progress
 from stonepass.studies.sensitivity.estimate import Gap, Sensitivities
@@ -27,7 +28,7 @@ from stonepass.studies.sensitivity.study_file import read_sensitivity
 from stonepass.studies.sensitivity.tornado import Tornado, pressure_tornado, size_tornado
 from stonepass.units import Pressure
 
-__all__ = ["Sensitivity", "evaluator_of", "sensitivity"]
+__all__ = ["Sensitivity", "sensitivity"]
 
 WIDE = 0.1  # half width of the interval of a total index above which a warning is given
 
@@ -88,6 +89,11 @@ class Sensitivity(Result):
         pressure, rank = self.responses[:2]
         return pressure if pressure.dropped == 0 else rank
 
+    @property
+    def answered(self) -> bool:
+        """True if a critical pressure exists in any case."""
+        return any(Outcome[name].answered for name, _ in self.outcomes if name != REFUSED_NAME)
+
     def title(self, key: str) -> str:
         """Return the name of an input in words."""
         return self.study.uncertain[key].title
@@ -112,8 +118,7 @@ def sensitivity(
     study : SensitivityStudy, str or Path
         The study, or the TOML file of a study.
     evaluator : Evaluator, optional
-        Function that evaluates many cases; by default the surrogate or the sweep of the study, or
-        else a solver of every case.
+        Function that evaluates many cases, such as a surrogate; by default every case is solved.
     executor : concurrent.futures.Executor, optional
         Where cases are solved, e.g. the executor of `process_pool`; by default in this process.
     cache_folder : Path, optional
@@ -129,8 +134,7 @@ def sensitivity(
     Raises
     ------
     BadInput
-        The file is refused, SALib is not installed, or the surrogate or the sweep does not fit the
-        study.
+        The file is refused, or SALib is not installed.
 
     References
     ----------
@@ -148,7 +152,7 @@ def sensitivity(
     """
     if isinstance(study, str | Path):
         study = read_sensitivity(study)
-    evaluate = evaluator or evaluator_of(study, executor, cache_folder, progress)
+    evaluate = evaluator or SolvedCases(study.uncertain, executor, cache_folder, progress)
     quantities, samples = study.uncertain.quantities, cast("int", study.samples)
     limit = cast("Pressure | None", study.limit)
     design_of, sensitivities_of = {
@@ -171,22 +175,6 @@ def sensitivity(
         sizes=sizes,
         warnings=tuple(_warnings(found, each_response)),
     )
-
-
-def evaluator_of(
-    study: SensitivityStudy,
-    executor: Executor | None = None,
-    cache_folder: Path | None = None,
-    progress: bool | Progress = False,
-) -> Evaluator:
-    """Return the evaluator that a study asks for.
-
-    Parameters
-    ----------
-    study, executor, cache_folder, progress
-        As for `sensitivity`.
-    """
-    return SolvedCases(study.uncertain, executor, cache_folder, progress)
 
 
 def _warnings(found: Evaluations, each_response: tuple[Sensitivities, ...]) -> list[Caution]:

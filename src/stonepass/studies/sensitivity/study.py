@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from stonepass.errors import refuse_unknown, require
 from stonepass.model.problem import require_kind
@@ -41,15 +40,11 @@ class SensitivityStudy:
         trajectories, 4 to 10000 (10 by default); each of them needs d + 1 cases.
     seed : int
         Seed of the samples, 0 to 2³² − 2.
-    surrogate : str, optional
-        Name or folder of a surrogate that answers the cases in the place of the model.
-    sweep : Path, optional
-        Folder of a sweep over the uncertain inputs, whose results are interpolated.
 
     Raises
     ------
     BadInput
-        A value is of the wrong kind or out of bounds, or both a surrogate and a sweep are given.
+        A value is of the wrong kind or out of bounds.
 
     References
     ----------
@@ -61,13 +56,9 @@ class SensitivityStudy:
     limit: str | Pressure | Quantity | None = None
     samples: int | None = None
     seed: int = 1
-    surrogate: str | None = None
-    sweep: Path | None = None
 
     def __post_init__(self) -> None:
         require_kind("uncertain", self.uncertain, UncertainCase, "uncertain_case(case, {…})")
-        require(self.surrogate is None or self.sweep is None, "surrogate", self.surrogate,
-                "left out if a sweep is given")  # fmt: skip
         method = self.method or self._default_method()
         if method not in METHODS:
             refuse_unknown("method", str(method), list(METHODS))
@@ -86,9 +77,12 @@ class SensitivityStudy:
             object.__setattr__(self, name, value)
 
     def _default_method(self) -> str:
-        solved = self.surrogate is None and self.sweep is None
-        needs = solved and self.uncertain.median_case.model.NEEDS_ELEMENTS
-        return "morris" if needs else "sobol"
+        return "morris" if self.needs_elements else "sobol"
+
+    @property
+    def needs_elements(self) -> bool:
+        """True if every case must be solved with finite elements."""
+        return self.uncertain.median_case.model.NEEDS_ELEMENTS
 
     @property
     def cases(self) -> int:

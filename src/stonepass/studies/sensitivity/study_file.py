@@ -31,8 +31,6 @@ class _Settings(FileSection):
     limit: str | None = None
     samples: int | None = None
     seed: int = 1
-    surrogate: str | None = None
-    sweep: str | None = None
 
 
 class _Own(FileSection):
@@ -83,8 +81,6 @@ def read_sensitivity(path: str | Path, **overrides: Any) -> SensitivityStudy:
                 raise BadInput(f"'{key}'", "fixed and uncertain", "one of the two")
         refuse_pairs({**fixed, **leaves}, {key: f"'{key}'" for key in all_inputs()})
         case = uncertain_values(fixed, leaves, path.parent)
-        for name in ("surrogate", "sweep"):
-            settings[name] = _beside(path.parent, settings[name])
         given = {name: value for name, value in overrides.items() if value is not None}
         return SensitivityStudy(case, **settings | given)
     except BadInput as problem:
@@ -98,10 +94,3 @@ def _leaves(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
         key = f"{prefix}{name}"
         found |= _leaves(value, f"{key}.") if isinstance(value, dict) else {key: value}
     return found
-
-
-def _beside(folder: Path, named: str | None) -> Any:
-    """Return the path of a folder beside the file, or the name if there is no such folder."""
-    if named is None or not (folder / named).is_dir():
-        return named
-    return folder / named

@@ -7,6 +7,7 @@ import io
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
 from stonepass.studies.sensitivity.conclusions import conclusions
 from stonepass.studies.sensitivity.estimate import Gap, Response
-from stonepass.studies.sensitivity.evaluator import OUTCOMES, REFUSED, evaluations
+from stonepass.studies.sensitivity.evaluator import BAD_INPUT, OUTCOMES, evaluations
 from stonepass.studies.sensitivity.morris import morris_design, morris_sensitivities
 from stonepass.studies.sensitivity.responses import responses
 from stonepass.studies.sensitivity.sensitivity import sensitivity
@@ -24,6 +25,7 @@ from stonepass.studies.sensitivity.sobol import saltelli_design, sobol_sensitivi
 from stonepass.studies.sensitivity.solved_cases import SolvedCases
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.study_file import read_sensitivity
+from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
 from stonepass.studies.sensitivity.uncertain_case import uncertain_case
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 
@@ -183,7 +185,7 @@ def test_every_outcome_has_its_place_in_the_responses():
         [None, None, 9e3, 3e3, None, None, 5e3],
         "impossible",
     )  # fmt: skip
-    assert found.outcome[5] == REFUSED
+    assert found.outcome[5] == BAD_INPUT
     assert OUTCOMES[found.outcome[3]] is Outcome.LEAKS
     by_name = {each.name: values for each, values in responses(found, 6e3)}
     none = None
@@ -260,7 +262,7 @@ def test_refused_cases_are_counted_with_their_reason():
     found = sensitivity(study, progress=False)
     outcomes = dict(found.outcomes)
     # 5.25 mm is the largest outer diameter.
-    assert outcomes["REFUSED"] == pytest.approx(1.0 / 6.0, abs=0.02)
+    assert outcomes["BAD_INPUT"] == pytest.approx(1.0 / 6.0, abs=0.02)
     told = {each.code: dict(each.values) for each in found.warnings}
     assert "at most 1.5" in told["cases_refused"]["reason"]
     assert told["groups_dropped"]["dropped"] == found.responses[0].dropped > 10
@@ -334,6 +336,89 @@ def test_elementary_effects_with_finite_elements(tmp_path):
     low = found.pressures.bars[0].low
     answer = sp.solve(case.with_friction(0.12), case.numerics.resolution)
     assert low.value == pytest.approx(answer.pressure_kPa)
+
+
+# --- surrogates
+
+
+class Linear:
+    """A surrogate whose critical pressure is μ (ξ − 1) (η − 1) MPa, up to its edges."""
+
+    case = sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3))
+    OUTCOMES = (Outcome.LOOSE, Outcome.MOVES, Outcome.NO_SOLUTION, Outcome.BEYOND_CLOSURE)
+
+    def evaluate(self, *, size_ratio, wall_ratio, friction, confining_pressure):
+        over = np.maximum(size_ratio - 1.0, 0.0)
+        pressure = 1e6 * friction * over * (wall_ratio - 1.0) + confining_pressure
+        outside, beyond = size_ratio > 1.6, friction > 1.0
+        missing = outside | beyond
+        codes = np.select([outside, beyond, over == 0.0], [2, 3, 0], 1)
+        masked = np.ma.masked_array(pressure, missing)
+        bound = np.where(beyond & ~outside, 5e3, 0.0)
+        return SimpleNamespace(
+            OUTCOMES=self.OUTCOMES, outcome=codes, pressure=masked, lower_bound=bound,
+            error=np.ma.masked_array(0.001 * pressure, missing), outside=outside,
+        )  # fmt: skip
+
+
+def surrogate_study(uncertain, **settings):
+    case = sp.Case(sp.Stone("3.85 mm", 0.3), sp.Ureter("3.5 mm", "4.55 mm"))
+    study = SensitivityStudy(uncertain_case(case, uncertain), "sobol", "9 kPa", **settings)
+    return study, SurrogateCases(study.uncertain, Linear(), "line")
+
+
+def test_a_surrogate_answers_a_study():
+    uncertain = {"stone.friction": "0.1 to 0.5", "stone.diameter": "3.7 mm to 4 mm",
+                 "ureter.inner_diameter": "3.5 mm ± 0.01 mm"}  # fmt: skip
+    study, surrogate = surrogate_study(uncertain, samples=256)
+    found = sensitivity(study, surrogate)
+    assert found.source == "surrogate 'line' of the model 'paper'"
+    assert found.pressures.centre.value == pytest.approx(9.0, rel=1e-6)
+    bars = {bar.key: bar for bar in found.sizes.bars}
+    # ξ_cr − 1 = limit/(μ (η − 1)), in mm of the inner diameter; 1 MPa · 0.3 · 0.3 at the medians.
+    assert found.sizes.centre.value == pytest.approx(3.85, abs=1e-6)
+    assert bars["stone.friction"].low.value == pytest.approx(3.5 * (1.0 + 0.009 / 0.12 / 0.3))
+    narrow = bars["ureter.inner_diameter"].low
+    inner = 1e3 * narrow.input
+    size = inner * (1.0 + 0.009 / 0.3 / (4.55 / inner - 1.0))
+    assert narrow.value == pytest.approx(size, rel=1e-6)
+    assert found.error == pytest.approx(0.0, abs=60.0)
+    assert found.error > 10.0
+    assert "whose stated error is at most" in " ".join(conclusions(found))
+
+
+def test_what_a_surrogate_cannot_answer_has_a_name():
+    uncertain = {"stone.friction": "0.1 to 1.3", "stone.diameter": "3.6 mm to 6 mm"}
+    study, surrogate = surrogate_study(uncertain, samples=64)
+    found = sensitivity(study, surrogate)
+    outcomes = dict(found.outcomes)
+    assert outcomes["OUTSIDE"] == pytest.approx(0.4 / 2.4, abs=0.02)
+    assert outcomes["BEYOND_CLOSURE"] == pytest.approx(0.25 * 2.0 / 2.4, abs=0.02)
+    told = {each.code: dict(each.values) for each in found.warnings}
+    assert told["cases_outside"]["fraction"] == outcomes["OUTSIDE"]
+    assert told["bounds_in_rank"]["fraction"] == outcomes["BEYOND_CLOSURE"]
+    high = found.sizes.bars[0].high
+    assert (high.outcome, high.value) == ("BEYOND_CLOSURE", None)
+
+
+def test_a_size_beyond_the_surrogate_has_a_lower_bound():
+    study, surrogate = surrogate_study({"stone.friction": "0.01 to 0.1"})
+    ends = sensitivity(study, surrogate).sizes.bars[0]
+    assert (ends.low.outcome, ends.low.value) == ("BEYOND_RANGE", None)
+    assert ends.low.lower_bound == pytest.approx(1.6 * 3.5, rel=1e-6)
+    assert ends.high.value == pytest.approx(3.5 * (1.0 + 0.009 / 0.0955 / 0.3), rel=1e-6)
+
+
+def test_a_surrogate_of_another_case_is_refused():
+    with pytest.raises(BadInput, match=r"uncertain input is load\.prestretch"):
+        surrogate_study({"load.prestretch": "1 to 1.1"})
+    latex = sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3, material="latex"))
+    uncertain = uncertain_case(latex, {"stone.friction": "0.1 to 0.5"})
+    with pytest.raises(BadInput, match="law of the wall"):
+        SurrogateCases(uncertain, Linear())
+    direct = dataclasses.replace(Linear.case, model=sp.PushThrough())
+    with pytest.raises(BadInput, match="that of the surrogate"):
+        SurrogateCases(uncertain_case(direct, {"stone.friction": "0.1 to 0.5"}), Linear())
 
 
 # --- the study file and its errors
@@ -475,7 +560,7 @@ def test_an_unstable_law_is_a_refused_case():
     )
     uncertain = uncertain_case(case, {"ureter.material.a1122": "-30 to 30"})
     found = SolvedCases(uncertain)({"ureter.material.a1122": np.array([30.0])})
-    assert found.outcome.tolist() == [REFUSED]
+    assert found.outcome.tolist() == [BAD_INPUT]
     assert found.reason
     assert found.value.mask.all()
 
@@ -564,10 +649,14 @@ def test_missing_ends_of_a_tornado_are_shown_with_their_outcome():
     study = SensitivityStudy(uncertain_case(CASE, uncertain), samples=32)
     found = sensitivity(study, progress=False)
     first = found.pressures.bars[0]
-    assert (first.key, first.high.outcome, first.span) == ("ureter.outer_diameter", "REFUSED", None)
+    assert (first.key, first.high.outcome, first.span) == (
+        "ureter.outer_diameter",
+        "BAD_INPUT",
+        None,
+    )
     told = " ".join(conclusions(found))
     assert "There is no critical pressure where the outer diameter is 5.38 mm" in told
     drawn = [text.get_text() for axes in found.figure().axes for text in axes.texts]
-    assert "5.38 mm: REFUSED" in drawn
+    assert "5.38 mm: BAD_INPUT" in drawn
     assert found.to_dict()["tornado_pressure"]["bars"][0]["high"]["value"] is None
-    assert "REFUSED" in str(found)
+    assert "BAD_INPUT" in str(found)

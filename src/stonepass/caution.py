@@ -285,6 +285,10 @@ SENTENCES = {
         "{fraction:.1%} of the samples describe no case that can be solved and count as cases "
         "without an answer; the most frequent reason: {reason}"
     ),
+    "cases_outside": (
+        "{fraction:.1%} of the samples lie outside the range of the surrogate or of the sweep and "
+        "count as cases without an answer"
+    ),
     "groups_dropped": (
         "{dropped} of {groups} groups of samples are left out of the sensitivity of {response}, "
         "which is unknown in a case of each of these groups; the stated sensitivity is that of the "

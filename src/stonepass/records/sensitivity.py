@@ -133,13 +133,19 @@ class SensitivityRecord(Record):
     source: str = Field(description="origin of the critical pressures in words")
     samples: int = Field(description="number of base samples (Sobol') or of trajectories (Morris)")
     seed: int = Field(description="seed of the samples")
+    largest_error_kPa: float | None = Field(
+        description=(
+            "largest stated error of a critical pressure of a surrogate or an interpolation; null "
+            "if every case was solved"
+        )
+    )
     evaluated: int = Field(description="number of evaluated cases without those of the tornado")
     limit_kPa: float | None = Field(description="pressure limit; null without one")
     inputs: list[UncertainInputRecord] = Field(description="the uncertain inputs")
     outcomes: dict[str, float] = Field(
         description=(
-            "fraction of each outcome in the samples; `REFUSED` stands for inputs that describe "
-            "no case that can be solved"
+            "fraction of each outcome in the samples; `BAD_INPUT` stands for inputs that describe "
+            "no case that can be solved, `OUTSIDE` for cases outside the range of the source"
         )
     )
     responses: list[ResponseSensitivityRecord] = Field(
@@ -165,6 +171,7 @@ def sensitivity_record(found: Sensitivity) -> SensitivityRecord:
         source=found.source,
         samples=cast("int", study.samples),
         seed=study.seed,
+        largest_error_kPa=kilo(found.error),
         evaluated=found.evaluated,
         limit_kPa=kilo(cast("float | None", study.limit)),
         inputs=[_input(each) for each in study.uncertain.inputs],

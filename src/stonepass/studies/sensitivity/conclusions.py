@@ -26,7 +26,7 @@ def conclusions(found: Sensitivity) -> tuple[str, ...]:
     ----------
     docs/howto/sensitivity.md, "What the text says".
     """
-    told = [_outcomes(found), *_ranking(found, found.main), *_interactions(found)]
+    told = [_outcomes(found), *_error(found), *_ranking(found, found.main), *_interactions(found)]
     for name in (MOVES.name, ANSWERED.name):
         for each in found.responses:
             if each.response.name == name:
@@ -46,6 +46,15 @@ def _outcomes(found: Sensitivity) -> str:
         f"{text} Because the critical pressure does not exist in all cases, the order of the "
         "inputs is that of its rank, in which a lower bound stands for a missing critical pressure."
     )
+
+
+def _error(found: Sensitivity) -> list[str]:
+    if found.error is None:
+        return []
+    return [
+        f"The critical pressures are those of the {found.source}, whose stated error is at most "
+        f"{found.error / 1e3:.2g} kPa."
+    ]
 
 
 def _ranking(found: Sensitivity, each: Sensitivities) -> list[str]:

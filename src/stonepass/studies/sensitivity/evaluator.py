@@ -19,18 +19,20 @@ from stonepass.errors import Outcome
 from stonepass.studies.sensitivity.uncertain_case import Inputs
 
 __all__ = [
+    "BAD_INPUT",
     "OUTCOMES",
-    "REFUSED",
-    "REFUSED_NAME",
+    "OUTSIDE",
     "Evaluations",
     "Evaluator",
     "evaluations",
     "outcome_fractions",
+    "outcome_name",
 ]
 
 OUTCOMES: tuple[Outcome, ...] = tuple(Outcome)
-REFUSED = -1  # code of inputs that describe no possible case
-REFUSED_NAME = "REFUSED"  # its name in results
+# Codes of inputs that have no outcome of a calculation, and their names in results.
+BAD_INPUT, OUTSIDE = -1, -2
+_NAMES = {BAD_INPUT: "BAD_INPUT", OUTSIDE: "OUTSIDE"}
 
 
 @array_dataclass
@@ -41,7 +43,8 @@ class Evaluations:
     Attributes
     ----------
     outcome : array (n) of int
-        Index of the outcome in `OUTCOMES`, or `REFUSED` for inputs that describe no possible case.
+        Index of the outcome in `OUTCOMES`, `BAD_INPUT` for inputs that describe no case that can be
+        solved, or `OUTSIDE` for a case outside the range of a surrogate or of a sweep.
     value : masked array (n)
         Critical pressure in Pa, or critical size ratio; masked where there is none.
     lower_bound : masked array (n)
@@ -49,12 +52,16 @@ class Evaluations:
         masked where no bound is known.
     reason : str
         The most frequent reason why inputs describe no possible case; empty if all of them do.
+    error : float or None
+        Largest stated error of a value of a surrogate or of an interpolation, in the unit of the
+        values; None for solved cases.
     """
 
     outcome: Int[np.ndarray, " n"]
     value: np.ma.MaskedArray
     lower_bound: np.ma.MaskedArray
     reason: str = ""
+    error: float | None = None
 
 
 @runtime_checkable
@@ -103,16 +110,20 @@ def evaluations(
     reason : str
         The most frequent reason why inputs describe no possible case.
     """
-    codes = [REFUSED if each is None else OUTCOMES.index(each) for each in outcomes]
+    codes = [BAD_INPUT if each is None else OUTCOMES.index(each) for each in outcomes]
     return Evaluations(np.array(codes, dtype=int), _masked(values), _masked(lower_bounds), reason)
+
+
+def outcome_name(code: int) -> str:
+    """Return the name of an outcome by its code."""
+    return _NAMES[code] if code in _NAMES else OUTCOMES[code].name
 
 
 def outcome_fractions(found: Evaluations) -> tuple[tuple[str, float], ...]:
     """Return the fraction of each outcome that occurs, by its name, in descending order."""
     counts = Counter(found.outcome.tolist())
     return tuple(
-        (REFUSED_NAME if code == REFUSED else OUTCOMES[code].name, count / len(found.outcome))
-        for code, count in counts.most_common()
+        (outcome_name(code), count / len(found.outcome)) for code, count in counts.most_common()
     )
 
 

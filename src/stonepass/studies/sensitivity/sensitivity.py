@@ -14,10 +14,12 @@ from stonepass.result import Result
 from stonepass.studies.jobs import Progress
 from stonepass.studies.sensitivity.estimate import Gap, Sensitivities
 from stonepass.studies.sensitivity.evaluator import (
-    REFUSED_NAME,
+    BAD_INPUT,
+    OUTSIDE,
     Evaluations,
     Evaluator,
     outcome_fractions,
+    outcome_name,
 )
 from stonepass.studies.sensitivity.morris import morris_design, morris_sensitivities
 from stonepass.studies.sensitivity.responses import responses
@@ -47,8 +49,9 @@ class Sensitivity(Result):
     evaluated : int
         Number of evaluated cases of the samples, without those of the tornado.
     outcomes : tuple of (str, float)
-        Fraction of each outcome in the samples, by its name, in descending order. ``REFUSED``
-        stands for inputs that describe no possible case.
+        Fraction of each outcome in the samples, by its name, in descending order. ``BAD_INPUT``
+        stands for inputs that describe no case that can be solved, and ``OUTSIDE`` for cases
+        outside the range of a surrogate or of a sweep.
     responses : tuple of Sensitivities
         Sensitivity of the critical pressure, of its rank, of the outcome that the stone moves
         within the pressure limit (if there is one), and of the outcome that a critical pressure
@@ -57,6 +60,9 @@ class Sensitivity(Result):
         Effect of each input alone on the critical pressure in kPa.
     sizes : Tornado or None
         Effect of each input alone on the critical size in mm; None without a pressure limit.
+    error : float or None
+        Largest stated error of a critical pressure of a surrogate or a sweep in Pa; None if every
+        case was solved.
     warnings : tuple of Caution
         Warnings about cases without an answer and about wide confidence intervals.
 
@@ -72,6 +78,7 @@ class Sensitivity(Result):
     responses: tuple[Sensitivities, ...]
     pressures: Tornado
     sizes: Tornado | None
+    error: float | None = None
     warnings: tuple[Caution, ...] = ()
 
     def summary(self) -> str:
@@ -92,7 +99,8 @@ class Sensitivity(Result):
     @property
     def answered(self) -> bool:
         """True if a critical pressure exists in any case."""
-        return any(Outcome[name].answered for name, _ in self.outcomes if name != REFUSED_NAME)
+        names = Outcome.__members__
+        return any(name in names and names[name].answered for name, _ in self.outcomes)
 
     def title(self, key: str) -> str:
         """Return the name of an input in words."""
@@ -173,15 +181,20 @@ def sensitivity(
         responses=each_response,
         pressures=pressure_tornado(study.uncertain, evaluate),
         sizes=sizes,
+        error=found.error,
         warnings=tuple(_warnings(found, each_response)),
     )
 
 
 def _warnings(found: Evaluations, each_response: tuple[Sensitivities, ...]) -> list[Caution]:
     told = []
-    refused = dict(outcome_fractions(found)).get(REFUSED_NAME, 0.0)
+    fractions = dict(outcome_fractions(found))
+    refused = fractions.get(outcome_name(BAD_INPUT), 0.0)
     if refused:
         told.append(caution("cases_refused", fraction=refused, reason=found.reason.rstrip(".")))
+    outside = fractions.get(outcome_name(OUTSIDE), 0.0)
+    if outside:
+        told.append(caution("cases_outside", fraction=outside))
     for dropped in sorted({each.dropped for each in each_response if each.dropped}):
         alike = [each for each in each_response if each.dropped == dropped]
         for code, some in (

@@ -11,11 +11,9 @@ import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.studies.sensitivity.evaluator import (
-    OUTCOMES,
-    REFUSED,
-    REFUSED_NAME,
     Evaluations,
     Evaluator,
+    outcome_name,
 )
 from stonepass.studies.sensitivity.uncertain_case import UncertainCase
 
@@ -177,7 +175,7 @@ def _tornado(
         return End(
             None if key is None else float(inputs[key][row]),
             _number(found.value, row, scale),
-            REFUSED_NAME if code == REFUSED else OUTCOMES[code].name,
+            outcome_name(code),
             _number(found.lower_bound, row, scale),
         )
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -117,12 +118,12 @@ class UncertainCase:
     def __getitem__(self, key: str) -> UncertainInput:
         return next(each for each in self.inputs if each.key == key)
 
-    @property
+    @cached_property
     def medians(self) -> dict[str, float]:
         """Medians of the uncertain inputs by key, in SI units."""
         return {each.key: each.quantile(0.5) for each in self.inputs}
 
-    @property
+    @cached_property
     def median_case(self) -> Case:
         """The case in which all uncertain inputs have their medians."""
         return self.case(self.medians)

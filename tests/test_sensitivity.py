@@ -15,9 +15,11 @@ import pytest
 import stonepass as sp
 from stonepass.cli import run
 from stonepass.errors import BadInput, Outcome
+from stonepass.studies.sampling import sobol_points
 from stonepass.studies.sensitivity.conclusions import conclusions
 from stonepass.studies.sensitivity.estimate import Gap, Response
-from stonepass.studies.sensitivity.evaluator import BAD_INPUT, OUTCOMES, evaluations
+from stonepass.studies.sensitivity.evaluator import BAD_INPUT, OUTCOMES, evaluations, outcome_name
+from stonepass.studies.sensitivity.interpolated_cases import InterpolatedCases
 from stonepass.studies.sensitivity.morris import morris_design, morris_sensitivities
 from stonepass.studies.sensitivity.responses import responses
 from stonepass.studies.sensitivity.sensitivity import sensitivity
@@ -350,7 +352,7 @@ class Linear:
     def evaluate(self, *, size_ratio, wall_ratio, friction, confining_pressure):
         over = np.maximum(size_ratio - 1.0, 0.0)
         pressure = 1e6 * friction * over * (wall_ratio - 1.0) + confining_pressure
-        outside, beyond = size_ratio > 1.6, friction > 1.0
+        outside, beyond = size_ratio > 1.6, (friction > 1.0) & (over > 0.0)
         missing = outside | beyond
         codes = np.select([outside, beyond, over == 0.0], [2, 3, 0], 1)
         masked = np.ma.masked_array(pressure, missing)
@@ -394,6 +396,7 @@ def test_what_a_surrogate_cannot_answer_has_a_name():
     outcomes = dict(found.outcomes)
     assert outcomes["OUTSIDE"] == pytest.approx(0.4 / 2.4, abs=0.02)
     assert outcomes["BEYOND_CLOSURE"] == pytest.approx(0.25 * 2.0 / 2.4, abs=0.02)
+    assert found.sizes.bars[0].high.lower_bound == pytest.approx(3.5, rel=1e-6)
     told = {each.code: dict(each.values) for each in found.warnings}
     assert told["cases_outside"]["fraction"] == outcomes["OUTSIDE"]
     assert told["bounds_in_rank"]["fraction"] == outcomes["BEYOND_CLOSURE"]
@@ -419,6 +422,69 @@ def test_a_surrogate_of_another_case_is_refused():
     direct = dataclasses.replace(Linear.case, model=sp.PushThrough())
     with pytest.raises(BadInput, match="that of the surrogate"):
         SurrogateCases(uncertain_case(direct, {"stone.friction": "0.1 to 0.5"}), Linear())
+
+
+# --- solved cases
+
+
+def interpolated(uncertain, count=256):
+    """Beam cases at points of a Sobol sequence over all ranges, as a sweep has them."""
+    case = uncertain_case(CASE, uncertain)
+    unit = sobol_points(len(uncertain), int(np.log2(count)), 3)
+    points = {key: low + (high - low) * unit[:, k] for k, (key, low, high) in enumerate(
+        (each.key, each.quantity.low, each.quantity.high) for each in case.inputs)}  # fmt: skip
+    return InterpolatedCases(case, points, SolvedCases(case)(points), "sweep 'study'")
+
+
+def test_solved_cases_answer_a_study():
+    uncertain = {"stone.friction": "0.1 to 0.5", "stone.diameter": "3.6 mm to 3.8 mm"}
+    swept = interpolated(uncertain)
+    study = SensitivityStudy(swept.uncertain, limit="2 kPa", samples=64)
+    found, solved = sensitivity(study, swept), sensitivity(study, progress=False)
+    assert found.source == "interpolation of the sweep 'study'"
+    assert found.error < 40.0  # of up to 4 kPa
+    exact = solved.pressures.centre.value
+    assert abs(found.pressures.centre.value - exact) * 1e3 < found.error + 1e-6
+    assert found.sizes.centre.value == pytest.approx(solved.sizes.centre.value, abs=2e-3)
+    inside = dict(found.outcomes)
+    assert inside["MOVES"] > 0.9
+    for mine, its in zip(found.response("rank").inputs, solved.main.inputs, strict=True):
+        assert mine.key == its.key
+        assert mine.total.overlaps(its.total)
+    # A solved case keeps its own pressure.
+    first = {key: values[:5] for key, values in swept.points.items()}
+    assert swept(first).value.tolist() == pytest.approx(swept.solved.value[:5].tolist())
+
+
+def test_cases_without_an_answer_keep_their_outcome():
+    uncertain = {"stone.friction": "0.1 to 0.5", "ureter.outer_diameter": "5 mm to 5.4 mm"}
+    swept = interpolated(uncertain, count=128)
+    inputs = {"stone.friction": np.array([0.3, 0.3, 0.6]),
+              "ureter.outer_diameter": np.array([5.1e-3, 5.38e-3, 5.1e-3])}  # fmt: skip
+    found = swept(inputs)
+    assert [outcome_name(code) for code in found.outcome.tolist()] == [
+        "MOVES",
+        "BAD_INPUT",
+        "OUTSIDE",
+    ]
+    assert found.value.mask.tolist() == [False, True, True]
+    with pytest.raises(BadInput, match="pressure limit"):
+        swept.critical_sizes(inputs, 2e3)
+
+
+def test_other_inputs_than_those_of_the_solved_cases_are_refused():
+    swept = interpolated({"stone.friction": "0.1 to 0.5", "stone.diameter": "3.6 mm to 3.8 mm"}, 64)
+    less = uncertain_case(CASE, {"stone.friction": "0.1 to 0.5"})
+    with pytest.raises(
+        BadInput, match=r"uncertain inputs is stone\.friction, but must be those of"
+    ):
+        dataclasses.replace(swept, uncertain=less)
+    same = {**swept.points, "stone.friction": np.full(64, 0.3)}
+    with pytest.raises(BadInput, match="constant in the sweep"):
+        dataclasses.replace(swept, points=same)
+    none = evaluations([Outcome.NO_SOLUTION] * 64, [None] * 64, [None] * 64)
+    with pytest.raises(BadInput, match="number of critical pressures"):
+        dataclasses.replace(swept, solved=none)
 
 
 # --- the study file and its errors

@@ -87,9 +87,11 @@ if TYPE_CHECKING:
     from stonepass.studies.jobs import PressureJob, SizeJob
     from stonepass.studies.rising import Rising, raise_pressure
     from stonepass.studies.sensitivity.evaluator import Evaluations, Evaluator
+    from stonepass.studies.sensitivity.interpolated_cases import InterpolatedCases
     from stonepass.studies.sensitivity.sensitivity import Sensitivity, sensitivity
     from stonepass.studies.sensitivity.study import SensitivityStudy
     from stonepass.studies.sensitivity.study_file import read_sensitivity
+    from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
     from stonepass.studies.sensitivity.uncertain_case import UncertainCase, uncertain_case
     from stonepass.studies.solution_cache import SolutionCache, default_folder
     from stonepass.studies.study import Study, run_study
@@ -132,6 +134,7 @@ _HOME = {
     "InVitro": "bench.invitro",
     "InVitroRecord": "records.invitro",
     "Inflation": "bench.test_data",
+    "InterpolatedCases": "studies.sensitivity.interpolated_cases",
     "JobSolver": "studies.case_solver",
     "Law": "materials.protocol",
     "Length": "units",
@@ -172,6 +175,7 @@ _HOME = {
     "Study": "studies.study",
     "SurfaceFriction": "surface.friction_result",
     "SurfaceImage": "surface.surface_image",
+    "SurrogateCases": "studies.sensitivity.surrogate_cases",
     "Tension": "bench.test_data",
     "UncertainCase": "studies.sensitivity.uncertain_case",
     "UnstableLaw": "errors",
@@ -273,6 +277,7 @@ __all__ = [
     "InVitro",
     "InVitroRecord",
     "Inflation",
+    "InterpolatedCases",
     "JobSolver",
     "Law",
     "Length",
@@ -313,6 +318,7 @@ __all__ = [
     "Study",
     "SurfaceFriction",
     "SurfaceImage",
+    "SurrogateCases",
     "Tension",
     "UncertainCase",
     "UnstableLaw",

@@ -13,13 +13,16 @@ from stonepass.studies.sensitivity.evaluator import OUTCOMES, OUTSIDE, Evaluatio
 
 __all__ = ["search_sizes"]
 
-GRID = 581  # number of size ratios of the first pass, 0.005 apart
+GRID = 146  # number of size ratios of the first pass; P_ucr grows with the size
+BEGUN = len(OUTCOMES)  # stands for no outcome
 HALVINGS = 24  # number of halvings of the interval in which P_ucr crosses the limit
 
 Pressures = Callable[[Float[np.ndarray, " m"], Int[np.ndarray, " m"]], Evaluations]
 
 
-def search_sizes(pressures: Pressures, count: int, limit: float) -> Evaluations:
+def search_sizes(
+    pressures: Pressures, count: int, limit: float, bounds: tuple[float, float] = SIZE_RATIO
+) -> Evaluations:
     """Find the size ratio at which the critical pressure reaches a limit, for many cases.
 
     Parameters
@@ -31,25 +34,31 @@ def search_sizes(pressures: Pressures, count: int, limit: float) -> Evaluations:
         Number n of cases.
     limit : float
         Pressure limit in Pa.
+    bounds : (float, float)
+        Smallest and largest size ratio of the search.
 
     Returns
     -------
     Evaluations
         Critical size ratios. If the pressures end before they reach the limit, the outcome is that
-        of the end, or BEYOND_RANGE at the end of the range of a surrogate; the lower bound is the
-        largest size whose critical pressure is below the limit.
+        of the end, or BEYOND_RANGE at the end of the range of the source; the lower bound is the
+        largest size whose critical pressure is below the limit. If no critical pressure is below
+        the limit, the outcome is BELOW_RANGE.
     """
-    grid, cases = np.linspace(*SIZE_RATIO, GRID), np.arange(count)
+    grid, cases = np.linspace(*bounds, GRID), np.arange(count)
     found = pressures(np.tile(grid, count), np.repeat(cases, GRID))
     below = _below(found, limit).reshape(count, GRID)
-    crossed = np.asarray(~below.all(axis=1))
-    first = np.where(crossed, np.argmin(below, axis=1), GRID - 1)  # the first size that is too much
+    too_large = np.logical_or.accumulate(below, axis=1) & ~below
+    begun, crossed = np.asarray(below.any(axis=1)), np.asarray(too_large.any(axis=1))
+    first = np.where(crossed, np.argmax(too_large, axis=1), GRID - 1)
     low, high = grid[np.maximum(first - 1, 0)], grid[first]
     for _ in range(HALVINGS):
         middle = (low + high) / 2.0
         less = _below(pressures(middle, cases), limit)
         low, high = np.where(less, middle, low), np.where(less, high, middle)
-    return _found(low, pressures(high, cases), crossed)
+    known = ~np.ma.getmaskarray(found.value).reshape(count, GRID).all(axis=1)
+    none = np.where(known, OUTCOMES.index(Outcome.BELOW_RANGE), found.outcome[GRID // 2 :: GRID])
+    return _found(low, pressures(high, cases), np.where(begun, BEGUN, none), crossed)
 
 
 def _below(found: Evaluations, limit: float) -> Bool[np.ndarray, " n"]:
@@ -59,14 +68,20 @@ def _below(found: Evaluations, limit: float) -> Bool[np.ndarray, " n"]:
 
 
 def _found(
-    sizes: Float[np.ndarray, " n"], above: Evaluations, crossed: Bool[np.ndarray, " n"]
+    sizes: Float[np.ndarray, " n"],
+    above: Evaluations,
+    none: Int[np.ndarray, " n"],
+    crossed: Bool[np.ndarray, " n"],
 ) -> Evaluations:
-    """Return the sizes where the pressure just above them is known; bounds elsewhere."""
+    """Return the sizes where the pressure just above them is known; bounds elsewhere.
+
+    `none` is the outcome where no size is below the limit, and `BEGUN` for all other cases.
+    """
     solved = crossed & ~np.ma.getmaskarray(above.value)
     beyond, done = (OUTCOMES.index(each) for each in (Outcome.BEYOND_RANGE, Outcome.SOLVED))
     ended = np.where((above.outcome == OUTSIDE) | ~crossed, beyond, above.outcome)
     return Evaluations(
-        np.where(solved, done, ended),
+        np.where(solved, done, np.where(none == BEGUN, ended, none)),
         np.ma.MaskedArray(sizes, ~solved),
-        np.ma.MaskedArray(sizes, solved | (sizes <= SIZE_RATIO[0])),
+        np.ma.MaskedArray(sizes, solved | (none != BEGUN)),
     )

@@ -17,7 +17,15 @@ from stonepass.studies.sensitivity.evaluator import (
 )
 from stonepass.studies.sensitivity.uncertain_case import UncertainCase
 
-__all__ = ["Bar", "End", "Tornado", "pressure_tornado", "size_tornado"]
+__all__ = [
+    "INNER",
+    "STONE_SIZE",
+    "Bar",
+    "End",
+    "Tornado",
+    "pressure_tornado",
+    "size_tornado",
+]
 
 TAILS = (0.05, 0.95)  # quantiles between which an input moves
 STONE_SIZE = ("stone.diameter", "stone.size_ratio")

@@ -60,7 +60,7 @@ def _error(found: Sensitivity) -> list[str]:
 def _ranking(found: Sensitivity, each: Sensitivities) -> list[str]:
     """Return the order of the inputs, in groups whose intervals overlap."""
     if not each.inputs:
-        return [f"The order of the inputs is not known, because {_why_empty(each)}."]
+        return [f"The order of the inputs is not known: {each.response.title} {_why_empty(each)}."]
     largest = each.inputs[0].importance.value
     small = SMALL if isinstance(each.inputs[0], Indices) else SMALL * largest
     minor = [one for one in each.inputs if one.importance.high < small]
@@ -152,15 +152,13 @@ def _yes_or_no(found: Sensitivity, each: Sensitivities) -> list[str]:
         return _ranking(found, each)[:1]
     if each.response is ANSWERED and each.gap is Gap.CONSTANT:  # the outcomes say so
         return []
-    return [f"There is no sensitivity of {each.response.title}, because {_why_empty(each)}."]
+    return [f"There is no sensitivity of {each.response.title}: it {_why_empty(each)}."]
 
 
 def _why_empty(each: Sensitivities) -> str:
-    if each.gap is Gap.CONSTANT:
-        return "it is the same in all samples"
-    if each.gap is Gap.RARE:
-        return "it differs in too few samples"
-    return f"it is not known in all cases of {each.dropped} of {each.groups} groups of samples"
+    if each.gap is not None and each.gap is not Gap.INCOMPLETE:
+        return each.gap.value
+    return f"is unknown in a case of {each.dropped} of {each.groups} groups of samples"
 
 
 def _tornado(found: Sensitivity, tornado: Tornado) -> list[str]:

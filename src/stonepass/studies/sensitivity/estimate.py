@@ -146,11 +146,11 @@ class Response:
 
 
 class Gap(enum.Enum):
-    """The reason why there is no sensitivity of a response; its value is a clause."""
+    """The reason why there is no sensitivity of a response; its value says what the response is."""
 
-    CONSTANT = "it is the same in all samples"
-    RARE = "it differs in too few samples"
-    INCOMPLETE = "it is unknown in too many samples"
+    CONSTANT = "is the same in all samples"
+    RARE = "differs in too few samples"
+    INCOMPLETE = "is unknown in too many samples"
 
 
 @dataclass(frozen=True)

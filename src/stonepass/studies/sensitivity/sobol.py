@@ -28,7 +28,9 @@ from stonepass.studies.uncertain_quantity import UncertainQuantity
 __all__ = ["FEWEST_GROUPS", "saltelli_design", "sobol_sensitivities"]
 
 FEWEST_GROUPS = 32  # smallest number of complete groups from which indices are computed
-RESAMPLES = 200  # number of bootstrap resamples for the confidence intervals
+# Number of bootstrap resamples for the confidence intervals, and of values in all of them together,
+# which limits the memory.
+RESAMPLES, VALUES = (50, 200), 4_000_000
 
 
 def saltelli_design(
@@ -101,8 +103,9 @@ def sobol_sensitivities(
     if gap is not None:
         return Sensitivities(response, (), (), groups.count, groups.dropped, gap)
     problem, flat, names = unit_problem(quantities), groups.values.ravel(), list(quantities)
+    resamples = int(np.clip(VALUES // len(groups.values), *RESAMPLES))
     found = analysis.analyze(
-        problem, flat, calc_second_order=True, num_resamples=RESAMPLES, conf_level=LEVEL,
+        problem, flat, calc_second_order=True, num_resamples=resamples, conf_level=LEVEL,
         seed=seed + 1,  # a seed of 0 would count as no seed
     )  # fmt: skip
     pairs = _interactions(names, found)

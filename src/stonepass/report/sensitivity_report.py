@@ -9,7 +9,7 @@ from stonepass.report.printing import Part
 from stonepass.studies.sensitivity.conclusions import conclusions
 from stonepass.studies.sensitivity.estimate import Effects, Estimate, Indices
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
-from stonepass.studies.sensitivity.tornado import Bar, End, Tornado
+from stonepass.studies.sensitivity.tornado import Bar, Tornado
 
 __all__ = ["sensitivity_parts"]
 
@@ -57,7 +57,7 @@ def _shown(estimate: Estimate) -> str:
 
 def _tornado(found: Sensitivity, tornado: Tornado) -> Table:
     limit = "" if tornado.limit is None else f" at {tornado.limit / 1e3:.4g} kPa"
-    centre = _result(tornado.centre, tornado.unit)
+    centre = tornado.centre.describe(tornado.unit)
     table = Table(
         box=box.SIMPLE_HEAD,
         title=f"{tornado.quantity.capitalize()}{limit}, one input at a time · medians: {centre}",
@@ -74,12 +74,5 @@ def _ends(found: Sensitivity, bar: Bar) -> list[str]:
     cells = []
     for end in (bar.low, bar.high):
         assert end.input is not None
-        cells += [found.study.uncertain[bar.key].show(end.input), _result(end)]
+        cells += [found.study.uncertain[bar.key].show(end.input), end.describe()]
     return cells
-
-
-def _result(end: End, unit: str = "") -> str:
-    if end.value is not None:
-        return f"{end.value:.3g} {unit}".rstrip()
-    bound = "" if end.lower_bound is None else f" > {end.lower_bound:.3g}"
-    return f"{end.outcome}{bound}"

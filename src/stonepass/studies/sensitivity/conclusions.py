@@ -166,8 +166,11 @@ def _tornado(found: Sensitivity, tornado: Tornado) -> list[str]:
     quantity = f"the {tornado.quantity}"
     if tornado.limit is not None:
         quantity += f" at {tornado.limit / 1e3:.4g} kPa"
-    centre = _result(tornado.centre, tornado.unit)
-    told = [f"With all inputs at their medians {quantity} is {centre}."]
+    centre = tornado.centre
+    told = [f"With all inputs at their medians {quantity} is {centre.describe(tornado.unit)}."]
+    if centre.value is None:
+        told = [f"With all inputs at their medians there is no {tornado.quantity}: "
+                f"{centre.describe()}."]  # fmt: skip
     known = [bar for bar in tornado.bars if bar.span is not None]
     if known:
         than = ", more than any other input" if 1 < len(known) == len(tornado.bars) else ""
@@ -187,7 +190,7 @@ def _moved(found: Sensitivity, tornado: Tornado, bar: Bar) -> str:
 
 def _at(found: Sensitivity, tornado: Tornado, key: str, end: End) -> str:
     assert end.input is not None
-    return f"{_result(end, tornado.unit)} (at {found.study.uncertain[key].show(end.input)})"
+    return f"{end.describe(tornado.unit)} (at {found.study.uncertain[key].show(end.input)})"
 
 
 def _missing(found: Sensitivity, tornado: Tornado, bar: Bar, end: End) -> str:
@@ -202,16 +205,13 @@ def _missing(found: Sensitivity, tornado: Tornado, bar: Bar, end: End) -> str:
     )
 
 
-def _result(end: End, unit: str) -> str:
-    return f"unknown ({end.outcome})" if end.value is None else f"{end.value:.3g} {unit}"
-
-
 def _amount(each: Sensitivities, estimate: Estimate) -> str:
     """Return an estimate with its 95 % interval, e.g. ``71 % (66 to 76 %)``."""
     if each.inputs and isinstance(each.inputs[0], Effects):
         low, high = max(estimate.low, 0.0), estimate.high
         return f"{_effect(each, estimate.value)} ({low:.2g} to {_effect(each, high)})"
-    low, high = (100.0 * max(end, 0.0) for end in (estimate.low, estimate.high))
+    # An index is between 0 and 1, but the ends of its interval may not be.
+    low, high = (100.0 * min(max(end, 0.0), 1.0) for end in (estimate.low, estimate.high))
     return f"{_percent(estimate.value)} ({low:.0f} to {high:.0f} %)"
 
 
@@ -220,7 +220,7 @@ def _effect(each: Sensitivities, value: float) -> str:
 
 
 def _percent(part: float) -> str:
-    percent = 100.0 * max(part, 0.0)
+    percent = 100.0 * min(max(part, 0.0), 1.0)
     return f"{percent:.1f} %" if 0.0 < percent < 1.0 else f"{percent:.0f} %"
 
 

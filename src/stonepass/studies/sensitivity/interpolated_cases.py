@@ -30,7 +30,9 @@ MOST = 2000  # largest number of points from which every value is interpolated
 NEIGHBOURS = 60  # number of nearest points from which a value is interpolated with more points
 TEST = 10  # one of this number of points is left out to measure the error
 SEED = 5  # seed of the choice of the points that are left out
-TOLERANCE = 1e-9  # relative width around the range of the points that counts as inside
+# Part of the range of the points by which a case may lie beyond it. Samples of a sweep do not reach
+# the ends of their range.
+EDGE = 0.02
 
 Points = Float[np.ndarray, "n d"]
 
@@ -119,18 +121,16 @@ class InterpolatedCases:
         rows = np.flatnonzero(self._known)
         left_out = np.random.default_rng(SEED).random(len(rows)) < 1.0 / TEST
         left_out[0] = True  # at least one of them
-        inside = self._at[rows]
         kept, tested = rows[~left_out], rows[left_out]
-        hull = (self._at[tested] >= inside[~left_out].min(axis=0)) & (
-            self._at[tested] <= inside[~left_out].max(axis=0)
-        )
-        tested = tested[hull.all(axis=1)]
+        low, high = self._at[kept].min(axis=0) - EDGE, self._at[kept].max(axis=0) + EDGE
+        covered = (self._at[tested] >= low) & (self._at[tested] <= high)
+        tested = tested[covered.all(axis=1)]
         values = self.solved.value.filled(0.0)
         found = _interpolant(self._at[kept], values[kept])(self._at[tested])
         return float(np.max(np.abs(found - values[tested]), initial=0.0))
 
     def _interpolated(self, at: Points) -> Evaluations:
-        inside = np.asarray(np.all((at >= -TOLERANCE) & (at <= 1.0 + TOLERANCE), axis=1))
+        inside = np.asarray(np.all((at >= -EDGE) & (at <= 1.0 + EDGE), axis=1))
         _, nearest = self._tree.query(at)
         missing = ~inside | ~self._known[nearest]
         pressure = np.zeros(len(at))

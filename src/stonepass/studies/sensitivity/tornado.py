@@ -53,6 +53,13 @@ class End:
     outcome: str
     lower_bound: float | None = None
 
+    def describe(self, unit: str = "") -> str:
+        """Return the result as text, e.g. ``4.00 mm``, or the outcome with its lower bound."""
+        if self.value is not None:
+            return f"{_three_digits(self.value)} {unit}".rstrip()
+        bound = "" if self.lower_bound is None else f" > {_three_digits(self.lower_bound)}"
+        return f"{self.outcome}{bound}"
+
 
 @dataclass(frozen=True)
 class Bar:
@@ -194,3 +201,7 @@ def _tornado(
 
 def _number(values: np.ma.MaskedArray, row: int, scale: float) -> float | None:
     return None if np.ma.getmaskarray(values)[row] else float(values[row]) * scale
+
+
+def _three_digits(value: float) -> str:
+    return f"{value:#.3g}".rstrip(".")

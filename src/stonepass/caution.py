@@ -280,6 +280,31 @@ SENTENCES = {
     "surface_error": (
         "the response surface, from which the samples are computed, has errors of up to {error:.0%}"
     ),
+    # --- sensitivity
+    "cases_refused": (
+        "{fraction:.1%} of the samples describe no case that can be solved and count as cases "
+        "without an answer; the most frequent reason: {reason}"
+    ),
+    "cases_outside": (
+        "{fraction:.1%} of the samples lie outside the range of the surrogate or of the sweep and "
+        "count as cases without an answer"
+    ),
+    "groups_dropped": (
+        "{dropped} of {groups} groups of samples are left out of the sensitivity of {response}, "
+        "which is unknown in a case of each of these groups; the stated sensitivity is that of the "
+        "other groups"
+    ),
+    "groups_too_few": (
+        "there is no sensitivity of {response}, which is unknown in a case of {dropped} of "
+        "{groups} groups of samples"
+    ),
+    "bounds_in_rank": (
+        "in {fraction:.1%} of the samples the critical pressure does not exist, and the rank uses "
+        "a lower bound in its place"
+    ),
+    "indices_wide": (
+        "the total indices of {response} are known to ± {width:.2f} only: use more samples"
+    ),
     # --- surface images, continued
     "gaps_bridged": (
         "{fraction:.1%} of the heights along the profiles are missing and were filled by straight "

@@ -20,6 +20,7 @@ from stonepass.records.fit import FitRecord
 from stonepass.records.friction import FrictionRecord
 from stonepass.records.invitro import InVitroRecord
 from stonepass.records.rising import RisingRecord
+from stonepass.records.sensitivity import SensitivityRecord
 from stonepass.records.size import SizeRecord
 
 __all__ = ["RECORDS", "parts", "reference"]
@@ -35,6 +36,7 @@ RECORDS: dict[str, type[BaseModel]] = {
     "fit": FitRecord,
     "invitro": InVitroRecord,
     "assess": AssessRecord,
+    "sensitivity": SensitivityRecord,
     "compare": CompareRecord,
 }
 LISTS = ("curve",)

@@ -11,10 +11,11 @@ from rich.table import Table
 
 from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import Row
+from stonepass.clinic.contradiction import FEWER, MORE, contradiction
 from stonepass.clinic.decisions import CONTRADICTIONS, decisions, next_measurement
-from stonepass.clinic.fractions import FEWER, MORE, Fraction, Range, contradiction
 from stonepass.clinic.patient import INPUTS
 from stonepass.records.assess import LENGTHS
+from stonepass.studies.censored_samples import Fraction, Range
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
 __all__ = [

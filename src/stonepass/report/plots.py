@@ -16,10 +16,12 @@ from stonepass.report.contact_figure import draw_contact
 from stonepass.report.curve_figure import draw_curve, frame_curve
 from stonepass.report.fit_figure import draw_fit
 from stonepass.report.friction_figure import draw_baseline
+from stonepass.report.sensitivity_figure import draw_tornado, explain_tornado
 from stonepass.report.style import COLOURS, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
+from stonepass.studies.sensitivity.sensitivity import Sensitivity
 from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = [
@@ -30,6 +32,7 @@ __all__ = [
     "plot_fit",
     "plot_friction",
     "plot_rising",
+    "plot_sensitivity",
     "plot_series",
     "plot_size",
 ]
@@ -154,3 +157,9 @@ def plot_assessment(found: Assessment, axes: Axes) -> None:
     axes.set_title(found.summary(), loc="left", fontsize="medium")
     axes.legend()
     tidy(axes)
+
+
+def plot_sensitivity(found: Sensitivity, axes: Axes) -> None:
+    """Draw the tornado of the critical pressure."""
+    draw_tornado(axes, found, found.pressures)
+    explain_tornado(axes, len(found.pressures.bars))

@@ -33,6 +33,7 @@ from stonepass.records.fit import fit_record
 from stonepass.records.friction import friction_record
 from stonepass.records.invitro import invitro_record
 from stonepass.records.rising import rising_record
+from stonepass.records.sensitivity import sensitivity_record, sensitivity_rows
 from stonepass.records.size import size_record
 from stonepass.report import plots
 from stonepass.report.answer_figure import answer_figure
@@ -49,6 +50,8 @@ from stonepass.report.invitro_report import invitro_table
 from stonepass.report.notebook_figure import displayed
 from stonepass.report.printing import Part, as_html, as_text
 from stonepass.report.rising_report import rising_figure, rising_table
+from stonepass.report.sensitivity_figure import sensitivity_figure
+from stonepass.report.sensitivity_report import sensitivity_parts
 from stonepass.report.style import FORMATS
 from stonepass.report.style import save as save_figure
 from stonepass.report.table import (
@@ -61,6 +64,7 @@ from stonepass.report.table import (
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
+from stonepass.studies.sensitivity.sensitivity import Sensitivity
 from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["SHOWN", "Shown", "figure", "html", "plot", "record", "rows", "save", "text"]
@@ -299,5 +303,13 @@ SHOWN: dict[type, Shown] = {
         warnings=_own,
         plot=plots.plot_assessment,
         figure=pressures_figure,
+    ),
+    Sensitivity: Shown(
+        record=lambda found: sensitivity_record(found).to_dict(),
+        parts=sensitivity_parts,
+        warnings=_own,
+        plot=plots.plot_sensitivity,
+        figure=sensitivity_figure,
+        rows=sensitivity_rows,
     ),
 }

@@ -15,6 +15,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from stonepass.bench.comparison import point_curves
 from stonepass.bench.invitro import InVitro
 from stonepass.bench.law_fit import FittedLaw
 from stonepass.clinic.assessment import Assessment
@@ -227,7 +228,7 @@ def _size_figure(found: SizeAnswer) -> Figure:
 
 
 def _series_figure(found: InVitro) -> Figure:
-    return invitro_figure(found, [])
+    return invitro_figure(found, point_curves(found.comparison))
 
 
 SHOWN: dict[type, Shown] = {

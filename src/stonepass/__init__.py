@@ -95,6 +95,12 @@ if TYPE_CHECKING:
     from stonepass.studies.sensitivity.uncertain_case import UncertainCase, uncertain_case
     from stonepass.studies.solution_cache import SolutionCache, default_folder
     from stonepass.studies.study import Study, run_study
+    from stonepass.studies.surrogates.answers import SurrogateAnswers
+    from stonepass.studies.surrogates.box import Box
+    from stonepass.studies.surrogates.build import build_surrogate
+    from stonepass.studies.surrogates.check import check_surrogate
+    from stonepass.studies.surrogates.store import load_surrogate, save_surrogate
+    from stonepass.studies.surrogates.surrogate import Surrogate
     from stonepass.surface.friction import surface_friction
     from stonepass.surface.friction_result import SurfaceFriction
     from stonepass.surface.paths import StraightPath
@@ -112,6 +118,7 @@ _HOME = {
     "AssessRecord": "records.assess",
     "Assessment": "clinic.assessment",
     "BadInput": "errors",
+    "Box": "studies.surrogates.box",
     "CATALOGUE": "materials.catalogue",
     "CacheWarning": "errors",
     "Case": "model.case",
@@ -175,6 +182,8 @@ _HOME = {
     "Study": "studies.study",
     "SurfaceFriction": "surface.friction_result",
     "SurfaceImage": "surface.surface_image",
+    "Surrogate": "studies.surrogates.surrogate",
+    "SurrogateAnswers": "studies.surrogates.answers",
     "SurrogateCases": "studies.sensitivity.surrogate_cases",
     "Tension": "bench.test_data",
     "UncertainCase": "studies.sensitivity.uncertain_case",
@@ -184,7 +193,9 @@ _HOME = {
     "answer_record": "records.answer",
     "assess": "clinic.assess",
     "assess_record": "records.assess",
+    "build_surrogate": "studies.surrogates.build",
     "case_schema": "inputs.schema",
+    "check_surrogate": "studies.surrogates.check",
     "closures": "studies.closures",
     "closures_record": "records.closures",
     "compare_record": "records.compare",
@@ -200,6 +211,7 @@ _HOME = {
     "invitro_record": "records.invitro",
     "length": "units",
     "load_material": "inputs.material_file",
+    "load_surrogate": "studies.surrogates.store",
     "material": "materials.catalogue",
     "pressure": "units",
     "process_pool": "studies.executor",
@@ -217,6 +229,7 @@ _HOME = {
     "read_untrusted": "surface.untrusted",
     "rising_record": "records.rising",
     "run_study": "studies.study",
+    "save_surrogate": "studies.surrogates.store",
     "seat": "model.case_states",
     "sensitivity": "studies.sensitivity.sensitivity",
     "sensitivity_record": "records.sensitivity",
@@ -256,6 +269,7 @@ __all__ = [
     "AssessRecord",
     "Assessment",
     "BadInput",
+    "Box",
     "CacheWarning",
     "Case",
     "Caution",
@@ -318,6 +332,8 @@ __all__ = [
     "Study",
     "SurfaceFriction",
     "SurfaceImage",
+    "Surrogate",
+    "SurrogateAnswers",
     "SurrogateCases",
     "Tension",
     "UncertainCase",
@@ -327,7 +343,9 @@ __all__ = [
     "answer_record",
     "assess",
     "assess_record",
+    "build_surrogate",
     "case_schema",
+    "check_surrogate",
     "closures",
     "closures_record",
     "compare_record",
@@ -344,6 +362,7 @@ __all__ = [
     "invitro_record",
     "length",
     "load_material",
+    "load_surrogate",
     "material",
     "pressure",
     "process_pool",
@@ -361,6 +380,7 @@ __all__ = [
     "read_untrusted",
     "rising_record",
     "run_study",
+    "save_surrogate",
     "seat",
     "sensitivity",
     "sensitivity_record",

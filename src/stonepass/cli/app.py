@@ -32,9 +32,11 @@ COMMANDS = {
     "paper": ("paper", "Reproduce the figures and claims of the paper."),
     "fit": ("fit", "Fit the constants of a material law to laboratory tests."),
     "material": ("material", "List, show and check material laws."),
+    "surrogate": ("surrogate", "Build, check and evaluate fast surrogates of the models."),
 }
 PANELS = {
-    "Questions about a stone": ("pressure", "size", "curve", "push", "assess", "sensitivity"),
+    "Questions about a stone": ("pressure", "size", "curve", "push", "assess"),
+    "Many cases": ("sensitivity", "surrogate"),
     "Laboratory": ("friction", "fit", "invitro", "material"),
     "Comparisons": ("closures", "export", "compare", "headline", "paper"),
 }

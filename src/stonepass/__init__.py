@@ -87,6 +87,10 @@ if TYPE_CHECKING:
     from stonepass.studies.rising import Rising, raise_pressure
     from stonepass.studies.solution_cache import SolutionCache, default_folder
     from stonepass.studies.study import Study, run_study
+    from stonepass.studies.sweeps.plan import Sweep
+    from stonepass.studies.sweeps.results import SweepResults, read_results
+    from stonepass.studies.sweeps.run import sweep
+    from stonepass.studies.sweeps.sweep_file import read_sweep
     from stonepass.surface.friction import surface_friction
     from stonepass.surface.friction_result import SurfaceFriction
     from stonepass.surface.paths import StraightPath
@@ -161,6 +165,8 @@ _HOME = {
     "Study": "studies.study",
     "SurfaceFriction": "surface.friction_result",
     "SurfaceImage": "surface.surface_image",
+    "Sweep": "studies.sweeps.plan",
+    "SweepResults": "studies.sweeps.results",
     "Tension": "bench.test_data",
     "UnstableLaw": "errors",
     "Ureter": "model.ureter",
@@ -194,9 +200,11 @@ _HOME = {
     "read_opening_curve": "inputs.opening_curve_file",
     "read_patient": "clinic.patient",
     "read_points": "inputs.measured_pressures",
+    "read_results": "studies.sweeps.results",
     "read_shape": "inputs.shape_file",
     "read_surface_image": "surface.readers",
     "read_tension": "bench.test_data",
+    "read_sweep": "studies.sweeps.sweep_file",
     "read_untrusted": "surface.untrusted",
     "rising_record": "records.rising",
     "run_study": "studies.study",
@@ -205,6 +213,7 @@ _HOME = {
     "size_record": "records.size",
     "solve": "model.critical",
     "surface_friction": "surface.friction",
+    "sweep": "studies.sweeps.run",
     "write_case": "inputs.case_file",
 }
 
@@ -292,6 +301,8 @@ __all__ = [
     "Study",
     "SurfaceFriction",
     "SurfaceImage",
+    "Sweep",
+    "SweepResults",
     "Tension",
     "UnstableLaw",
     "Ureter",
@@ -326,8 +337,10 @@ __all__ = [
     "read_opening_curve",
     "read_patient",
     "read_points",
+    "read_results",
     "read_shape",
     "read_surface_image",
+    "read_sweep",
     "read_tension",
     "read_untrusted",
     "rising_record",
@@ -337,6 +350,7 @@ __all__ = [
     "size_record",
     "solve",
     "surface_friction",
+    "sweep",
     "write_case",
 ]
 

@@ -24,7 +24,7 @@ from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.shape import Shape
 from stonepass.units import Length, Pressure, format_length, format_pressure
 
-__all__ = ["WORDS", "read_case", "read_values", "values_of", "write_case"]
+__all__ = ["WORDS", "checked_values", "read_case", "read_values", "values_of", "write_case"]
 
 REQUIRED = ("stone", "ureter")
 # Types of TOML values for each kind of input, and their names in messages. A table may be given
@@ -75,15 +75,35 @@ def read_values(path: Path) -> dict[str, Any]:
         The file cannot be read or is no valid TOML, a key is unknown, a required section is
         missing, or a value has the wrong type.
     """
-    document, known = read_document(path), sections()
+    document = read_document(path)
+    values = checked_values(document, path)
+    for section in REQUIRED:
+        if section not in document:
+            raise BadInput(f"in {path.name}, '{section}'", "missing", "given")
+    return values
+
+
+def checked_values(document: Mapping[str, Any], path: Path) -> dict[str, Any]:
+    """Return the raw values of the sections of a case file by key.
+
+    Parameters
+    ----------
+    document : mapping of str to section
+        The sections that were read; none is required.
+    path : Path
+        The file, whose name is part of messages.
+
+    Raises
+    ------
+    BadInput
+        A section or a key is unknown, or a value has the wrong type.
+    """
+    known = sections()
     for section, keys in document.items():
         if section not in known:
             refuse_unknown(f"in {path.name}, key", section, list(known))
         if not isinstance(keys, dict):
             raise BadInput(f"in {path.name}, '{section}'", keys, f"a section, written [{section}]")
-    for section in REQUIRED:
-        if section not in document:
-            raise BadInput(f"in {path.name}, '{section}'", "missing", "given")
     return {
         f"{section}.{name}": _checked(path, known[section], section, name, value)
         for section, keys in document.items()

@@ -332,7 +332,7 @@ def test_results_are_equal_wherever_they_are_solved(tmp_path):
 class Breaking:
     """Workers whose process ends in some cases; the executor is then broken until it is renewed."""
 
-    count = 2
+    count, connected = 2, True
 
     def __init__(self, *deadly):
         self.deadly, self.broken, self.renewed, self.alone = deadly, False, 0, []
@@ -398,8 +398,8 @@ def test_a_broken_executor_of_the_caller_keeps_what_is_finished(tmp_path):
 # --- blocks and duration
 
 
-def test_a_million_cases_have_two_thousand_blocks_at_most():
-    assert [least_block(n) for n in (1, 1999, 10_000, 10**6, 10**9)] == [1, 1, 5, 500, 500]
+def test_a_million_cases_have_five_hundred_blocks_at_most():
+    assert [least_block(n) for n in (1, 999, 10_000, 10**6, 10**9)] == [1, 1, 20, 2000, 2000]
 
 
 def test_a_long_block_returns_early_and_nothing_is_lost(tmp_path, monkeypatch):

@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     from stonepass.records.invitro import InVitroRecord, invitro_record
     from stonepass.records.rising import RisingRecord, rising_record
     from stonepass.records.size import SizeRecord, size_record
+    from stonepass.records.sweep import SweepRecord, sweep_record
     from stonepass.result import Result
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.closures import ClosureComparison, closures
@@ -166,6 +167,7 @@ _HOME = {
     "SurfaceFriction": "surface.friction_result",
     "SurfaceImage": "surface.surface_image",
     "Sweep": "studies.sweeps.plan",
+    "SweepRecord": "records.sweep",
     "SweepResults": "studies.sweeps.results",
     "Tension": "bench.test_data",
     "UnstableLaw": "errors",
@@ -214,6 +216,7 @@ _HOME = {
     "solve": "model.critical",
     "surface_friction": "surface.friction",
     "sweep": "studies.sweeps.run",
+    "sweep_record": "records.sweep",
     "write_case": "inputs.case_file",
 }
 
@@ -302,6 +305,7 @@ __all__ = [
     "SurfaceFriction",
     "SurfaceImage",
     "Sweep",
+    "SweepRecord",
     "SweepResults",
     "Tension",
     "UnstableLaw",
@@ -351,6 +355,7 @@ __all__ = [
     "solve",
     "surface_friction",
     "sweep",
+    "sweep_record",
     "write_case",
 ]
 

@@ -21,6 +21,7 @@ from stonepass.records.friction import FrictionRecord
 from stonepass.records.invitro import InVitroRecord
 from stonepass.records.rising import RisingRecord
 from stonepass.records.size import SizeRecord
+from stonepass.records.sweep import SweepRecord
 
 __all__ = ["RECORDS", "parts", "reference"]
 
@@ -36,6 +37,7 @@ RECORDS: dict[str, type[BaseModel]] = {
     "invitro": InVitroRecord,
     "assess": AssessRecord,
     "compare": CompareRecord,
+    "results": SweepRecord,
 }
 LISTS = ("curve",)
 PREFACE = """# Keys of JSON records and of case files

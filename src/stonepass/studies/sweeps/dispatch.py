@@ -29,9 +29,15 @@ __all__ = ["BLOCK_SECONDS", "LARGEST_BLOCK", "least_block", "solved_blocks"]
 
 BLOCK_SECONDS = 2.0  # time in s that a block takes
 LARGEST_BLOCK = 20_000  # largest number of cases in a block
-MOST_SHARDS, ENOUGH = 2000, 500  # see `least_block`
+MOST_SHARDS, ENOUGH = 500, 2000  # see `least_block`
 QUEUED = 2  # blocks that are under way for each worker, so that none waits for the next one
 DEATHS = 2  # ends of its process after which a case is given up
+
+LOOK, SILENCE = 5.0, 30.0  # time in s between two looks at the connection, and until it is lost
+LOST = (
+    "the connection to the workers was lost: the finished blocks are kept, and the same study goes "
+    "on when it is resumed."
+)
 
 Span = tuple[int, int]
 
@@ -39,7 +45,8 @@ Span = tuple[int, int]
 def least_block(cases: int) -> int:
     """Return the smallest number of cases in a block of a study, apart from the last ones.
 
-    A million cases have 2000 blocks at most. Larger studies have blocks of 500 cases and more.
+    A million cases have 500 blocks at most, because opening a file takes as long as reading a
+    thousand rows. Larger studies have blocks of 2000 cases and more.
     """
     return max(1, min(cases // MOST_SHARDS, ENOUGH))
 
@@ -121,7 +128,7 @@ def solved_blocks(
     try:
         while queue.spans or queue.suspects or pending:
             _fill(queue, pending, workers, send)
-            done, _ = wait(pending, return_when=FIRST_COMPLETED)
+            done = _next_done(pending, workers)
             lost = [each for each in done if worker_died(problem_of(each))]
             for future in done:
                 sent = pending.pop(future)
@@ -141,6 +148,18 @@ def solved_blocks(
     finally:
         for future in pending:
             future.cancel()
+
+
+def _next_done(pending: dict[Future[Any], _Sent], workers: Workers) -> set[Future[Any]]:
+    """Wait for the next results; workers that cannot be reached for some time are given up."""
+    silent = 0.0
+    while True:
+        done, _ = wait(pending, timeout=LOOK, return_when=FIRST_COMPLETED)
+        if done:
+            return done
+        silent = 0.0 if workers.connected else silent + LOOK
+        if silent >= SILENCE:
+            raise StonepassError(LOST)
 
 
 def _sender(
@@ -188,10 +207,7 @@ def _renewed(queue: _Queue, pending: dict[Future[Any], _Sent], workers: Workers)
 def _result(future: Future[Any]) -> Block:
     problem = problem_of(future)
     if connection_lost(problem):
-        raise StonepassError(
-            "the connection to the workers was lost: the finished blocks are kept, and the same "
-            "study goes on when it is resumed."
-        ) from problem
+        raise StonepassError(LOST) from problem
     block: Block = future.result()
     return block
 

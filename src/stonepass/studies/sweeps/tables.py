@@ -73,10 +73,8 @@ def _inputs(plan: dict[str, Any]) -> list[str]:
     return [each["column"] for each in plan["inputs"]]
 
 
-def _on_grid(
-    column: Any, index: Int[np.ndarray, " n"], shape: list[int], kind: str
-) -> np.ndarray[Any, Any]:
-    """Return a column as an array of the grid; cases that are not finished are NaN or empty."""
+def _on_grid(column: Any, index: Int[np.ndarray, " n"], shape: list[int], kind: str) -> Any:
+    """Return a column as an array on the grid; a case that is not finished is NaN or empty."""
     if kind in NUMERIC:
         whole = np.full(int(np.prod(shape)), np.nan)
         whole[index] = column.to_numpy()

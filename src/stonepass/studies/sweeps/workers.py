@@ -11,6 +11,7 @@ from typing import Any, Protocol, runtime_checkable
 from stonepass.errors import StonepassError
 from stonepass.studies.executor import CORES, InProcessExecutor, executor_for, process_pool
 from stonepass.studies.sweeps.blocks import Task, run_task
+from stonepass.studies.sweeps.cluster import ClusterExecutor, client_of
 
 __all__ = [
     "GivenWorkers",
@@ -40,6 +41,10 @@ class Workers(Protocol):
     def executor(self) -> Executor:
         """The executor that runs the tasks."""
 
+    @property
+    def connected(self) -> bool:
+        """False if the connection to the workers is lost at present."""
+
     def renew(self) -> None:
         """Replace an executor that was broken by the end of one of its processes."""
 
@@ -58,6 +63,11 @@ class GivenWorkers:
 
     executor: Executor
     count: int
+
+    @property
+    def connected(self) -> bool:
+        """False if the workers are those of a cluster whose scheduler does not answer."""
+        return bool(getattr(self.executor, "connected", True))
 
     def renew(self) -> None:
         """Raise an error, because the caller must make a new executor."""
@@ -87,6 +97,11 @@ class PoolWorkers:
         if self._executor is None:
             self._executor = self._stack.enter_context(process_pool(self.count))
         return self._executor
+
+    @property
+    def connected(self) -> bool:
+        """True, because the processes are on this machine."""
+        return True
 
     def renew(self) -> None:
         """Begin a new pool in the place of a broken one."""
@@ -119,6 +134,11 @@ def workers_of(work: Any, executor: Executor | None, count: int | None) -> Itera
     alone = executor is None and count in (None, 1)
     if alone or not _can_be_sent(work):
         yield GivenWorkers(InProcessExecutor(), 1)
+    elif isinstance(executor, ClusterExecutor):
+        yield GivenWorkers(executor, count or executor.count)
+    elif executor is not None and (client := client_of(executor)) is not None:
+        on_cluster = ClusterExecutor(client)
+        yield GivenWorkers(on_cluster, count or on_cluster.count)
     elif executor is not None:
         known = getattr(executor, "_max_workers", None)
         yield GivenWorkers(executor, count or (known if isinstance(known, int) else CORES))

@@ -51,6 +51,9 @@ SURROGATE = (
         (refusal("closures --xi 40 --eta 1.3"), (*HEAVY, "scipy")),
         (refusal("invitro none.csv --material latex"), (*HEAVY, "scipy")),
         (refusal("assess none.toml"), (*HEAVY, "scipy")),
+        (refusal("sweep none.toml --out none"), (*HEAVY, "pyarrow", "distributed", "xarray")),
+        (refusal("results none"), (*HEAVY, "pyarrow", "xarray")),
+        ("import stonepass; stonepass.read_sweep", (*HEAVY, "pyarrow", "distributed")),
         ("import stonepass", (*HEAVY, "numpy", "scipy", "pint", "pydantic", "typer", "autograd")),
         (door("--help"), (*HEAVY, "numpy", "scipy", "pint", "pydantic", "autograd", "rich")),
         (door("pressure --help"), (*HEAVY, "scipy", "pint", "autograd")),
@@ -135,7 +138,11 @@ LATE_LIBRARIES = {
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
     "scipy.ndimage": ("surface.grey_scale",),
-    "scipy.stats": ("studies.surrogates.box", "studies.uncertain_quantity"),
+    "scipy.stats": (
+        "studies.surrogates.box",
+        "studies.sweeps.sampling",
+        "studies.uncertain_quantity",
+    ),
     "stonepass.report": ("stonepass",),  # results are shown by it, from their first table on
 }
 

@@ -35,6 +35,7 @@ from stonepass.records.invitro import invitro_record
 from stonepass.records.rising import rising_record
 from stonepass.records.sensitivity import sensitivity_record, sensitivity_rows
 from stonepass.records.size import size_record
+from stonepass.records.sweep import sweep_record
 from stonepass.report import plots
 from stonepass.report.answer_figure import answer_figure
 from stonepass.report.assess_figure import pressures_figure
@@ -54,6 +55,8 @@ from stonepass.report.sensitivity_figure import sensitivity_figure
 from stonepass.report.sensitivity_report import sensitivity_parts
 from stonepass.report.style import FORMATS
 from stonepass.report.style import save as save_figure
+from stonepass.report.sweep_figure import plot_sweep, sweep_figure
+from stonepass.report.sweep_report import sweep_sentences, sweep_tables, sweep_warnings
 from stonepass.report.table import (
     curve_table,
     grouped_warnings,
@@ -65,6 +68,7 @@ from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
+from stonepass.studies.sweeps.results import SweepResults
 from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["SHOWN", "Shown", "figure", "html", "plot", "record", "rows", "save", "text"]
@@ -227,6 +231,17 @@ def _size_figure(found: SizeAnswer) -> Figure:
     return answer_figure(found.at_size)
 
 
+def _sweep_rows(found: SweepResults) -> list[Row]:
+    return [
+        {name: _joined(value) for name, value in row.items()} for row in found.table().to_pylist()
+    ]
+
+
+def _joined(value: Any) -> Any:
+    """Return a list of numbers as text, any other value as it is."""
+    return "; ".join(map(repr, value)) if isinstance(value, list) else value
+
+
 def _series_figure(found: InVitro) -> Figure:
     return invitro_figure(found, point_curves(found.comparison))
 
@@ -311,5 +326,13 @@ SHOWN: dict[type, Shown] = {
         plot=plots.plot_sensitivity,
         figure=sensitivity_figure,
         rows=sensitivity_rows,
+    ),
+    SweepResults: Shown(
+        record=lambda found: sweep_record(found).to_dict(),
+        parts=lambda found: [*sweep_tables(found), *sweep_sentences(found)],
+        warnings=sweep_warnings,
+        plot=plot_sweep,
+        figure=sweep_figure,
+        rows=_sweep_rows,
     ),
 }

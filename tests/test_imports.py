@@ -67,7 +67,7 @@ SURROGATE = (
         ("import stonepass.model.far_field", (*HEAVY, "scipy")),
         ("import stonepass.model.models.elastic_foundation", (*HEAVY, "scipy")),
         ("import stonepass.records.answer", (*HEAVY, "scipy")),
-        (SURROGATE, (*HEAVY, "scipy.stats", "scipy.optimize", "dask", "distributed")),
+        (SURROGATE, (*HEAVY, "distributed")),
         ("from stonepass.records import closures, compare, friction, rising", (*HEAVY, "scipy")),
         (
             "import stonepass.records.reference, stonepass.records.profile",  # all of them

@@ -38,6 +38,7 @@ DOORS = {
     "friction": f"friction {EXAMPLES}/known_slopes.png --pixel 0.5um --height-range 24.8um --json",
     "sensitivity": f"sensitivity {STUDY} --workers 1 --samples 64 --json",
     "elementary effects": f"sensitivity {STUDY} --workers 1 --method morris --samples 6 --json",
+    "surrogate": "surrogate evaluate ureter --xi 1.2 --eta 1.3 --json",
     "fit of strips": f"fit tensile {STRIPS} --json",
     "fit of a tube": f"fit inflation {TUBE} --json",
 }  # the records of `invitro` and `assess` are validated in the tests of these

@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from stonepass.records.rising import RisingRecord, rising_record
     from stonepass.records.sensitivity import SensitivityRecord, sensitivity_record
     from stonepass.records.size import SizeRecord, size_record
+    from stonepass.records.surrogate import SurrogateAnswerRecord, surrogate_records
     from stonepass.records.sweep import SweepRecord, sweep_record
     from stonepass.result import Result
     from stonepass.studies.case_solver import JobSolver
@@ -188,6 +189,7 @@ _HOME = {
     "SurfaceFriction": "surface.friction_result",
     "SurfaceImage": "surface.surface_image",
     "Surrogate": "studies.surrogates.surrogate",
+    "SurrogateAnswerRecord": "records.surrogate",
     "SurrogateAnswers": "studies.surrogates.answers",
     "SurrogateCases": "studies.sensitivity.surrogate_cases",
     "Sweep": "studies.sweeps.plan",
@@ -247,6 +249,7 @@ _HOME = {
     "size_record": "records.size",
     "solve": "model.critical",
     "surface_friction": "surface.friction",
+    "surrogate_records": "records.surrogate",
     "sweep": "studies.sweeps.run",
     "sweep_record": "records.sweep",
     "uncertain_case": "studies.sensitivity.uncertain_case",
@@ -345,6 +348,7 @@ __all__ = [
     "SurfaceFriction",
     "SurfaceImage",
     "Surrogate",
+    "SurrogateAnswerRecord",
     "SurrogateAnswers",
     "SurrogateCases",
     "Sweep",
@@ -405,6 +409,7 @@ __all__ = [
     "size_record",
     "solve",
     "surface_friction",
+    "surrogate_records",
     "sweep",
     "sweep_record",
     "uncertain_case",

@@ -204,16 +204,12 @@ def list_surrogates() -> int:
 @app.command(
     "show", cls=PanelCommand, epilog=_epilog("show ureter", "box, origin and measured errors")
 )
-def show_surrogate(name: Name, model: ModelName = "paper", json: Json = False) -> int:
+def show_surrogate(name: Name, model: ModelName = "paper") -> int:
     """Show the box of a surrogate, how it was built, and its measured errors."""
-    from stonepass.cli.terminal import print_json, show
+    from stonepass.cli.terminal import show
     from stonepass.studies.surrogates.store import load_surrogate
 
-    found = load_surrogate(name, model)
-    if json:
-        print_json(found.to_dict())
-    else:
-        show(_table(found))
+    show(_table(load_surrogate(name, model)))
     return 0
 
 
@@ -272,6 +268,7 @@ def evaluate(
 ) -> int:
     """Evaluate a surrogate for one condition, or for a table of conditions."""
     from stonepass.cli.terminal import print_json, show, writable, wrote
+    from stonepass.records.surrogate import surrogate_records
     from stonepass.report.surrogate_table import answers_table
     from stonepass.studies.surrogates.store import load_surrogate
 
@@ -279,9 +276,9 @@ def evaluate(
     asked = _conditions(xi, eta, friction, confining, points)
     found = load_surrogate(name, model).evaluate(**asked)
     if json:
-        print_json(found.to_rows())
+        print_json([each.to_dict() for each in surrogate_records(found)])
     else:
-        show(answers_table(asked, found))
+        show(answers_table(found))
     if out is not None:
         found.save(out)
     wrote(out)

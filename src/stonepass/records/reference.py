@@ -22,6 +22,7 @@ from stonepass.records.invitro import InVitroRecord
 from stonepass.records.rising import RisingRecord
 from stonepass.records.sensitivity import SensitivityRecord
 from stonepass.records.size import SizeRecord
+from stonepass.records.surrogate import SurrogateAnswerRecord
 from stonepass.records.sweep import SweepRecord
 
 __all__ = ["RECORDS", "parts", "reference"]
@@ -40,8 +41,9 @@ RECORDS: dict[str, type[BaseModel]] = {
     "sensitivity": SensitivityRecord,
     "compare": CompareRecord,
     "results": SweepRecord,
+    "surrogate": SurrogateAnswerRecord,
 }
-LISTS = ("curve",)
+LISTS = ("curve", "surrogate")
 PREFACE = """# Keys of JSON records and of case files
 
 This page is generated from the records (`stonepass.records`) and from the declared inputs

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 from rich import box
 from rich.table import Table
 
@@ -38,26 +37,17 @@ def surrogate_table(surrogate: Surrogate) -> Table:
     return table
 
 
-def answers_table(asked: Mapping[str, Any], answers: SurrogateAnswers) -> Table:
-    """Return the first answers of a surrogate as a table.
-
-    Parameters
-    ----------
-    asked : mapping of str to array
-        The inputs of `Surrogate.evaluate`.
-    answers : SurrogateAnswers
-    """
+def answers_table(answers: SurrogateAnswers) -> Table:
+    """Return the first answers of a surrogate as a table."""
     table = Table(box=box.SIMPLE_HEAD)
     for name in ("ξ", "η", "friction", "outcome", "P_ucr (kPa)", "claimed error (kPa)"):
         table.add_column(name, justify="left" if name == "outcome" else "right")
-    inputs = np.broadcast_arrays(*(np.asarray(asked[name], dtype=float) for name in
-                                   ("size_ratio", "wall_ratio", "friction")))  # fmt: skip
-    for k, row in enumerate(answers.to_rows()[:MOST_ROWS]):
-        values = (row["critical_pressure_kPa"], row["critical_pressure_error_kPa"])
+    for row in answers.to_rows()[:MOST_ROWS]:
+        numbers = (row["critical_pressure_kPa"], row["critical_pressure_error_kPa"])
         table.add_row(
-            *(f"{each[k]:.4g}" for each in inputs),
+            *(f"{row[name]:.4g}" for name in ("size_ratio", "wall_ratio", "friction")),
             row["outcome"],
-            *("–" if value is None else f"{value:.4g}" for value in values),
+            *("–" if value is None else f"{value:.4g}" for value in numbers),
         )
     if len(answers) > MOST_ROWS:
         table.caption = f"{len(answers) - MOST_ROWS} further answers are not shown"

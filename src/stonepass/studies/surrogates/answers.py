@@ -27,6 +27,8 @@ class SurrogateAnswers:
 
     Attributes
     ----------
+    inputs : mapping of str to array (n)
+        The inputs of `Surrogate.evaluate` by name, in SI units.
     outcome : array (n) of int
         Places in `OUTCOMES`, the tuple of possible outcomes.
     pressure : masked array (n)
@@ -45,6 +47,7 @@ class SurrogateAnswers:
 
     OUTCOMES: ClassVar[tuple[Outcome, ...]] = OUTCOMES
 
+    inputs: Mapping[str, Float[np.ndarray, " n"]]
     outcome: Int[np.ndarray, " n"]
     pressure: Any
     error: Any
@@ -53,14 +56,18 @@ class SurrogateAnswers:
     quantities: Mapping[str, Any]
 
     @classmethod
-    def of(cls, solved: Solved, outside: Bool[np.ndarray, " n"]) -> SurrogateAnswers:
+    def of(
+        cls,
+        inputs: Mapping[str, Float[np.ndarray, " n"]],
+        solved: Solved,
+        outside: Bool[np.ndarray, " n"],
+    ) -> SurrogateAnswers:
         """Return the answers with all missing numbers masked."""
         quantities = {name: np.ma.masked_invalid(each) for name, each in solved.quantities.items()}
         pressure = np.ma.masked_invalid(solved.pressure)
         error = np.ma.array(quantities.pop("error"), mask=np.ma.getmaskarray(pressure))
-        return cls(
-            solved.outcome.astype(np.int8), pressure, error, solved.lower_bound, outside, quantities
-        )
+        outcome = solved.outcome.astype(np.int8)
+        return cls(inputs, outcome, pressure, error, solved.lower_bound, outside, quantities)
 
     @property
     def outcomes(self) -> list[Outcome]:
@@ -82,8 +89,13 @@ class SurrogateAnswers:
 
         Pressures are in kPa and angles in degrees; units are part of the keys.
         """
-        columns = {
+        columns: dict[str, Any] = {}
+        for name, values in self.inputs.items():
+            pressure = name.endswith("pressure")
+            columns[f"{name}_kPa" if pressure else name] = _plain(values, 1e-3 if pressure else 1.0)
+        columns |= {
             "outcome": [OUTCOMES[k].name for k in self.outcome],
+            "outside": self.outside.tolist(),
             "critical_pressure_kPa": _plain(self.pressure, 1e-3),
             "critical_pressure_error_kPa": _plain(self.error, 1e-3),
             "lower_bound_kPa": _plain(self.lower_bound, 1e-3),
@@ -114,16 +126,17 @@ class SurrogateAnswers:
     def to_frame(self) -> Any:
         """Return a pandas table with one row per condition; units are in the column names."""
         pandas = library("pandas", "make a table of answers", "studies")
-        columns = {"outcome": pandas.Categorical.from_codes(
-            self.outcome, [each.name for each in OUTCOMES])}  # fmt: skip
-        numbers = {"critical_pressure_Pa": self.pressure, "error_Pa": self.error,
+        names = [each.name for each in OUTCOMES]
+        inputs = {f"{name}_Pa" if name.endswith("pressure") else name: each for name, each in
+                  self.inputs.items()}  # fmt: skip
+        outcome = {"outcome": pandas.Categorical.from_codes(self.outcome, names)}
+        numbers = {"critical_pressure_Pa": self.pressure, "critical_pressure_error_Pa": self.error,
                    "lower_bound_Pa": self.lower_bound}  # fmt: skip
         units = {"contact_angle": "rad"}
         numbers |= {f"{name}_{units.get(name, 'Pa')}": each for name, each in
                     self.quantities.items()}  # fmt: skip
-        return pandas.DataFrame(
-            columns | {name: np.ma.filled(each, np.nan) for name, each in numbers.items()}
-        )
+        filled = {name: np.ma.filled(each, np.nan) for name, each in numbers.items()}
+        return pandas.DataFrame(inputs | outcome | {"outside": self.outside} | filled)
 
     def __len__(self) -> int:
         return len(self.outcome)

@@ -67,5 +67,5 @@ def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
     else:
         levels.append(Level(quick, count(many), (10, 8, 8, 6 * last), 10))
     if case.numerics.accuracy != "fast":
-        levels.append(Level(case, count(40), (2, 2, 2, last), 2))
+        levels.append(Level(case, count(160), (5, 4, 4, last), 5))
     return levels

@@ -117,7 +117,8 @@ class Surrogate:
         """
         given = {"size_ratio": size_ratio, "wall_ratio": wall_ratio, "friction": friction,
                  "confining_pressure": confining_pressure, "stiffness": stiffness}  # fmt: skip
-        size, wall, mu, confining, stiff = _checked(given)
+        inputs = _checked(given)
+        size, wall, mu, confining, stiff = inputs.values()
         most = self.case.load.confining_pressure
         relative = confining / stiff
         # Without a load in the box, any confining pressure is outside of it.
@@ -129,9 +130,8 @@ class Surrogate:
             name: stiff * values if name.endswith("pressure") or name == "error" else values
             for name, values in found.quantities.items()
         }
-        return SurrogateAnswers.of(
-            Solved(found.outcome, pressure, bound, quantities), ~self.box.contains(asked)
-        )
+        scaled = Solved(found.outcome, pressure, bound, quantities)
+        return SurrogateAnswers.of(inputs, scaled, ~self.box.contains(asked))
 
     def solve(self, asked: Conditions) -> Solved:
         """Return the results of n conditions; the load factor 1 is the load of the case.
@@ -204,7 +204,7 @@ class Surrogate:
         return self.lumen(np.stack([self.box.wall_coordinate(at), at.load_factor], axis=1))[:, 0]
 
 
-def _checked(given: Mapping[str, Given]) -> list[Float[np.ndarray, " n"]]:
+def _checked(given: Mapping[str, Given]) -> dict[str, Float[np.ndarray, " n"]]:
     """Return the inputs as flat arrays of one length; refuse numbers that are not possible."""
     arrays = {}
     for name, value in given.items():
@@ -224,7 +224,8 @@ def _checked(given: Mapping[str, Given]) -> list[Float[np.ndarray, " n"]]:
     except ValueError:
         shapes = ", ".join(f"{name} {each.shape}" for name, each in arrays.items() if each.ndim)
         raise BadInput("inputs", shapes, "arrays of one shape") from None
-    return [np.ascontiguousarray(each).ravel() for each in together]
+    flat = [np.ascontiguousarray(each).ravel() for each in together]
+    return dict(zip(arrays, flat, strict=True))
 
 
 def _filled(values: np.ndarray, chosen: np.ndarray, others: np.ndarray) -> np.ndarray:

@@ -1,0 +1,42 @@
+"""The record of one answer of a surrogate."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from stonepass.records.base import PartRecord
+from stonepass.studies.surrogates.answers import SurrogateAnswers
+
+__all__ = ["SurrogateAnswerRecord", "surrogate_records"]
+
+
+class SurrogateAnswerRecord(PartRecord):
+    """The answer of a surrogate for one condition."""
+
+    size_ratio: float = Field(description="ξ, stone diameter divided by inner diameter")
+    wall_ratio: float = Field(description="η, outer diameter divided by inner diameter")
+    friction: float = Field(description="μ_f, friction coefficient")
+    confining_pressure_kPa: float = Field(description="P_out, pressure on the outer wall")
+    stiffness: float = Field(description="stiffness of the wall relative to the material")
+    outcome: str = Field(description="outcome of the calculation (glossary: outcomes)")
+    outside: bool = Field(description="whether the condition is outside the box of the surrogate")
+    critical_pressure_kPa: float | None = Field(description="critical urine pressure P_ucr")
+    critical_pressure_error_kPa: float | None = Field(
+        description="claimed error (±) of `critical_pressure_kPa` relative to the model"
+    )
+    lower_bound_kPa: float = Field(
+        description=(
+            "pressure that P_ucr exceeds: the end of the closure for BEYOND_CLOSURE, the leak "
+            "pressure for LEAKS; 0 for other outcomes"
+        )
+    )
+    contact_angle_deg: float | None = Field(description="angle at which the contact begins")
+    leak_pressure_kPa: float | None = Field(
+        description="P_u at which urine passes the held stone; null for the paper's model"
+    )
+
+
+def surrogate_records(answers: SurrogateAnswers) -> list[SurrogateAnswerRecord]:
+    """Make the records of the answers of a surrogate; a missing quantity is None."""
+    empty = {"leak_pressure_kPa": None}
+    return [SurrogateAnswerRecord.model_validate(empty | row) for row in answers.to_rows()]

@@ -15,8 +15,8 @@ from shown import check_shown
 from stonepass.cli import run
 from stonepass.clinic.assess import assess
 from stonepass.clinic.cohorts import COHORTS, rows_for, wilson
+from stonepass.clinic.contradiction import FEWER, MORE, contradiction
 from stonepass.clinic.decisions import decisions, next_measurement
-from stonepass.clinic.fractions import FEWER, MORE, Fraction, contradiction
 from stonepass.clinic.patient import read_patient
 from stonepass.clinic.pressure_limits import LIMITS, describe_limit
 from stonepass.errors import BadInput, Outcome
@@ -40,6 +40,7 @@ from stonepass.report.assess_page import write_assessment
 from stonepass.report.assess_report import describe_passed, describe_range, sentence
 from stonepass.report.assess_sketch import sketch_figure
 from stonepass.studies.case_solver import JobSolver
+from stonepass.studies.censored_samples import Fraction
 from stonepass.studies.conditions import Conditions, lumen_ratios
 from stonepass.studies.response import response_surface
 from stonepass.studies.uncertain_quantity import measured_length, measured_number

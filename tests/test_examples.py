@@ -33,6 +33,7 @@ COMMANDS = {
     "known_slopes.png": ["friction", "{}", "--pixel", "0.5um", "--height-range", "24.8um"],
     "crystals.tif": ["friction", "{}", "--crystal", "20um"],
     "crystals.x3p": ["friction", "{}"],
+    "uncertain_stone.toml": ["sensitivity", "{}", "--workers", "1", "--samples", "64"],
     "egg.csv": ["pressure", "--xi", "1.2", "--eta", "1.3", "--shape", "{}", *FAST],
     "latex_tensile.csv": [
         "fit", "tensile", "{}", "--law", "neo-hookean", "--width", "10mm", "--thickness", "1.2mm"

@@ -25,6 +25,7 @@ TUBE_OF_LATEX = "--xi 1.2 --eta 1.5 --material latex --friction 0.475 --accuracy
 BEAM = "--model beam --E1 0.465MPa --E2 0.02MPa --eta 1.3"
 STRIPS = f"{EXAMPLES}/latex_tensile.csv --law neo-hookean --width 10mm --thickness 1.2mm"
 TUBE = f"{EXAMPLES}/ureter_inflation.csv --law neo-hookean --inner 3mm --outer 4mm"
+STUDY = f"{EXAMPLES}/uncertain_stone.toml"
 DOORS = {
     "pressure of a loose stone": f"pressure {LOOSE}",
     "pressure of a beam": f"pressure {BEAM} --xi 1.2 --json",
@@ -35,6 +36,8 @@ DOORS = {
     "push of a loose stone": f"push {LOOSE} --no-cache",
     "push": f"push {TUBE_OF_LATEX} --steps 2 --no-cache --json",
     "friction": f"friction {EXAMPLES}/known_slopes.png --pixel 0.5um --height-range 24.8um --json",
+    "sensitivity": f"sensitivity {STUDY} --workers 1 --samples 64 --json",
+    "elementary effects": f"sensitivity {STUDY} --workers 1 --method morris --samples 6 --json",
     "fit of strips": f"fit tensile {STRIPS} --json",
     "fit of a tube": f"fit inflation {TUBE} --json",
 }  # the records of `invitro` and `assess` are validated in the tests of these

@@ -77,6 +77,7 @@ if TYPE_CHECKING:
     from stonepass.records.friction import FrictionRecord, friction_record
     from stonepass.records.invitro import InVitroRecord, invitro_record
     from stonepass.records.rising import RisingRecord, rising_record
+    from stonepass.records.sensitivity import SensitivityRecord, sensitivity_record
     from stonepass.records.size import SizeRecord, size_record
     from stonepass.records.sweep import SweepRecord, sweep_record
     from stonepass.result import Result
@@ -86,8 +87,21 @@ if TYPE_CHECKING:
     from stonepass.studies.executor import process_pool
     from stonepass.studies.jobs import PressureJob, SizeJob
     from stonepass.studies.rising import Rising, raise_pressure
+    from stonepass.studies.sensitivity.evaluator import Evaluations, Evaluator
+    from stonepass.studies.sensitivity.interpolated_cases import InterpolatedCases
+    from stonepass.studies.sensitivity.sensitivity import Sensitivity, sensitivity
+    from stonepass.studies.sensitivity.study import SensitivityStudy
+    from stonepass.studies.sensitivity.study_file import read_sensitivity
+    from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
+    from stonepass.studies.sensitivity.uncertain_case import UncertainCase, uncertain_case
     from stonepass.studies.solution_cache import SolutionCache, default_folder
     from stonepass.studies.study import Study, run_study
+    from stonepass.studies.surrogates.answers import SurrogateAnswers
+    from stonepass.studies.surrogates.box import Box
+    from stonepass.studies.surrogates.build import build_surrogate
+    from stonepass.studies.surrogates.check import check_surrogate
+    from stonepass.studies.surrogates.store import load_surrogate, save_surrogate
+    from stonepass.studies.surrogates.surrogate import Surrogate
     from stonepass.studies.sweeps.plan import Sweep
     from stonepass.studies.sweeps.results import SweepResults, read_results
     from stonepass.studies.sweeps.run import sweep
@@ -109,6 +123,7 @@ _HOME = {
     "AssessRecord": "records.assess",
     "Assessment": "clinic.assessment",
     "BadInput": "errors",
+    "Box": "studies.surrogates.box",
     "CATALOGUE": "materials.catalogue",
     "CacheWarning": "errors",
     "Case": "model.case",
@@ -121,6 +136,8 @@ _HOME = {
     "CurvePointRecord": "records.curve",
     "Demiray": "materials.demiray",
     "ElasticFoundation": "model.models.elastic_foundation",
+    "Evaluations": "studies.sensitivity.evaluator",
+    "Evaluator": "studies.sensitivity.evaluator",
     "FitRecord": "records.fit",
     "FittedLaw": "bench.law_fit",
     "FrictionRecord": "records.friction",
@@ -129,6 +146,7 @@ _HOME = {
     "InVitro": "bench.invitro",
     "InVitroRecord": "records.invitro",
     "Inflation": "bench.test_data",
+    "InterpolatedCases": "studies.sensitivity.interpolated_cases",
     "JobSolver": "studies.case_solver",
     "Law": "materials.protocol",
     "Length": "units",
@@ -153,6 +171,9 @@ _HOME = {
     "RisingRecord": "records.rising",
     "SeatedBalance": "model.models.seated_balance",
     "SeatedState": "model.states.seated_state",
+    "Sensitivity": "studies.sensitivity.sensitivity",
+    "SensitivityRecord": "records.sensitivity",
+    "SensitivityStudy": "studies.sensitivity.study",
     "Setting": "bench.comparison",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
@@ -169,14 +190,20 @@ _HOME = {
     "Sweep": "studies.sweeps.plan",
     "SweepRecord": "records.sweep",
     "SweepResults": "studies.sweeps.results",
+    "Surrogate": "studies.surrogates.surrogate",
+    "SurrogateAnswers": "studies.surrogates.answers",
+    "SurrogateCases": "studies.sensitivity.surrogate_cases",
     "Tension": "bench.test_data",
+    "UncertainCase": "studies.sensitivity.uncertain_case",
     "UnstableLaw": "errors",
     "Ureter": "model.ureter",
     "Yeoh": "materials.yeoh",
     "answer_record": "records.answer",
     "assess": "clinic.assess",
     "assess_record": "records.assess",
+    "build_surrogate": "studies.surrogates.build",
     "case_schema": "inputs.schema",
+    "check_surrogate": "studies.surrogates.check",
     "closures": "studies.closures",
     "closures_record": "records.closures",
     "compare_record": "records.compare",
@@ -192,6 +219,7 @@ _HOME = {
     "invitro_record": "records.invitro",
     "length": "units",
     "load_material": "inputs.material_file",
+    "load_surrogate": "studies.surrogates.store",
     "material": "materials.catalogue",
     "pressure": "units",
     "process_pool": "studies.executor",
@@ -203,6 +231,7 @@ _HOME = {
     "read_patient": "clinic.patient",
     "read_points": "inputs.measured_pressures",
     "read_results": "studies.sweeps.results",
+    "read_sensitivity": "studies.sensitivity.study_file",
     "read_shape": "inputs.shape_file",
     "read_surface_image": "surface.readers",
     "read_tension": "bench.test_data",
@@ -210,13 +239,17 @@ _HOME = {
     "read_untrusted": "surface.untrusted",
     "rising_record": "records.rising",
     "run_study": "studies.study",
+    "save_surrogate": "studies.surrogates.store",
     "seat": "model.case_states",
+    "sensitivity": "studies.sensitivity.sensitivity",
+    "sensitivity_record": "records.sensitivity",
     "shape_through": "model.shape_fit",
     "size_record": "records.size",
     "solve": "model.critical",
     "surface_friction": "surface.friction",
     "sweep": "studies.sweeps.run",
     "sweep_record": "records.sweep",
+    "uncertain_case": "studies.sensitivity.uncertain_case",
     "write_case": "inputs.case_file",
 }
 
@@ -248,6 +281,7 @@ __all__ = [
     "AssessRecord",
     "Assessment",
     "BadInput",
+    "Box",
     "CacheWarning",
     "Case",
     "Caution",
@@ -259,6 +293,8 @@ __all__ = [
     "CurvePointRecord",
     "Demiray",
     "ElasticFoundation",
+    "Evaluations",
+    "Evaluator",
     "FitRecord",
     "FittedLaw",
     "FrictionRecord",
@@ -267,6 +303,7 @@ __all__ = [
     "InVitro",
     "InVitroRecord",
     "Inflation",
+    "InterpolatedCases",
     "JobSolver",
     "Law",
     "Length",
@@ -291,6 +328,9 @@ __all__ = [
     "RisingRecord",
     "SeatedBalance",
     "SeatedState",
+    "Sensitivity",
+    "SensitivityRecord",
+    "SensitivityStudy",
     "Setting",
     "Shape",
     "SizeAnswer",
@@ -304,17 +344,23 @@ __all__ = [
     "Study",
     "SurfaceFriction",
     "SurfaceImage",
+    "Surrogate",
+    "SurrogateAnswers",
+    "SurrogateCases",
     "Sweep",
     "SweepRecord",
     "SweepResults",
     "Tension",
+    "UncertainCase",
     "UnstableLaw",
     "Ureter",
     "Yeoh",
     "answer_record",
     "assess",
     "assess_record",
+    "build_surrogate",
     "case_schema",
+    "check_surrogate",
     "closures",
     "closures_record",
     "compare_record",
@@ -331,6 +377,7 @@ __all__ = [
     "invitro_record",
     "length",
     "load_material",
+    "load_surrogate",
     "material",
     "pressure",
     "process_pool",
@@ -342,6 +389,7 @@ __all__ = [
     "read_patient",
     "read_points",
     "read_results",
+    "read_sensitivity",
     "read_shape",
     "read_surface_image",
     "read_sweep",
@@ -349,13 +397,17 @@ __all__ = [
     "read_untrusted",
     "rising_record",
     "run_study",
+    "save_surrogate",
     "seat",
+    "sensitivity",
+    "sensitivity_record",
     "shape_through",
     "size_record",
     "solve",
     "surface_friction",
     "sweep",
     "sweep_record",
+    "uncertain_case",
     "write_case",
 ]
 

@@ -71,12 +71,12 @@ SENTENCES = {
     "moves_at_contact_angle": (
         "the drive exceeds the resistance already at the seated contact angle, because the paper's "
         "closure starts at the unloaded inner radius, which is wider than the narrowed lumen; the "
-        "critical pressure is that of the seated contact angle, and closure_start = 'lumen' is the "
-        "alternative"
+        "critical pressure is computed at the seated contact angle, and closure_start = 'lumen' "
+        "would start the closure at the narrowed lumen instead"
     ),
     "smaller_than_lumen": (
-        "the stone is smaller than the unloaded lumen, so the paper's closure would narrow while "
-        "the wall opens; the closure is held at the radius of the stone instead"
+        "the stone is smaller than the unloaded lumen, so the radius of the paper's closure would "
+        "decrease while the wall opens; the closure keeps the radius of the stone instead"
     ),
     "long_beam_contact": (
         "half the contact length is {decay_lengths:.2g} decay lengths of the beam, but the beam "
@@ -86,7 +86,7 @@ SENTENCES = {
         "the wall is {thickness:.2g} inner radii thick and is widened by {widening:.2g} inner "
         "radii, but the beam model assumes that both are small"
     ),
-    "no_closed_answer": "{outcome} by Eq. 15: {message}",
+    "no_closed_answer": "the closure of Eq. 15 has the outcome {outcome}: {message}",
     # --- surface images
     "single_path": (
         "there is only one profile, so the variation of the friction over the surface is unknown"
@@ -280,6 +280,31 @@ SENTENCES = {
     "surface_error": (
         "the response surface, from which the samples are computed, has errors of up to {error:.0%}"
     ),
+    # --- sensitivity
+    "cases_refused": (
+        "{fraction:.1%} of the samples describe no case that can be solved and count as cases "
+        "without an answer; the most frequent reason: {reason}"
+    ),
+    "cases_outside": (
+        "{fraction:.1%} of the samples lie outside the range of the surrogate or of the sweep and "
+        "count as cases without an answer"
+    ),
+    "groups_dropped": (
+        "{dropped} of {groups} groups of samples are left out of the sensitivity of {response}, "
+        "which is unknown in a case of each of these groups; the stated sensitivity is that of the "
+        "other groups"
+    ),
+    "groups_too_few": (
+        "there is no sensitivity of {response}, which is unknown in a case of {dropped} of "
+        "{groups} groups of samples"
+    ),
+    "bounds_in_rank": (
+        "in {fraction:.1%} of the samples the critical pressure does not exist, and the rank uses "
+        "a lower bound in its place"
+    ),
+    "indices_wide": (
+        "the total indices of {response} are known to ± {width:.2f} only: use more samples"
+    ),
     # --- surface images, continued
     "gaps_bridged": (
         "{fraction:.1%} of the heights along the profiles are missing and were filled by straight "
@@ -312,7 +337,7 @@ class Caution:
     values: tuple[tuple[str, Any], ...] = ()
 
     def __str__(self) -> str:
-        """The sentence, without a period."""
+        """Return the sentence, without a period."""
         return SENTENCES[self.code].format(**dict(self.values))
 
 

@@ -29,14 +29,16 @@ COMMANDS = {
     "friction": ("friction", "Estimate the friction coefficient from an image of a stone."),
     "invitro": ("invitro", "Compare measured critical pressures with the model."),
     "assess": ("assess", "Assess the stone of one patient, with all uncertainties."),
+    "sensitivity": ("sensitivity", "Find which uncertain inputs matter most, and which do not."),
     "headline": ("headline", "Compute the two critical sizes that the paper reports."),
     "paper": ("paper", "Reproduce the figures and claims of the paper."),
     "fit": ("fit", "Fit the constants of a material law to laboratory tests."),
     "material": ("material", "List, show and check material laws."),
+    "surrogate": ("surrogate", "Build, check and evaluate fast surrogates of the models."),
 }
 PANELS = {
     "Questions about a stone": ("pressure", "size", "curve", "push", "assess"),
-    "Many cases": ("sweep", "results"),
+    "Many cases": ("sweep", "results", "sensitivity", "surrogate"),
     "Laboratory": ("friction", "fit", "invitro", "material"),
     "Comparisons": ("closures", "export", "compare", "headline", "paper"),
 }

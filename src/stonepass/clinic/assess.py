@@ -16,13 +16,14 @@ from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.assessment_warnings import assessment_warnings
 from stonepass.clinic.cohorts import Row, rows_for
 from stonepass.clinic.draws import conditions, draw_patient, held_wall_ratio
-from stonepass.clinic.fractions import Fraction, Present, Samples, interval, median_noise
 from stonepass.clinic.patient import INPUTS, Patient
+from stonepass.clinic.samples import Present, Samples
 from stonepass.errors import Outcome
 from stonepass.materials.stability import check
 from stonepass.model.case import Case
 from stonepass.model.far_field import confining_traction
 from stonepass.studies.case_solver import CaseSolver, JobSolver
+from stonepass.studies.censored_samples import Fraction, fraction_below, interval, median_noise
 from stonepass.studies.conditions import lumen_ratios, transmural
 from stonepass.studies.response import OVERSIZE, ResponseSurface, response_surface
 from stonepass.studies.sampling import Draws
@@ -189,9 +190,7 @@ def _by_size(
     for size in SIZES:
         fixed = {**draws, "stone_diameter": np.full(len(draws["friction"]), size / 1e3)}
         critical, censored = _critical(surface, fixed)
-        less = critical < patient.limit
-        certain = float(np.mean(less & ~censored))
-        found.append((float(size), Fraction(certain, float(np.mean(less)))))
+        found.append((float(size), fraction_below(critical, censored, patient.limit)))
     return tuple(found)
 
 

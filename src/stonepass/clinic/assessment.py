@@ -14,11 +14,12 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool
 from stonepass.caution import Caution
 from stonepass.clinic.cohorts import Row
-from stonepass.clinic.fractions import Fraction, Present, Range, Samples
 from stonepass.clinic.patient import Patient
+from stonepass.clinic.samples import Present, Samples
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
 from stonepass.result import Result
+from stonepass.studies.censored_samples import Fraction, Range
 from stonepass.studies.sensitivity_indices import SensitivityIndex
 
 __all__ = ["Assessment"]

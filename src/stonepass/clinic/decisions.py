@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stonepass.clinic.assessment import Assessment
-from stonepass.clinic.fractions import Fraction, Range
+from stonepass.studies.censored_samples import Fraction, Range
 
 __all__ = ["CONTRADICTIONS", "Decision", "decisions", "next_measurement"]
 

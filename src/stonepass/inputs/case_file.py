@@ -24,7 +24,15 @@ from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.shape import Shape
 from stonepass.units import Length, Pressure, format_length, format_pressure
 
-__all__ = ["WORDS", "checked_values", "read_case", "read_values", "values_of", "write_case"]
+__all__ = [
+    "WORDS",
+    "checked_values",
+    "held_values",
+    "read_case",
+    "read_values",
+    "values_of",
+    "write_case",
+]
 
 REQUIRED = ("stone", "ureter")
 # Types of TOML values for each kind of input, and their names in messages. A table may be given
@@ -164,12 +172,20 @@ def values_of(case: Case, folder: Path) -> dict[str, Any]:
     BadInput
         The law is a function that was not read from a file.
     """
+    return {key: _raw(value, folder) for key, value in held_values(case).items()}
+
+
+def held_values(case: Case) -> dict[str, Any]:
+    """Return the values of a case by key as objects, e.g. lengths and materials.
+
+    Values that follow from others are left out, so that `build_case` makes the same case of them.
+    """
     values: dict[str, Any] = {MODEL: case.model.NAME}
     for part in (case.stone, case.ureter, case.load, case.model, case.numerics):
         for each in inputs_of(type(part)).values():
             value = getattr(part, each.name)
             if value is not None:
-                values[each.key] = _raw(value, folder)
+                values[each.key] = value
     if case.ureter.outer_diameter is not None:
         del values["ureter.wall_ratio"], values["ureter.wall_thickness"]
     shape = case.stone.shape

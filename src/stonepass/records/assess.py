@@ -6,12 +6,13 @@ from pydantic import Field
 
 from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import Row
+from stonepass.clinic.contradiction import contradiction
 from stonepass.clinic.decisions import decisions
-from stonepass.clinic.fractions import Fraction, Range, contradiction
 from stonepass.clinic.patient import INPUTS
 from stonepass.clinic.pressure_limits import describe_limit
 from stonepass.records.answer import AnswerRecord, answer_record
 from stonepass.records.base import CautionRecord, PartRecord, Record, kilo, warning_records
+from stonepass.studies.censored_samples import Fraction, Range
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 
 __all__ = [

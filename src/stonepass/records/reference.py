@@ -20,6 +20,7 @@ from stonepass.records.fit import FitRecord
 from stonepass.records.friction import FrictionRecord
 from stonepass.records.invitro import InVitroRecord
 from stonepass.records.rising import RisingRecord
+from stonepass.records.sensitivity import SensitivityRecord
 from stonepass.records.size import SizeRecord
 from stonepass.records.sweep import SweepRecord
 
@@ -36,6 +37,7 @@ RECORDS: dict[str, type[BaseModel]] = {
     "fit": FitRecord,
     "invitro": InVitroRecord,
     "assess": AssessRecord,
+    "sensitivity": SensitivityRecord,
     "compare": CompareRecord,
     "results": SweepRecord,
 }

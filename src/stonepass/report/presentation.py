@@ -1,4 +1,4 @@
-"""How each result is shown: its record, its rows, its tables, its graph and its picture.
+"""The presentation of each result: its record, its rows, its tables, its graph and its picture.
 
 `SHOWN` has one entry for each type of result. The package names this module as the presentation of
 `stonepass.result`, so that ``answer.plot()`` ends here.
@@ -32,6 +32,7 @@ from stonepass.records.fit import fit_record
 from stonepass.records.friction import friction_record
 from stonepass.records.invitro import invitro_record
 from stonepass.records.rising import rising_record
+from stonepass.records.sensitivity import sensitivity_record, sensitivity_rows
 from stonepass.records.size import size_record
 from stonepass.records.sweep import sweep_record
 from stonepass.report import plots
@@ -46,8 +47,11 @@ from stonepass.report.friction_figure import friction_figure
 from stonepass.report.friction_report import friction_table
 from stonepass.report.invitro_figure import invitro_figure
 from stonepass.report.invitro_report import invitro_table
+from stonepass.report.notebook_figure import displayed
 from stonepass.report.printing import Part, as_html, as_text
 from stonepass.report.rising_report import rising_figure, rising_table
+from stonepass.report.sensitivity_figure import sensitivity_figure
+from stonepass.report.sensitivity_report import sensitivity_parts
 from stonepass.report.style import FORMATS
 from stonepass.report.style import save as save_figure
 from stonepass.report.sweep_figure import plot_sweep, sweep_figure
@@ -62,6 +66,7 @@ from stonepass.report.table import (
 from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
+from stonepass.studies.sensitivity.sensitivity import Sensitivity
 from stonepass.studies.sweeps.results import SweepResults
 from stonepass.surface.friction_result import SurfaceFriction
 
@@ -72,7 +77,7 @@ Row = dict[str, Any]
 
 @dataclass(frozen=True)
 class Shown:
-    """How one type of result is shown.
+    """The presentation of one type of result.
 
     Attributes
     ----------
@@ -125,8 +130,8 @@ def plot(result: Any, axes: Axes) -> None:
 
 
 def figure(result: Any) -> Figure:
-    """Return the whole picture."""
-    return _of(result).figure(result)
+    """Return the whole picture, which a notebook displays."""
+    return displayed(_of(result).figure(result))
 
 
 def save(result: Any, path: Path) -> None:
@@ -154,7 +159,7 @@ def _of(result: Any) -> Shown:
 def _scalars(document: Row) -> Row:
     """Return the entries of a record that are single values; warnings become their codes.
 
-    What every record says of itself (version, disclaimer) is left out.
+    Entries that every record has (version, disclaimer) are left out.
     """
     found = {
         name: value
@@ -195,7 +200,7 @@ def _closure_rows(found: ClosureComparison) -> list[Row]:
 
 
 def _fit(found: FittedLaw) -> Row:
-    """The record without what only the command line knows: the file, and the sizes at rest."""
+    """Return the record without the inputs of the command line: file and sizes at rest."""
     document = fit_record(found, {"file": "", "relative": False}).to_dict()
     return document | {"data": document.pop("inputs")["data"]}
 
@@ -320,5 +325,13 @@ SHOWN: dict[type, Shown] = {
         plot=plot_sweep,
         figure=sweep_figure,
         rows=_sweep_rows,
+    ),
+    Sensitivity: Shown(
+        record=lambda found: sensitivity_record(found).to_dict(),
+        parts=sensitivity_parts,
+        warnings=_own,
+        plot=plots.plot_sensitivity,
+        figure=sensitivity_figure,
+        rows=sensitivity_rows,
     ),
 }

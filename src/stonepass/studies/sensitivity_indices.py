@@ -12,7 +12,7 @@ from stonepass.array_types import Float
 from stonepass.studies.sampling import Draws
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 
-__all__ = ["SensitivityIndex", "rank_sensitivity"]
+__all__ = ["SensitivityIndex", "rank_among", "rank_sensitivity"]
 
 SAMPLES = 1024  # number of samples of each input, a power of two
 
@@ -38,6 +38,26 @@ class SensitivityIndex:
 
     name: str
     total: float
+
+
+def rank_among(
+    ordered: Float[np.ndarray, " m"], values: Float[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"]:
+    """Return the ranks of values: the fraction of known values below each of them.
+
+    Parameters
+    ----------
+    ordered : array (m)
+        Known values in ascending order.
+    values : array (n)
+        Values whose ranks are wanted.
+
+    Returns
+    -------
+    array (n)
+        Ranks from 0 to 1.
+    """
+    return np.searchsorted(ordered, values) / len(ordered)
 
 
 def rank_sensitivity(
@@ -80,7 +100,7 @@ def rank_sensitivity(
 
     def rank(inputs: Float[np.ndarray, "d n"]) -> Float[np.ndarray, " n"]:
         draws = dict(zip(quantities, inputs, strict=True))
-        return np.searchsorted(ordered, outcome(draws)) / len(ordered)
+        return rank_among(ordered, outcome(draws))
 
     found = sobol_indices(
         func=rank,

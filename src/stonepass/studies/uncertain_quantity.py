@@ -11,19 +11,43 @@ import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
-from stonepass.units import format_length, length
+from stonepass.units import format_length, format_pressure, length, pressure
 
-__all__ = ["UncertainQuantity", "measured_length", "measured_number"]
+__all__ = [
+    "UncertainQuantity",
+    "measured_angle",
+    "measured_length",
+    "measured_number",
+    "measured_pressure",
+]
 
 _PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
 _UNIT = re.compile(r"[A-Za-zµμ%°][^\s]*$")
-EXAMPLE = {
-    True: "'5 mm ± 1 mm', '5 mm ± 20 %' or '3 mm to 4 mm'",
-    False: "'0.3 ± 0.1', '0.3 ± 30 %' or '0.05 to 0.5'",
-}
 LONGEST = 100  # largest number of characters of a text
 FARTHEST = 6.0  # largest distance from the mean in standard deviations
+
+
+@dataclass(frozen=True)
+class _Form:
+    """The form in which the values of one kind of quantity are written."""
+
+    name: str
+    example: str
+    show: Callable[[float], str]  # writes a bound in messages
+    has_unit: bool = True
+
+
+_LENGTH = _Form("a length", "'5 mm ± 1 mm', '5 mm ± 20 %' or '3 mm to 4 mm'", format_length)
+_PRESSURE = _Form(
+    "a pressure", "'5 kPa ± 1 kPa', '5 kPa ± 20 %' or '3 kPa to 4 kPa'", format_pressure
+)
+_ANGLE = _Form(
+    "an angle",
+    "'40 deg ± 5 deg', '40 deg ± 10 %' or '30 deg to 50 deg'",
+    lambda angle: f"{np.degrees(angle):g} deg",
+)
+_NUMBER = _Form("a number", "'0.3 ± 0.1', '0.3 ± 30 %' or '0.05 to 0.5'", "{:g}".format, False)
 
 
 @dataclass(frozen=True)
@@ -119,7 +143,59 @@ def measured_length(text: str, argument: str, bounds: tuple[float, float]) -> Un
     ----------
     docs/assess.md, "The file".
     """
-    return _read(text, argument, bounds, lambda part: float(length(part, argument)), lengths=True)
+    return _read(text, argument, bounds, lambda part: float(length(part, argument)), _LENGTH)
+
+
+def measured_pressure(text: str, argument: str, bounds: tuple[float, float]) -> UncertainQuantity:
+    """Read a pressure or a modulus with its uncertainty; ``±`` means one standard deviation.
+
+    Parameters
+    ----------
+    text : str
+        A text such as ``"5 kPa ± 1 kPa"``, ``"5 kPa ± 20 %"`` or ``"3 kPa to 4 kPa"``.
+    argument : str
+        Name of the quantity in messages.
+    bounds : (float, float)
+        Smallest and largest pressure in Pa.
+
+    Raises
+    ------
+    BadInput
+        The text has no uncertainty or no unit, or the pressure is out of bounds.
+
+    References
+    ----------
+    docs/howto/sensitivity.md, "The file".
+    """
+    return _read(text, argument, bounds, lambda part: float(pressure(part, argument)), _PRESSURE)
+
+
+def measured_angle(
+    text: str, argument: str, bounds: tuple[float, float], read: Callable[[str], float]
+) -> UncertainQuantity:
+    """Read an angle with its uncertainty; ``±`` means one standard deviation.
+
+    Parameters
+    ----------
+    text : str
+        A text such as ``"40 deg ± 5 deg"``, ``"40 deg ± 10 %"`` or ``"30 deg to 50 deg"``.
+    argument : str
+        Name of the quantity in messages.
+    bounds : (float, float)
+        Smallest and largest angle in rad.
+    read : callable
+        Function that reads a single angle with its unit and returns rad.
+
+    Raises
+    ------
+    BadInput
+        The text has no uncertainty or no unit, or the angle is out of bounds.
+
+    References
+    ----------
+    docs/howto/sensitivity.md, "The file".
+    """
+    return _read(text, argument, bounds, read, _ANGLE)
 
 
 def measured_number(
@@ -152,9 +228,9 @@ def measured_number(
         try:
             return float(part)
         except ValueError as problem:
-            raise _unreadable(argument, text, lengths=False) from problem
+            raise _unreadable(argument, text, _NUMBER) from problem
 
-    found = _read(text, argument, bounds, number, lengths=False)
+    found = _read(text, argument, bounds, number, _NUMBER)
     return replace(found, factor=factor)
 
 
@@ -163,25 +239,24 @@ def _read(
     argument: str,
     bounds: tuple[float, float],
     read: Callable[[str], float],
-    *,
-    lengths: bool,
+    form: _Form,
 ) -> UncertainQuantity:
     if len(text) > LONGEST:  # matching the patterns to a long text takes too long
-        raise _unreadable(argument, text, lengths=lengths)
+        raise _unreadable(argument, text, form)
     stripped = text.strip()
     spread, span = _PLUS_MINUS.fullmatch(stripped), _RANGE.fullmatch(stripped)
     found = spread or span
     if found is None:
-        raise _unreadable(argument, text, lengths=lengths)
+        raise _unreadable(argument, text, form)
     parts = [part.strip() for part in found.groups()]
     relative = spread is not None and parts[1].endswith("%")
     unit = _UNIT.search(parts[1])
-    if lengths and not relative and unit is not None and _UNIT.search(parts[0]) is None:
+    if form.has_unit and not relative and unit is not None and _UNIT.search(parts[0]) is None:
         parts[0] += f" {unit[0]}"  # 5 ± 1 mm
     first = read(parts[0])
     second = first * _percentage(parts[1], argument, text) if relative else read(parts[1])
     low, high = bounds
-    shown = [format_length(bound) if lengths else f"{bound:g}" for bound in bounds]
+    shown = [form.show(bound) for bound in bounds]
     allowed = f"from {shown[0]} to {shown[1]}"
     require(low <= first <= high, argument, text, allowed)
     if spread:
@@ -199,7 +274,6 @@ def _percentage(part: str, argument: str, text: str) -> float:
         raise BadInput(argument, text, "followed by a number in percent, e.g. ± 20 %") from None
 
 
-def _unreadable(argument: str, text: str, *, lengths: bool) -> BadInput:
-    what = "a length with its uncertainty" if lengths else "a number with its uncertainty"
-    remedy = f"write it like {EXAMPLE[lengths]}; an exact value has the uncertainty '± 0'"
-    return BadInput(argument, text, what, remedy)
+def _unreadable(argument: str, text: str, form: _Form) -> BadInput:
+    remedy = f"write it like {form.example}; an exact value has the uncertainty '± 0'"
+    return BadInput(argument, text, f"{form.name} with its uncertainty", remedy)

@@ -1,0 +1,80 @@
+"""Tables of a surrogate and of its answers for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from rich import box
+from rich.table import Table
+
+from stonepass.studies.surrogates.answers import SurrogateAnswers
+from stonepass.studies.surrogates.surrogate import Surrogate
+
+__all__ = ["answers_table", "surrogate_table"]
+
+MOST_ROWS = 40  # largest number of answers in the table
+
+
+def surrogate_table(surrogate: Surrogate) -> Table:
+    """Return box, origin and measured errors of a surrogate as a table of two columns."""
+    case, limits = surrogate.case, surrogate.box
+    table = Table(box=box.SIMPLE, show_header=False)
+    rows = {
+        "material": case.ureter.material.name,
+        "model": case.model.NAME,
+        "size ratio ξ": f"from that of the lumen to {limits.size_ratio:g}",
+        "wall ratio η": _span(limits.wall_ratio),
+        "friction": _span(limits.friction),
+        "confining pressure": f"0 to {case.load.confining_pressure / 1e3:g} kPa",
+        "terms": f"{len(surrogate.learnt.degrees)}",
+    }
+    for level in surrogate.about.get("levels", ()):
+        rows[f"fitted to {level['accuracy']} {level['options']}"] = f"{level['cases']} cases"
+    rows |= _errors(surrogate.about.get("check"))
+    for name, value in rows.items():
+        table.add_row(name, value)
+    return table
+
+
+def answers_table(asked: Mapping[str, Any], answers: SurrogateAnswers) -> Table:
+    """Return the first answers of a surrogate as a table.
+
+    Parameters
+    ----------
+    asked : mapping of str to array
+        The inputs of `Surrogate.evaluate`.
+    answers : SurrogateAnswers
+    """
+    table = Table(box=box.SIMPLE_HEAD)
+    for name in ("ξ", "η", "friction", "outcome", "P_ucr (kPa)", "claimed error (kPa)"):
+        table.add_column(name, justify="left" if name == "outcome" else "right")
+    inputs = np.broadcast_arrays(*(np.asarray(asked[name], dtype=float) for name in
+                                   ("size_ratio", "wall_ratio", "friction")))  # fmt: skip
+    for k, row in enumerate(answers.to_rows()[:MOST_ROWS]):
+        values = (row["critical_pressure_kPa"], row["critical_pressure_error_kPa"])
+        table.add_row(
+            *(f"{each[k]:.4g}" for each in inputs),
+            row["outcome"],
+            *("–" if value is None else f"{value:.4g}" for value in values),
+        )
+    if len(answers) > MOST_ROWS:
+        table.caption = f"{len(answers) - MOST_ROWS} further answers are not shown"
+    return table
+
+
+def _errors(check: Mapping[str, Any] | None) -> dict[str, str]:
+    if check is None:
+        return {"measured error": "not measured; 'stonepass surrogate check' measures it"}
+    return {
+        "cases that were not used": f"{check['cases']}, of which {check['same_outcome']} have the "
+        "same outcome",
+        "largest error of P_ucr": f"{100.0 * check['largest']:.2g} % or 10 Pa",
+        "root-mean-square error": f"{100.0 * check['typical']:.2g} %",
+        "within the claimed error": f"{100.0 * check['within']:.1f} %",
+    }
+
+
+def _span(bounds: tuple[float, float]) -> str:
+    return f"{bounds[0]:g} to {bounds[1]:g}"

@@ -1,0 +1,1 @@
+"""Sensitivity of the critical pressure and of the critical size to uncertain inputs."""

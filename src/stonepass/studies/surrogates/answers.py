@@ -1,0 +1,140 @@
+"""The answers of a surrogate for many conditions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from stonepass.array_dataclass import array_dataclass
+from stonepass.array_types import Bool, Float, Int
+from stonepass.errors import Outcome, require
+from stonepass.io.csv_file import write_csv
+from stonepass.io.optional_imports import library
+from stonepass.studies.surrogates.solved import BEYOND_CLOSURE, LEAKS, OUTCOMES, Solved
+
+__all__ = ["SurrogateAnswers"]
+
+
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class SurrogateAnswers:
+    """The answers of a surrogate for n conditions.
+
+    Attributes
+    ----------
+    outcome : array (n) of int
+        Places in `OUTCOMES`, the tuple of possible outcomes.
+    pressure : masked array (n)
+        P_ucr in Pa; masked where it does not exist.
+    error : masked array (n)
+        Claimed error of P_ucr in Pa; masked where P_ucr is.
+    lower_bound : array (n)
+        Pressure in Pa that P_ucr exceeds: the end of the closure for the outcome BEYOND_CLOSURE,
+        the leak pressure for LEAKS; 0 for the other outcomes.
+    outside : array (n) of bool
+        True for a condition outside the box of the surrogate.
+    quantities : mapping of str to masked array (n)
+        Further results by name, in SI units: ``contact_angle`` in rad, and with the direct model
+        ``leak_pressure`` in Pa.
+    """
+
+    OUTCOMES: ClassVar[tuple[Outcome, ...]] = OUTCOMES
+
+    outcome: Int[np.ndarray, " n"]
+    pressure: Any
+    error: Any
+    lower_bound: Float[np.ndarray, " n"]
+    outside: Bool[np.ndarray, " n"]
+    quantities: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, solved: Solved, outside: Bool[np.ndarray, " n"]) -> SurrogateAnswers:
+        """Return the answers with all missing numbers masked."""
+        quantities = {name: np.ma.masked_invalid(each) for name, each in solved.quantities.items()}
+        pressure = np.ma.masked_invalid(solved.pressure)
+        error = np.ma.array(quantities.pop("error"), mask=np.ma.getmaskarray(pressure))
+        return cls(
+            solved.outcome.astype(np.int8), pressure, error, solved.lower_bound, outside, quantities
+        )
+
+    @property
+    def outcomes(self) -> list[Outcome]:
+        """The outcome of every condition."""
+        return [OUTCOMES[k] for k in self.outcome]
+
+    @property
+    def censored(self) -> Bool[np.ndarray, " n"]:
+        """True where only a lower bound of P_ucr is known."""
+        return np.isin(self.outcome, (BEYOND_CLOSURE, LEAKS))
+
+    @property
+    def answered(self) -> Bool[np.ndarray, " n"]:
+        """True where the outcome is an answer (see `Outcome.answered`)."""
+        return np.array([each.answered for each in OUTCOMES])[self.outcome]
+
+    def to_rows(self) -> list[dict[str, Any]]:
+        """Return one dictionary per condition; a number that does not exist is None.
+
+        Pressures are in kPa and angles in degrees; units are part of the keys.
+        """
+        columns = {
+            "outcome": [OUTCOMES[k].name for k in self.outcome],
+            "critical_pressure_kPa": _plain(self.pressure, 1e-3),
+            "critical_pressure_error_kPa": _plain(self.error, 1e-3),
+            "lower_bound_kPa": _plain(self.lower_bound, 1e-3),
+        }
+        for name, values in self.quantities.items():
+            unit, factor = ("deg", 180.0 / np.pi) if name.endswith("angle") else ("kPa", 1e-3)
+            columns[f"{name}_{unit}"] = _plain(values, factor)
+        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+    def save(self, path: str | Path) -> None:
+        """Write `to_rows` as CSV; an existing file is replaced.
+
+        Parameters
+        ----------
+        path : str or Path
+            A file with the ending .csv.
+
+        Raises
+        ------
+        BadInput
+            The file has another ending or cannot be written.
+        """
+        require(Path(path).suffix == ".csv", "file", path, "a file with the ending .csv")
+        rows = self.to_rows()
+        header = list(rows[0]) if rows else ["outcome"]
+        write_csv(Path(path), header, ([row[name] for name in header] for row in rows))
+
+    def to_frame(self) -> Any:
+        """Return a pandas table with one row per condition; units are in the column names."""
+        pandas = library("pandas", "make a table of answers", "studies")
+        columns = {"outcome": pandas.Categorical.from_codes(
+            self.outcome, [each.name for each in OUTCOMES])}  # fmt: skip
+        numbers = {"critical_pressure_Pa": self.pressure, "error_Pa": self.error,
+                   "lower_bound_Pa": self.lower_bound}  # fmt: skip
+        units = {"contact_angle": "rad"}
+        numbers |= {f"{name}_{units.get(name, 'Pa')}": each for name, each in
+                    self.quantities.items()}  # fmt: skip
+        return pandas.DataFrame(
+            columns | {name: np.ma.filled(each, np.nan) for name, each in numbers.items()}
+        )
+
+    def __len__(self) -> int:
+        return len(self.outcome)
+
+    def __repr__(self) -> str:
+        counts = Counter(self.outcome.tolist())
+        parts = [f"{OUTCOMES[k].name} {counts[k]:,}" for k in sorted(counts)]
+        return f"<SurrogateAnswers: {len(self):,} conditions; {', '.join(parts)}>"
+
+
+def _plain(values: Any, factor: float) -> list[float | None]:
+    """Return numbers in another unit as a list, with None in the place of masked ones."""
+    listed: list[float | None] = np.ma.masked_array(values * factor).tolist()
+    return listed

@@ -1,0 +1,225 @@
+"""Construction of a surrogate: solve the cases of all levels, fit the functions, claim an error."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from stonepass.about import VERSION
+from stonepass.array_dataclass import array_dataclass
+from stonepass.array_types import Bool, Float
+from stonepass.errors import BadInput
+from stonepass.inputs.case_record import fingerprint
+from stonepass.model.answer import Answer
+from stonepass.model.case import Case
+from stonepass.model.models.push_through import PushThrough
+from stonepass.model.models.seated_balance import SeatedBalance
+from stonepass.studies.case_solver import CaseSolver
+from stonepass.studies.conditions import lumen_ratios
+from stonepass.studies.surrogates.box import Box, Setting, case_at, fit_lumen, narrowest_lumen
+from stonepass.studies.surrogates.levels import Level, levels_for
+from stonepass.studies.surrogates.polynomial import SparsePolynomial
+from stonepass.studies.surrogates.pushed_stone import PushedStone
+from stonepass.studies.surrogates.regression import fit_polynomial, joined
+from stonepass.studies.surrogates.seated_contact import SeatedContact
+from stonepass.studies.surrogates.surrogate import Surrogate
+
+__all__ = ["build_surrogate", "relative_errors"]
+
+CLAIM = 0.99  # fraction of the leave-one-out errors that the claimed error covers
+MARGIN = 2.0  # factor on the claimed relative error
+FLOOR = 5.0  # Pa, claimed absolute error
+ERROR_DEGREES, ERROR_TOTAL = (2, 2, 2, 2), 2  # degrees of the claimed relative error
+SMALLEST_ERROR = 1e-4  # smallest relative error in the fit of the claimed error
+FEWEST = 8  # smallest number of answers that a level is fitted to
+
+
+def build_surrogate(
+    case: Case, box: Box | None = None, solver: CaseSolver | None = None, effort: float = 1.0
+) -> Surrogate:
+    """Build a surrogate of the answers to a case over a box of inputs.
+
+    Parameters
+    ----------
+    case : Case
+        Material, load, model and numerics. The confining pressure is the largest one of the box.
+        Size, wall and friction of the case do not matter.
+    box : Box, optional
+        The range of the inputs; by default ξ from the lumen to 1.6, η 1.1 to 4, μ 0 to 1.
+    solver : CaseSolver, optional
+        Solves several hundred cases without error estimates; by default in this process.
+    effort : float
+        Factor on the number of cases, above 0.
+
+    Raises
+    ------
+    BadInput
+        The model has no surrogate, or too few cases have an answer.
+
+    References
+    ----------
+    docs/surrogates.md, "How a surrogate is built".
+    """
+    _refuse(case)
+    box, solver = box or Box(), solver or _default_solver()
+    solved = [_solve(level, box, solver) for level in levels_for(case, effort)]
+    kind = SeatedContact if isinstance(case.model, SeatedBalance) else PushedStone
+    everything = [each for level in solved for each in level.answers]
+    physics: Any = kind.fitted_to(everything)
+    learnt, left_out = None, []
+    for level in solved:
+        values = physics.learnt(case, level.at, level.answers)
+        learnt, left = _corrected(learnt, level, values)
+        left_out.append((level, values, left))
+    assert learnt is not None
+    error = _claimed(case, physics, left_out)
+    loaded = case.load.confining_pressure > 0.0
+    return Surrogate(
+        case,
+        box,
+        physics,
+        learnt,
+        error,
+        FLOOR,
+        fit_lumen(case, box) if loaded else None,
+        _about(case, solved),
+    )
+
+
+@array_dataclass
+@dataclass(frozen=True)
+class _Solved:
+    """The cases of a level and their answers."""
+
+    level: Level
+    at: Setting
+    answers: list[Answer]
+
+
+def _default_solver() -> CaseSolver:
+    from stonepass.studies.case_solver import JobSolver
+
+    return JobSolver(progress=True)
+
+
+def _refuse(case: Case) -> None:
+    """Raise BadInput if the model, one of its options, or the stone has no surrogate."""
+    model = case.model
+    if not isinstance(model, SeatedBalance | PushThrough):
+        raise BadInput("model", model.NAME, "'paper' or 'direct'", "other models need no surrogate")
+    if isinstance(model, SeatedBalance) and (
+        model.closure != "linear" or model.closure_start != "inner-radius"
+    ):
+        raise BadInput("closure", f"{model.closure} from {model.closure_start}",
+                       "linear from inner-radius, which is the default")  # fmt: skip
+    if not case.stone.shape.symmetric:
+        raise BadInput("shape", "not symmetric", "a stone whose halves are mirror images")
+
+
+def _solve(level: Level, box: Box, solver: CaseSolver) -> _Solved:
+    conditions = box.sample(level.case, level.count)
+    cases = [case_at(level.case, conditions, k) for k in range(len(conditions.friction))]
+    answers = solver.answers(cases, error=False)
+    lumen = lumen_ratios(level.case, conditions.wall_ratio, conditions.load_factor)
+    narrowest = narrowest_lumen(level.case, box)
+    return _Solved(level, box.setting(level.case, conditions, lumen, narrowest), answers)
+
+
+def _corrected(
+    before: SparsePolynomial | None, level: _Solved, values: Float[np.ndarray, "n functions"]
+) -> tuple[SparsePolynomial, Float[np.ndarray, "n functions"]]:
+    """Fit what earlier levels leave over; return all levels together and leave-one-out errors."""
+    rest = values if before is None else values - before(level.at.unit)
+    fitted, left_out = [], np.full(values.shape, np.nan)
+    for k in range(values.shape[1]):
+        known = np.isfinite(rest[:, k])
+        if known.sum() < FEWEST:
+            raise BadInput(
+                "number of cases with an answer", f"{known.sum()} of {len(known)}",
+                f"at least {FEWEST}", "make the box smaller",
+            )  # fmt: skip
+        found = fit_polynomial(
+            level.at.unit[known], rest[known, k], level.level.degrees, level.level.total
+        )
+        fitted.append(found.polynomial)
+        left_out[known, k] = found.left_out
+    correction = joined(fitted)
+    if before is None:
+        return correction, left_out
+    return _sum(before, correction), left_out
+
+
+def _sum(one: SparsePolynomial, other: SparsePolynomial) -> SparsePolynomial:
+    """Return the sum of two polynomials with the same functions."""
+    both, count = joined([one, other]), one.coefficients.shape[1]
+    coefficients = both.coefficients[:, :count] + both.coefficients[:, count:]
+    return SparsePolynomial(both.degrees, coefficients)
+
+
+def relative_errors(
+    pressure: Float[np.ndarray, " n"], true: Float[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"]:
+    """Return |pressure/true − 1|, after `FLOOR` is deducted from the difference; NaN where unknown.
+
+    Parameters
+    ----------
+    pressure, true : array (n)
+        Pressures in Pa; NaN where a pressure does not exist.
+    """
+    with np.errstate(invalid="ignore", divide="ignore"):
+        off = np.maximum(np.abs(pressure - true) - FLOOR, 0.0) / true
+    return np.where(np.isfinite(off), off, np.nan)
+
+
+def _claimed(
+    case: Case, physics: Any, left_out: Sequence[tuple[_Solved, Any, Any]]
+) -> SparsePolynomial:
+    """Return the logarithm of the claimed relative error of P_ucr, from leave-one-out errors.
+
+    The cases with the model and the options of the surrogate count, on the mesh of most of them.
+    """
+    level, values, left = max(
+        (each for each in left_out if each[0].level.case.model == case.model),
+        key=lambda each: each[0].level.count,
+    )
+    whole = (
+        np.isfinite(values).all(axis=1) if isinstance(physics, SeatedContact) else _pushed(values)
+    )
+    at, true = level.at.where(whole), np.array([_number(a) for a in level.answers])[whole]
+    shifted = np.where(np.isfinite(left), values + left, 0.0)[whole]
+    off = relative_errors(physics.solve(case, at, shifted).pressure, true)
+    known = np.isfinite(off)
+    logarithm = np.log(np.maximum(off[known], SMALLEST_ERROR))
+    fitted = fit_polynomial(at.unit[known], logarithm, ERROR_DEGREES, ERROR_TOTAL).polynomial
+    excess = np.quantile(logarithm - fitted(at.unit[known])[:, 0], CLAIM)
+    coefficients = fitted.coefficients.copy()
+    coefficients[~fitted.degrees.any(axis=1), 0] += excess + np.log(MARGIN)
+    return SparsePolynomial(fitted.degrees, coefficients)
+
+
+def _pushed(values: Float[np.ndarray, "n functions"]) -> Bool[np.ndarray, " n"]:
+    """Return which answers of the direct model have a critical pressure."""
+    return np.isfinite(values[:, 0])
+
+
+def _number(answer: Answer) -> float:
+    return np.nan if answer.pressure is None else answer.pressure
+
+
+def _about(case: Case, solved: Sequence[_Solved]) -> dict[str, Any]:
+    outcomes = Counter(each.outcome.name for each in solved[-1].answers)
+    levels = [
+        {"model": level.level.case.model.NAME, "options": repr(level.level.case.model),
+         "accuracy": level.level.case.numerics.accuracy, "cases": len(level.answers)}
+        for level in solved
+    ]  # fmt: skip
+    return {
+        "version": VERSION,
+        "fingerprint": fingerprint(replace(case), case.model, case.numerics),
+        "levels": levels,
+        "outcomes": dict(outcomes),
+    }

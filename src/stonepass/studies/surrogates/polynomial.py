@@ -1,0 +1,75 @@
+"""Functions on the unit cube as sparse sums of products of Chebyshev polynomials."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from stonepass.array_dataclass import array_dataclass
+from stonepass.array_types import Float, Int
+
+__all__ = ["SparsePolynomial", "chebyshev_products"]
+
+
+@array_dataclass
+@dataclass(frozen=True)
+class SparsePolynomial:
+    """Several functions of d coordinates, each between 0 and 1.
+
+    A function is Σ c_k T_k₁(2u₁ − 1) ⋯ T_k_d(2u_d − 1), where T_k is the Chebyshev polynomial of
+    degree k. All functions share the terms k.
+
+    Attributes
+    ----------
+    degrees : array (terms, d) of int
+        Degree of each term in each coordinate.
+    coefficients : array (terms, functions)
+        Coefficient of each term in each function.
+
+    Examples
+    --------
+    The function 1 + 2 u of one coordinate is 2 T₀ + T₁:
+
+    >>> line = SparsePolynomial(np.array([[0], [1]]), np.array([[2.0], [1.0]]))
+    >>> line(np.array([[0.0], [0.5], [1.0]])).ravel().tolist()
+    [1.0, 2.0, 3.0]
+    """
+
+    degrees: Int[np.ndarray, "terms d"]
+    coefficients: Float[np.ndarray, "terms functions"]
+
+    def __call__(self, points: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "n functions"]:
+        """Return the values of all functions at n points, each coordinate between 0 and 1."""
+        return chebyshev_products(points, self.degrees).T @ self.coefficients
+
+
+def chebyshev_products(
+    points: Float[np.ndarray, "n d"], degrees: Int[np.ndarray, "terms d"]
+) -> Float[np.ndarray, "terms n"]:
+    """Return the products of Chebyshev polynomials of all terms at n points.
+
+    Parameters
+    ----------
+    points : array (n, d)
+        Coordinates between 0 and 1.
+    degrees : array (terms, d) of int
+        Degree of each term in each coordinate.
+    """
+    found = np.ones((len(degrees), len(points)))
+    for column, degree in zip(points.T, degrees.T, strict=True):
+        powers = _chebyshev(2.0 * column - 1.0, int(degree.max(initial=0)))
+        for k, row in zip(degree, found, strict=True):
+            if k:
+                row *= powers[k]
+    return found
+
+
+def _chebyshev(x: Float[np.ndarray, " n"], highest: int) -> Float[np.ndarray, "m n"]:
+    """Return the Chebyshev polynomials of the degrees 0 to `highest` at x from −1 to 1."""
+    found = np.ones((highest + 1, len(x)))
+    if highest:
+        found[1] = x
+    for k in range(2, highest + 1):
+        found[k] = 2.0 * x * found[k - 1] - found[k - 2]
+    return found

@@ -1,0 +1,47 @@
+"""What the physics of a surrogate returns: outcomes, pressures and lower bounds of many cases."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from stonepass.array_dataclass import array_dataclass
+from stonepass.array_types import Float, Int
+from stonepass.errors import Outcome
+
+__all__ = ["BEYOND_CLOSURE", "LEAKS", "LOOSE", "MOVES", "NO_SOLUTION", "OUTCOMES", "Solved"]
+
+# The outcomes of a surrogate; arrays of outcomes contain the places in this tuple.
+OUTCOMES = (
+    Outcome.MOVES,
+    Outcome.LOOSE,
+    Outcome.BEYOND_CLOSURE,
+    Outcome.LEAKS,
+    Outcome.NO_SOLUTION,
+)
+MOVES, LOOSE, BEYOND_CLOSURE, LEAKS, NO_SOLUTION = range(len(OUTCOMES))
+
+
+@array_dataclass
+@dataclass(frozen=True)
+class Solved:
+    """The results of n cases with a stone that is larger than the lumen.
+
+    Attributes
+    ----------
+    outcome : array (n) of int
+        Places in `OUTCOMES`.
+    pressure : array (n)
+        P_ucr in Pa; NaN if it does not exist.
+    lower_bound : array (n)
+        Pressure in Pa that P_ucr exceeds; 0 if P_ucr exists, or if no bound is known.
+    quantities : mapping of str to array (n)
+        Further results by name, in SI units; NaN where they do not exist.
+    """
+
+    outcome: Int[np.ndarray, " n"]
+    pressure: Float[np.ndarray, " n"]
+    lower_bound: Float[np.ndarray, " n"]
+    quantities: Mapping[str, Float[np.ndarray, " n"]]

@@ -1,0 +1,251 @@
+"""A surrogate: the answers of a model over a box of inputs, in microseconds, with their error."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+
+from stonepass.about import DISCLAIMER
+from stonepass.array_dataclass import array_dataclass
+from stonepass.array_types import Float
+from stonepass.errors import BadInput
+from stonepass.model.case import Case
+from stonepass.studies.conditions import Conditions
+from stonepass.studies.surrogates.answers import SurrogateAnswers
+from stonepass.studies.surrogates.box import Box, Setting
+from stonepass.studies.surrogates.polynomial import SparsePolynomial
+from stonepass.studies.surrogates.solved import LOOSE, NO_SOLUTION, Solved
+
+__all__ = ["LearntPhysics", "Surrogate"]
+
+CHUNK = 4096  # number of conditions that are evaluated at a time; their arrays fit into the cache
+Given = Any  # a number or an array of numbers
+
+
+@runtime_checkable
+class LearntPhysics(Protocol):
+    """What a surrogate learns from answers of a model, and how an answer follows from it."""
+
+    def solve(self, case: Case, at: Setting, learnt: Float[np.ndarray, "n functions"]) -> Solved:
+        """Return the results of n cases for the values of the learnt functions."""
+
+
+@array_dataclass
+@dataclass(frozen=True, repr=False)
+class Surrogate:
+    """The answers of one model, material and kind of load over a box of inputs.
+
+    Attributes
+    ----------
+    case : Case
+        Material, kind of load, model and numerics. Its confining pressure is the largest one of the
+        box; size, wall and friction of the case do not matter.
+    box : Box
+        The range of the inputs.
+    physics : LearntPhysics
+        Gives the answer for values of the learnt functions.
+    learnt : SparsePolynomial
+        The learnt functions of the four coordinates of the box.
+    error : SparsePolynomial
+        Natural logarithm of the claimed relative error of P_ucr.
+    floor : float
+        Claimed absolute error of P_ucr in Pa, which is added to the relative one.
+    lumen : SparsePolynomial or None
+        Lumen r_a/R_a as a function of the coordinates of wall and load; None without a load, for
+        which it is 1.
+    about : mapping
+        How the surrogate was built and checked: version, fingerprint, number of cases, measured
+        errors, and the command that builds it again.
+    """
+
+    case: Case
+    box: Box
+    physics: LearntPhysics
+    learnt: SparsePolynomial
+    error: SparsePolynomial
+    floor: float
+    lumen: SparsePolynomial | None = None
+    about: Mapping[str, Any] = field(default_factory=dict)
+
+    def evaluate(
+        self,
+        *,
+        size_ratio: Given,
+        wall_ratio: Given,
+        friction: Given,
+        confining_pressure: Given = 0.0,
+        stiffness: Given = 1.0,
+    ) -> SurrogateAnswers:
+        """Return the answers for arrays of inputs.
+
+        All inputs may be numbers or arrays; they are broadcast to one shape and flattened.
+
+        Parameters
+        ----------
+        size_ratio, wall_ratio, friction : float or array
+            Size ratio ξ, wall ratio η and friction coefficient μ_f.
+        confining_pressure : float or array
+            Confining pressure P_out in Pa.
+        stiffness : float or array
+            Stiffness of the wall relative to the material, above 0. P_ucr of a wall that is s times
+            as stiff is s times P_ucr of the material under the confining pressure P_out/s.
+
+        Returns
+        -------
+        SurrogateAnswers
+            A condition outside the box has the outcome NO_SOLUTION.
+
+        Raises
+        ------
+        BadInput
+            An input is not finite, or is not positive where it has to be.
+
+        Examples
+        --------
+        >>> import stonepass as sp
+        >>> found = sp.load_surrogate("ureter").evaluate(
+        ...     size_ratio=[0.9, 1.1, 1.2], wall_ratio=1.3, friction=0.5)
+        >>> [outcome.name for outcome in found.outcomes]
+        ['LOOSE', 'MOVES', 'MOVES']
+        """
+        given = {"size_ratio": size_ratio, "wall_ratio": wall_ratio, "friction": friction,
+                 "confining_pressure": confining_pressure, "stiffness": stiffness}  # fmt: skip
+        size, wall, mu, confining, stiff = _checked(given)
+        most = self.case.load.confining_pressure
+        relative = confining / stiff
+        # Without a load in the box, any confining pressure is outside of it.
+        factor = relative / most if most > 0.0 else np.where(relative > 0.0, np.inf, 0.0)
+        asked = Conditions(size, wall, mu, factor)
+        found = self.solve(asked)
+        pressure, bound = stiff * found.pressure, stiff * found.lower_bound
+        quantities = {
+            name: stiff * values if name.endswith("pressure") or name == "error" else values
+            for name, values in found.quantities.items()
+        }
+        return SurrogateAnswers.of(
+            Solved(found.outcome, pressure, bound, quantities), ~self.box.contains(asked)
+        )
+
+    def solve(self, asked: Conditions) -> Solved:
+        """Return the results of n conditions; the load factor 1 is the load of the case.
+
+        Parameters
+        ----------
+        asked : Conditions
+            Size ratio, wall ratio, friction and load factor.
+        """
+        count = len(asked.size_ratio)
+        pieces = [slice(k, k + CHUNK) for k in range(0, count, CHUNK)] or [slice(0, 0)]
+        parts = _in_threads(lambda piece: self._solve(_part(asked, piece)), pieces)
+        names = parts[0].quantities
+        return Solved(
+            np.concatenate([each.outcome for each in parts]),
+            np.concatenate([each.pressure for each in parts]),
+            np.concatenate([each.lower_bound for each in parts]),
+            {name: np.concatenate([each.quantities[name] for each in parts]) for name in names},
+        )
+
+    def _solve(self, asked: Conditions) -> Solved:
+        inside = self.box.contains(asked)
+        held = self.box.clipped(asked)
+        lumen = self._lumen(held)
+        loose = asked.size_ratio <= lumen
+        stuck = inside & ~loose
+        at = self.box.setting(self.case, held, lumen, self.narrowest).where(stuck)
+        found = self.physics.solve(self.case, at, self.learnt(at.unit))
+        claim = found.pressure * np.exp(self.error(at.unit)[:, 0]) + self.floor
+        missing = np.where(inside, 0.0, np.nan)  # P_ucr of a loose stone is 0
+        return Solved(
+            _filled(np.where(inside, LOOSE, NO_SOLUTION), stuck, found.outcome),
+            _filled(missing, stuck, found.pressure),
+            _filled(np.zeros(len(stuck)), stuck, found.lower_bound),
+            {name: _filled(np.full(len(stuck), np.nan), stuck, each) for name, each in
+             found.quantities.items()} | {"error": _filled(missing, stuck, claim)},
+        )  # fmt: skip
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return box, origin and measured errors as a JSON-ready dictionary."""
+        return {
+            "material": self.case.ureter.material.name,
+            "model": self.case.model.NAME,
+            "options": repr(self.case.model),
+            "box": asdict(self.box)
+            | {"confining_pressure_Pa": float(self.case.load.confining_pressure)},
+            "terms": len(self.learnt.degrees),
+            "claimed_absolute_error_Pa": self.floor,
+            **self.about,
+            "disclaimer": DISCLAIMER,
+        }
+
+    def __repr__(self) -> str:
+        name, load = self.case.ureter.material.name, self.case.load.confining_pressure / 1e3
+        low, high = self.box.wall_ratio
+        return (
+            f"<Surrogate: model {self.case.model.NAME}, {name}; ξ up to {self.box.size_ratio:g}, "
+            f"η {low:g} to {high:g}, friction {self.box.friction[0]:g} to "
+            f"{self.box.friction[1]:g}, confining pressure up to {load:g} kPa>"
+        )
+
+    @cached_property
+    def narrowest(self) -> float:
+        """The smallest lumen r_a/R_a in the box."""
+        return 1.0 if self.lumen is None else float(self.lumen(np.array([[0.0, 1.0]]))[0, 0])
+
+    def _lumen(self, at: Conditions) -> Float[np.ndarray, " n"]:
+        if self.lumen is None:
+            return np.ones(len(at.size_ratio))
+        return self.lumen(np.stack([self.box.wall_coordinate(at), at.load_factor], axis=1))[:, 0]
+
+
+def _checked(given: Mapping[str, Given]) -> list[Float[np.ndarray, " n"]]:
+    """Return the inputs as flat arrays of one length; refuse numbers that are not possible."""
+    arrays = {}
+    for name, value in given.items():
+        try:
+            arrays[name] = np.asarray(value, dtype=float)
+        except (TypeError, ValueError):
+            raise BadInput(name, value, "a number or an array of numbers") from None
+        positive = name in ("size_ratio", "wall_ratio", "stiffness")
+        good = np.isfinite(arrays[name]) & (
+            (arrays[name] > 0.0) if positive else (arrays[name] >= 0.0)
+        )
+        if not good.all():
+            worst = float(arrays[name][~good].flat[0])
+            raise BadInput(name, worst, "above 0" if positive else "0 or more")
+    try:
+        together = np.broadcast_arrays(*arrays.values())
+    except ValueError:
+        shapes = ", ".join(f"{name} {each.shape}" for name, each in arrays.items() if each.ndim)
+        raise BadInput("inputs", shapes, "arrays of one shape") from None
+    return [np.ascontiguousarray(each).ravel() for each in together]
+
+
+def _filled(values: np.ndarray, chosen: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return a copy of `values` with `others` in the chosen rows."""
+    found = values.copy()
+    found[chosen] = others
+    return found
+
+
+def _part(asked: Conditions, piece: slice) -> Conditions:
+    return Conditions(
+        asked.size_ratio[piece],
+        asked.wall_ratio[piece],
+        asked.friction[piece],
+        asked.load_factor[piece],
+    )
+
+
+def _in_threads(work: Callable[[slice], Solved], pieces: list[slice]) -> list[Solved]:
+    """Apply `work` to every piece, in threads if there are several; NumPy runs in parallel."""
+    cores = os.cpu_count() or 1
+    if len(pieces) < 2 * cores or cores == 1:
+        return [work(each) for each in pieces]
+    with ThreadPoolExecutor(cores) as pool:
+        return list(pool.map(work, pieces))

@@ -37,6 +37,12 @@ def refusal(arguments):
     return f"from stonepass.cli import run; assert run('{arguments}'.split()) == 2"
 
 
+SURROGATE = (
+    "import stonepass as sp; "
+    "sp.load_surrogate().evaluate(size_ratio=1.2, wall_ratio=1.3, friction=0.5)"
+)
+
+
 @pytest.mark.parametrize(
     ("statement", "absent"),
     [
@@ -61,6 +67,7 @@ def refusal(arguments):
         ("import stonepass.model.far_field", (*HEAVY, "scipy")),
         ("import stonepass.model.models.elastic_foundation", (*HEAVY, "scipy")),
         ("import stonepass.records.answer", (*HEAVY, "scipy")),
+        (SURROGATE, (*HEAVY, "scipy.stats", "scipy.optimize", "dask", "distributed")),
         ("from stonepass.records import closures, compare, friction, rising", (*HEAVY, "scipy")),
         (
             "import stonepass.records.reference, stonepass.records.profile",  # all of them
@@ -131,7 +138,11 @@ LATE_LIBRARIES = {
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
     "scipy.ndimage": ("surface.grey_scale",),
-    "scipy.stats": ("studies.sweeps.sampling", "studies.uncertain_quantity"),
+    "scipy.stats": (
+        "studies.surrogates.box",
+        "studies.sweeps.sampling",
+        "studies.uncertain_quantity",
+    ),
     "stonepass.report": ("stonepass",),  # results are shown by it, from their first table on
 }
 

@@ -15,6 +15,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from stonepass.bench.comparison import point_curves
 from stonepass.bench.invitro import InVitro
 from stonepass.bench.law_fit import FittedLaw
 from stonepass.clinic.assessment import Assessment
@@ -242,7 +243,7 @@ def _joined(value: Any) -> Any:
 
 
 def _series_figure(found: InVitro) -> Figure:
-    return invitro_figure(found, [])
+    return invitro_figure(found, point_curves(found.comparison))
 
 
 SHOWN: dict[type, Shown] = {
@@ -318,14 +319,6 @@ SHOWN: dict[type, Shown] = {
         plot=plots.plot_assessment,
         figure=pressures_figure,
     ),
-    SweepResults: Shown(
-        record=lambda found: sweep_record(found).to_dict(),
-        parts=lambda found: [*sweep_tables(found), *sweep_sentences(found)],
-        warnings=sweep_warnings,
-        plot=plot_sweep,
-        figure=sweep_figure,
-        rows=_sweep_rows,
-    ),
     Sensitivity: Shown(
         record=lambda found: sensitivity_record(found).to_dict(),
         parts=sensitivity_parts,
@@ -333,5 +326,13 @@ SHOWN: dict[type, Shown] = {
         plot=plots.plot_sensitivity,
         figure=sensitivity_figure,
         rows=sensitivity_rows,
+    ),
+    SweepResults: Shown(
+        record=lambda found: sweep_record(found).to_dict(),
+        parts=lambda found: [*sweep_tables(found), *sweep_sentences(found)],
+        warnings=sweep_warnings,
+        plot=plot_sweep,
+        figure=sweep_figure,
+        rows=_sweep_rows,
     ),
 }

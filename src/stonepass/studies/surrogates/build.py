@@ -18,7 +18,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.models.push_through import PushThrough
 from stonepass.model.models.seated_balance import SeatedBalance
-from stonepass.studies.case_solver import CaseSolver
+from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.studies.conditions import lumen_ratios
 from stonepass.studies.surrogates.box import Box, Setting, case_at, fit_lumen, narrowest_lumen
 from stonepass.studies.surrogates.levels import Level, levels_for
@@ -65,7 +65,7 @@ def build_surrogate(
     docs/surrogates.md, "How a surrogate is built".
     """
     _refuse(case)
-    box, solver = box or Box(), solver or _default_solver()
+    box, solver = box or Box(), solver or JobSolver(progress=True)
     solved = [_solve(level, box, solver) for level in levels_for(case, effort)]
     kind = SeatedContact if isinstance(case.model, SeatedBalance) else PushedStone
     everything = [each for level in solved for each in level.answers]
@@ -98,12 +98,6 @@ class _Solved:
     level: Level
     at: Setting
     answers: list[Answer]
-
-
-def _default_solver() -> CaseSolver:
-    from stonepass.studies.case_solver import JobSolver
-
-    return JobSolver(progress=True)
 
 
 def _refuse(case: Case) -> None:

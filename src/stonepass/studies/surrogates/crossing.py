@@ -19,7 +19,7 @@ Rows = Any  # an array of row numbers, or the slice of all rows
 Excess = Callable[[Float[np.ndarray, " m"], Rows], Float[np.ndarray, " m"]]
 ALL = slice(None)
 STEP = 0.02  # distance of the second point of the secant method from the guess
-CLOSE = 2e-3  # largest last step of a secant method that has converged
+CLOSE = 2e-4  # largest last step of a secant method that has converged
 
 
 def first_crossing(

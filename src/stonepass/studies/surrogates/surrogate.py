@@ -15,6 +15,7 @@ from stonepass.about import DISCLAIMER
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import BadInput
+from stonepass.fe.core.threads import one_thread
 from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions
 from stonepass.studies.surrogates.answers import SurrogateAnswers
@@ -247,5 +248,6 @@ def _in_threads(work: Callable[[slice], Solved], pieces: list[slice]) -> list[So
     cores = os.cpu_count() or 1
     if len(pieces) < 2 * cores or cores == 1:
         return [work(each) for each in pieces]
-    with ThreadPoolExecutor(cores) as pool:
+    # Matrix products would otherwise start threads of their own in each of these threads.
+    with one_thread(), ThreadPoolExecutor(cores) as pool:
         return list(pool.map(work, pieces))

@@ -7,6 +7,7 @@ through an executor of their own, which passes on every end of a task.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
@@ -73,6 +74,20 @@ def client_of(executor: Executor) -> Any | None:
 
 
 @contextmanager
+def _quiet() -> Iterator[None]:
+    """Silence the logs of Dask; a lost connection is told by one sentence instead of tracebacks."""
+    loggers = [logging.getLogger(name) for name in ("distributed", "tornado.application")]
+    before = [each.level for each in loggers]
+    for each in loggers:
+        each.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for each, level in zip(loggers, before, strict=True):
+            each.setLevel(level)
+
+
+@contextmanager
 def cluster(address: str) -> Iterator[ClusterExecutor]:
     """Yield an executor that runs calls on the workers of a Dask scheduler.
 
@@ -87,6 +102,11 @@ def cluster(address: str) -> Iterator[ClusterExecutor]:
         Dask is not installed, no scheduler answers at the address, or it has no workers.
     """
     distributed = library("distributed", "run on a cluster", EXTRA)
+    with _quiet():
+        yield from _connected(distributed, address)
+
+
+def _connected(distributed: Any, address: str) -> Iterator[ClusterExecutor]:
     try:
         client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as problem:

@@ -73,23 +73,22 @@ def client_of(executor: Executor) -> Any | None:
     return getattr(executor, "_client", None)
 
 
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Silence the logs of Dask; a lost connection is told by one sentence instead of tracebacks."""
-    loggers = [logging.getLogger(name) for name in ("distributed", "tornado.application")]
-    before = [each.level for each in loggers]
-    for each in loggers:
-        each.setLevel(logging.CRITICAL + 1)
-    try:
-        yield
-    finally:
-        for each, level in zip(loggers, before, strict=True):
-            each.setLevel(level)
+def _silence() -> None:
+    """Silence the logs of Dask until the process ends.
+
+    A lost connection is told by one sentence; Dask logs tracebacks of it until after its client was
+    closed.
+    """
+    for name in ("asyncio", *logging.root.manager.loggerDict):
+        if name.partition(".")[0] in ("asyncio", "distributed", "tornado"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
 @contextmanager
 def cluster(address: str) -> Iterator[ClusterExecutor]:
     """Yield an executor that runs calls on the workers of a Dask scheduler.
+
+    The command line uses this function; it silences the logs of Dask.
 
     Parameters
     ----------
@@ -102,11 +101,7 @@ def cluster(address: str) -> Iterator[ClusterExecutor]:
         Dask is not installed, no scheduler answers at the address, or it has no workers.
     """
     distributed = library("distributed", "run on a cluster", EXTRA)
-    with _quiet():
-        yield from _connected(distributed, address)
-
-
-def _connected(distributed: Any, address: str) -> Iterator[ClusterExecutor]:
+    _silence()
     try:
         client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as problem:

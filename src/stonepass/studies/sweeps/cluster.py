@@ -7,6 +7,7 @@ through an executor of their own, which passes on every end of a task.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
@@ -72,9 +73,22 @@ def client_of(executor: Executor) -> Any | None:
     return getattr(executor, "_client", None)
 
 
+def _silence() -> None:
+    """Silence the logs of Dask until the process ends.
+
+    A lost connection is told by one sentence; Dask logs tracebacks of it until after its client was
+    closed.
+    """
+    for name in ("asyncio", *logging.root.manager.loggerDict):
+        if name.partition(".")[0] in ("asyncio", "distributed", "tornado"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+
+
 @contextmanager
 def cluster(address: str) -> Iterator[ClusterExecutor]:
     """Yield an executor that runs calls on the workers of a Dask scheduler.
+
+    The command line uses this function; it silences the logs of Dask.
 
     Parameters
     ----------
@@ -87,6 +101,7 @@ def cluster(address: str) -> Iterator[ClusterExecutor]:
         Dask is not installed, no scheduler answers at the address, or it has no workers.
     """
     distributed = library("distributed", "run on a cluster", EXTRA)
+    _silence()
     try:
         client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as problem:

@@ -14,7 +14,7 @@ def tube(
     model: str = "paper",
     accuracy: str = "standard",
 ) -> sp.Case:
-    """A sphere in a tube, by ratios."""
+    """Return the case of a sphere in a tube, given by ratios."""
     return sp.Case(
         sp.Stone(size_ratio=xi, friction=friction),
         sp.Ureter(wall_ratio=eta, material=material),

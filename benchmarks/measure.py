@@ -1,4 +1,4 @@
-"""Seconds of processor and of the clock, of a call in this process and of a whole command."""
+"""Processor time and elapsed time of a call in this process and of a whole command."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 @dataclass(frozen=True)
 class Row:
-    """One number; `target` is the most it may be, or with `at_least` the least."""
+    """One measured number; `target` is its largest value, or its smallest with `at_least`."""
 
     section: str
     what: str
@@ -42,7 +42,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Spent:
-    """Seconds of processor, seconds of the clock, largest memory in MB of a whole command."""
+    """Processor time and elapsed time in s, and largest memory in MB, of a whole command."""
 
     cpu: float
     wall: float
@@ -52,7 +52,7 @@ class Spent:
 
 
 def cpu_seconds(call: Callable[[], object], repeats: int = 7) -> float:
-    """Median of several calls after one to warm up, this process's processor time."""
+    """Return the median processor time of several calls, after one call that is not counted."""
     call()
     seconds = []
     for _ in range(repeats):
@@ -62,8 +62,8 @@ def cpu_seconds(call: Callable[[], object], repeats: int = 7) -> float:
     return statistics.median(seconds)
 
 
-# A small process that runs a command and reports on it: a child's largest memory counts from before
-# it became itself, when it was still a copy of its parent, and this one is large.
+# A small process runs the command and reports on it. The largest memory of a child includes the
+# moment at which it is still a copy of its parent, and this process is large.
 LAUNCHER = """
 import json, resource, subprocess, sys, time
 started = time.perf_counter()
@@ -75,7 +75,7 @@ json.dump([used.ru_utime + used.ru_stime, time.perf_counter() - started, used.ru
 
 
 def spend(command: list[str], folder: Path | None = None) -> Spent:
-    """Run a command on one thread; what it took is its own alone."""
+    """Run a command on one thread and measure that command only."""
     launched = subprocess.run(
         [sys.executable, "-S", "-c", LAUNCHER, *command],
         cwd=folder,
@@ -89,7 +89,7 @@ def spend(command: list[str], folder: Path | None = None) -> Spent:
 
 @dataclass
 class Decks:
-    """Runs decks of CalculiX in a folder, and keeps beside each deck what its run took.
+    """Runs decks of CalculiX in a folder, and stores the measurements beside each deck.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Decks:
         Take the run of a deck that an interrupted benchmark left in the folder, if the deck is the
         same apart from its comments.
     resumed : int
-        How many runs were taken.
+        Number of runs that were taken from the folder.
     """
 
     folder: Path
@@ -126,18 +126,18 @@ class Decks:
 
 
 def stonepass(*arguments: str, repeats: int = 3) -> Spent:
-    """The command line, cold; the run of the median clock time."""
+    """Run a command several times in new processes; return the run of median elapsed time."""
     runs = [spend([sys.executable, "-m", "stonepass", *arguments]) for _ in range(repeats)]
     return sorted(runs, key=lambda run: run.wall)[repeats // 2]
 
 
 def memory() -> float:
-    """Largest memory of this process so far in MB."""
+    """Return the largest memory of this process so far in MB."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
 
 
 def machine() -> dict[str, str]:
-    """What the numbers were measured on."""
+    """Return the machine and the versions with which the numbers were measured."""
     import ngsolve
     import numpy
 
@@ -165,7 +165,7 @@ def _processor() -> str:
 
 
 def calculix() -> str | None:
-    """Version of CalculiX; None where it is not installed."""
+    """Return the version of CalculiX, or None if it is not installed."""
     try:
         found = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False)
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""The benchmark's page in the docs, from its JSON."""
+"""The page of the benchmark in the documentation, made from its JSON."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ explains what reduced the times, and [Export to other programs](export.md) descr
 
 
 def page(found: dict[str, Any], sections: dict[str, str]) -> str:
-    """Markdown of everything."""
+    """Return the page as Markdown."""
     machine = ", ".join(f"{name} {value}" for name, value in found["machine"].items())
     parts = [HEAD, f"*{found['date']}, code {found['code']}; {machine}.*"]
     if found["resumed"]:

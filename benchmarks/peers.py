@@ -1,4 +1,4 @@
-"""The seated state beside CalculiX: time and error of both against our reference, in one run."""
+"""The seated state by stonepass and by CalculiX: times, and errors relative to our reference."""
 
 from __future__ import annotations
 
@@ -25,39 +25,39 @@ FINE = 0.025
 ALLOWED = (0.5, 0.02, 0.01)
 OURS = ("fast", "standard")
 ALONE = ", state alone"
-# By seating and element: how many times as much processor time CalculiX takes, at least.
+# By seating and element: smallest ratio of the processor times of CalculiX and stonepass.
 TARGETS = {
     ("frictionless", "CAX8"): 100.0,
     ("frictionless", "CAX8R"): 30.0,
     ("pressed", "CAX8"): 30.0,
     ("pressed", "CAX8R"): None,
 }
-# Longer increments are faster where CalculiX converges with them.
-INCREMENTS = (2.0, 1.0)  # times the deck's own
+# Lengths of the increments over those of the deck; longer ones are faster if they converge.
+INCREMENTS = (2.0, 1.0)
 
 
 @dataclass(frozen=True)
 class Solved:
-    """Seconds of processor, and what came out: α₀ in degrees, σ(π/2) and P_ucr in Pa."""
+    """Processor time in s, and results: α₀ in degrees, σ(π/2) and P_ucr in Pa."""
 
     who: str
     cpu: float
     numbers: tuple[float, float, float]
 
     def errors(self, exact: Solved) -> tuple[float, float, float]:
-        """Of α₀ in degrees, of σ(π/2) and P_ucr relative."""
+        """Return the error of α₀ in degrees, and the relative errors of σ(π/2) and P_ucr."""
         mine, right = np.array(self.numbers), np.array(exact.numbers)
         off = np.abs(mine - right) / np.array([1.0, right[1], right[2]])
         return tuple(off.tolist())
 
 
 def latex(kind: str, accuracy: str = "standard") -> sp.Case:
-    """The paper's latex tube and a stone 1.2 times its lumen."""
+    """Return the case of the paper's latex tube and a stone 1.2 times its lumen."""
     return tube(kind, "latex", 1.5, 1.2, 0.475, accuracy=accuracy)
 
 
 def peers(decks: Decks) -> Iterator[tuple[str, list[Solved], Solved]]:
-    """Yield the seating, those who solved it, and the reference."""
+    """Yield the seating, its solutions by both programs, and the reference."""
     for kind in ("frictionless", "pressed"):
         exact = ours(kind, "reference", repeats=1)
         found = [ours(kind, level, alone=alone) for level in OURS for alone in (True, False)]
@@ -67,7 +67,7 @@ def peers(decks: Decks) -> Iterator[tuple[str, list[Solved], Solved]]:
 
 
 def ours(kind: str, level: str, *, alone: bool = False, repeats: int = 7) -> Solved:
-    """A whole answer with the estimate of its error; `alone`, without it, as CalculiX has none."""
+    """Solve with the error estimate, or without it if `alone`, since CalculiX has none."""
     return _solved(latex(kind, level), f"stonepass, {level}", alone=alone, repeats=repeats)
 
 
@@ -81,22 +81,22 @@ def _solved(asked: sp.Case, who: str, *, alone: bool = False, repeats: int = 7) 
 
 @dataclass(frozen=True)
 class Duel:
-    """The cheapest of the tuned decks of one case beside ours.
+    """The fastest tuned deck of one case, compared with stonepass.
 
     Attributes
     ----------
     name, kind : str
         Case and seating.
     tried, ended : int
-        Decks that were run, and those that came to an end near enough to the solution.
+        Number of decks that were run, and of those whose errors are within `ALLOWED`.
     best : Solved
-        The cheapest of them.
+        The fastest of them.
     settings : str
         Its settings.
     mine : list of Solved
-        Ours at every accuracy, with and without the estimate of the error.
+        Solutions of stonepass at every accuracy, with and without the error estimate.
     exact : Solved
-        Our reference.
+        The solution of stonepass at the accuracy `reference`.
     """
 
     name: str
@@ -109,7 +109,7 @@ class Duel:
     exact: Solved
 
     def ratios(self) -> Iterator[tuple[str, float]]:
-        """How many times as much the tuned deck takes, by those of ours that are nowhere worse."""
+        """Yield the ratio of processor times for each of our solutions without a larger error."""
         for each in self.mine:
             pairs = zip(each.errors(self.exact), self.best.errors(self.exact), strict=True)
             if all(a <= b for a, b in pairs):
@@ -117,7 +117,7 @@ class Duel:
 
 
 def duels(decks: Decks) -> Iterator[Duel]:
-    """Search the tuned decks of every case and put the cheapest beside ours."""
+    """Yield the fastest tuned deck of every case, with the solutions of stonepass."""
     exact = {
         (name, kind): _solved(case(name, kind, "reference"), "stonepass, reference", repeats=1)
         for name in CASES
@@ -148,7 +148,7 @@ def duels(decks: Decks) -> Iterator[Duel]:
 
 
 def duel_rows(fought: list[Duel]) -> Iterator[Row]:
-    """The least and the most favourable ratio by seating, with and without our error estimate."""
+    """Yield smallest and largest ratio by seating, with and without our error estimate."""
     for kind in KINDS:
         for alone in (True, False):
             found = [
@@ -165,7 +165,7 @@ def duel_rows(fought: list[Duel]) -> Iterator[Row]:
 
 
 def theirs(kind: str, element: str, decks: Decks) -> Solved:
-    """The exported deck, with the longest increments that converge."""
+    """Run the exported deck with the longest increments that converge."""
     model = seating(latex(kind), FINE)
     for times in INCREMENTS:
         job = f"{kind}_{element}_{times:g}"
@@ -186,7 +186,7 @@ def _numbers(contact: Contact) -> tuple[float, float, float]:
 
 
 def ratios(kind: str, found: list[Solved], exact: Solved) -> Iterator[Row]:
-    """How many times as much CalculiX takes as the cheapest of ours that is nowhere worse."""
+    """Yield ratios of processor times; the target is for our fastest without a larger error."""
     mine = [each for each in found if each.who.startswith("stonepass")]
     for other in (each for each in found if not each.who.startswith("stonepass")):
         element = other.who.rpartition(" ")[2]
@@ -212,7 +212,7 @@ def ratios(kind: str, found: list[Solved], exact: Solved) -> Iterator[Row]:
 
 
 def cold_ratios(kind: str, found: list[Solved]) -> Iterator[Row]:
-    """CalculiX's process over the whole command, which loads its libraries for one answer."""
+    """Yield ratios to a whole command of stonepass, which loads its libraries for one answer."""
     command = ("pressure", "--xi", "1.2", "--eta", "1.5", "--material", "latex",
                "--friction", "0.475", "--seating", kind)  # fmt: skip
     cold = stonepass(*command, "--no-cache").cpu

@@ -1,4 +1,4 @@
-"""Where the time of a solve goes: the engine's calls, timed by the profiler."""
+"""The fractions of the time of a solve, measured by a profiler."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from cases import tube
 import stonepass as sp
 
 REPEATS = 5
-# Phase to the functions that do it, by the ends of their names as the profiler writes them.
+# The functions of each phase, by the ends of their names in the profiler's output.
 PHASES = {
     "tangent: assembly and condensation": ("ngsolve.comp.AssembleLinearization",),
     "tangent: factorisation": ("ngsolve.la.Inverse", "ngsolve.la.Update"),
@@ -29,7 +29,7 @@ PHASES = {
 
 
 def phases() -> dict[str, dict[str, str]]:
-    """By case, then by phase: its share of the time; the last entry is seconds per solve."""
+    """Return the fraction of the time by case and phase; the last entry is seconds per solve."""
     cases = {
         "frictionless latex, η 1.5, ξ 1.2": tube("frictionless", "latex", 1.5, 1.2),
         "frictionless ureter, η 1.3, ξ 1.21": tube("frictionless", "ureter", 1.3, 1.21),
@@ -40,7 +40,7 @@ def phases() -> dict[str, dict[str, str]]:
 
 
 def shares(call) -> dict[str, str]:
-    """Share of each phase, the rest, and seconds per call (the profiler's own time included)."""
+    """Return the fraction of each phase and of the rest, and seconds per call with the profiler."""
     call()
     profiler = cProfile.Profile()
     profiler.enable()
@@ -57,7 +57,7 @@ def shares(call) -> dict[str, str]:
 
 
 def cumulated(table, names: tuple[str, ...]) -> float:
-    """Seconds in the functions of these names, what they call included."""
+    """Return the seconds in functions of these names, including the functions that they call."""
     return sum(
         inclusive
         for (file, _, function), (_, _, _, inclusive, _) in table.items()

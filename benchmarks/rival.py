@@ -1,8 +1,8 @@
-"""CalculiX at its best: decks for the same case, searched over a stated grid of settings.
+"""Tuned decks of CalculiX: the settings of a deck are searched on a grid for each case.
 
-The exported deck is made to converge for every case; a deck tuned for one case is several times
-cheaper. Here element, length of elements, rows, stiffness of the contact and increments are
-searched for each seating of one case, and the best settings are tried on the other cases.
+The exported deck is designed to converge for every case; a deck that is tuned to one case is
+several times faster. Here element, length of elements, rows, stiffness of the contact and
+increments are searched for each seating of one case, and the best settings are tried on the others.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ from stonepass.model.states.nondimensional import profile_of
 from stonepass.model.states.seated_state import Contact
 
 GROWTH = 1.15  # largest ratio of neighbouring elements along the tube, beyond the contact
-LONGEST = 0.4  # element along the tube, in inner radii
-REACH = 0.85  # of the elements of one length, over the guessed contact
-FACING_REACH = 1.5  # of the faces that may touch, over the guessed contact, as in the exported deck
+LONGEST = 0.4  # longest element along the tube in inner radii
+REACH = 0.85  # extent of the elements of equal length over the guessed contact
+FACING_REACH = 1.5  # extent of the faces that may touch over the guessed contact, as exported
 COLUMN = 2.0  # length of an element of the stone over that of one of the wall
 SETTINGS = {
     "element": ("CAX8R", "CAX8"),
     "fine": (0.025, 0.04),  # length of elements in the contact, over R_a
     "rows": (3, 4),
     "stiffness": (2.0, 10.0),  # penalty × length of an element over w''(1)
-    "increments": (10, 20),  # of the second step, at least
+    "increments": (10, 20),  # smallest number in the second step
 }
 CASES = {
     "latex, η 1.5, ξ 1.2": ("latex", 1.5, 1.2, 0.475),
@@ -45,8 +45,8 @@ CASES = {
     "latex, η 2.5, ξ 1.1": ("latex", 2.5, 1.1, 0.5),
 }
 KINDS = ("frictionless", "pressed")
-TRIED = 4  # settings of the first case, its cheapest ones, that the others are solved with
-SECONDS = 120.0  # after which a run is given up
+TRIED = 4  # number of the fastest settings of the first case with which the others are solved
+SECONDS = 120.0  # time after which a run is stopped
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class Run:
-    """A deck that was run: processor seconds and the contact, or None where it did not end."""
+    """A deck that was run: processor time in s and the contact, or None without a result."""
 
     settings: Settings
     cpu: float
@@ -92,7 +92,7 @@ def all_settings() -> list[Settings]:
 def tuned(asked: sp.Case, settings: Settings) -> Seating:
     """Return the exported seating with the mesh and the contact of the settings."""
     plain = seating(asked, settings.fine)
-    guess = settings.fine * plain.facing.stop / FACING_REACH  # of the contact's edge
+    guess = settings.fine * plain.facing.stop / FACING_REACH  # position of the contact edge
     axial = _axial(REACH * guess, settings.fine, asked.numerics.half_length)
     strip, travel = element_strip(
         asked, seating_of(asked), profile_of(asked), 1.0, (-guess, guess), False,
@@ -109,7 +109,7 @@ def tuned(asked: sp.Case, settings: Settings) -> Seating:
 
 
 def _axial(even: float, fine: float, end: float) -> np.ndarray:
-    """Lines along the tube: elements of one length, then growing ones up to the tube's end."""
+    """Return positions of grid lines: elements of equal length, then growing ones to the end."""
     count = int(np.ceil(even / fine))
     lines = [fine * k for k in range(count + 1)]
     while lines[-1] < end:
@@ -134,7 +134,7 @@ def run(name: str, kind: str, settings: Settings, decks: Decks) -> Run:
 
 
 def search(decks: Decks, usable: Usable) -> Iterator[tuple[str, str, list[Run]]]:
-    """Yield case, seating and runs: the whole grid for the first case, its best for the others.
+    """Yield case, seating and runs: the whole grid for the first case, the best for the others.
 
     Parameters
     ----------

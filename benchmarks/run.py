@@ -1,10 +1,10 @@
-"""One run, one table: stonepass against CalculiX, its own scaling, and what whole work takes.
+"""Benchmark: stonepass compared with CalculiX, growth with unknowns, and whole commands.
 
     python benchmarks/run.py [--out FOLDER] [--json] [--resume]
 
 Writes docs/benchmark.md and docs/data/benchmark.json; decks and results of CalculiX stay in FOLDER
-(build/benchmark). One thread; ratios are of one run. These machines are noisy: a missed target is
-reported, not raised.
+(build/benchmark). Every solve has one thread, and ratios compare times of the same run. The
+machines are noisy, so that a missed target is reported and is not an error.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def main() -> None:
 
 
 def measured(decks: Decks) -> dict:
-    """Run everything; each row is printed as it is known."""
+    """Run all measurements; print each row when it is known."""
     from peers import calculix, cold_ratios, duel_rows, duels, peers, ratios
     from phases import phases
     from rival import SETTINGS
@@ -112,7 +112,7 @@ def measured(decks: Decks) -> dict:
 
 
 def duel_record(duel: Duel) -> dict[str, Any]:
-    """One case beside its cheapest tuned deck, JSON-ready."""
+    """Return the fastest tuned deck of a case, compared with stonepass, ready for JSON."""
     angle, sigma, critical = duel.best.errors(duel.exact)
     return {
         "case": duel.name,
@@ -130,7 +130,7 @@ def duel_record(duel: Duel) -> dict[str, Any]:
 
 
 def commit() -> str:
-    """Which code was measured."""
+    """Return the commit of the code that was measured."""
     found = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, text=True,
                            capture_output=True, check=False)  # fmt: skip
     return found.stdout.strip()

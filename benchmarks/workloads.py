@@ -1,4 +1,4 @@
-"""How cost grows with unknowns, and what curves, surfaces, direct answers and commands take."""
+"""Times of seated states over unknowns, and of curves, surfaces, answers and commands."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LARGEST_EXPONENT = 1.3
 
 @dataclass(frozen=True)
 class Scaling:
-    """Unknowns and processor seconds of one mesh after another, and the fitted power."""
+    """Unknowns and processor times in s of several meshes, and the fitted exponent."""
 
     what: str
     dofs: tuple[int, ...]
@@ -38,7 +38,7 @@ class Scaling:
 
 
 def scalings() -> Iterator[Scaling]:
-    """Seated states on finer and finer meshes, the path's increments kept."""
+    """Yield times of seated states on finer and finer meshes with the same increments."""
     for kind, material, eta, xi in (
         ("frictionless", "latex", 1.5, 1.2),
         ("pressed", "latex", 1.5, 1.2),
@@ -60,7 +60,7 @@ def scalings() -> Iterator[Scaling]:
 
 
 def single() -> Iterator[Row]:
-    """One answer after import, error estimate included."""
+    """Yield processor times of one answer after import, error estimate included."""
     ureter, latex = ("pressed", "ureter"), ("pressed", "latex", 1.5, 1.2, 0.475)
     for what, target, case in (
         ("frictionless latex, η 1.5, ξ 1.2", 0.3, tube("frictionless", "latex", 1.5, 1.2)),
@@ -75,7 +75,7 @@ def single() -> Iterator[Row]:
 
 
 def many(workers: int) -> Iterator[Row]:
-    """Curves in this process, and the surface of Fig. 8b in a pool; by the clock."""
+    """Yield elapsed times of curves in this process, and of the surface of Fig. 8b in a pool."""
     for kind, material, eta, top, target in (
         ("frictionless", "latex", 1.5, 1.5, 8.0),
         ("frictionless", "ureter", 1.3, 1.3, 8.0),
@@ -94,7 +94,7 @@ def many(workers: int) -> Iterator[Row]:
 
 
 def commands() -> Iterator[Row]:
-    """Whole commands from a cold interpreter, by the clock, and their largest memory."""
+    """Yield elapsed times of whole commands in new processes, and their largest memory."""
     latex = ("--xi", "1.2", "--eta", "1.5", "--material", "latex", "--no-cache")
     ureter = ("--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.54mm", "--no-cache")
     smooth = ("--seating", "frictionless")
@@ -117,7 +117,7 @@ def commands() -> Iterator[Row]:
 
 
 def processes() -> int:
-    """Two, as the target says, or one where there are no two cores."""
+    """Return two, for which the target is stated, or one on a machine with one core."""
     return min(2, os.cpu_count() or 1)
 
 

@@ -1,4 +1,4 @@
-"""Make the bench data of the examples: strips and a tube of known laws, measured with noise.
+"""Make the test data of the examples: tests of strips and a tube of known laws, with noise.
 
     python examples/make_bench.py [FOLDER]
 

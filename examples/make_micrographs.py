@@ -1,4 +1,4 @@
-"""Make the micrographs of the examples: surfaces that are known exactly, as files of instruments.
+"""Make the micrographs of the examples: files of instruments with exactly known surfaces.
 
     python examples/make_micrographs.py [FOLDER]
 
@@ -18,10 +18,11 @@ SEED = 2022
 
 
 def known_profile(distance, k0=0.38, k1=0.12, orders=(8, 16)):
-    """Heights whose baseline of the first order has slope k0, and whose deviation has k1.
+    """Return heights whose first baseline has the largest slope k0, and the deviation from it k1.
 
-    The first part is a sum of the baseline's own waves; the second of shorter ones, made orthogonal
-    to all that the first baseline can follow. Both are steepest well away from the ends.
+    The first part is a sum of terms of the first baseline. The second part consists of shorter
+    waves and is orthogonal to all terms of the first baseline. The largest slopes of both parts are
+    away from the ends.
     """
     t = distance / distance[-1]
     fine = np.linspace(0.0, 1.0, 20_001)
@@ -32,7 +33,7 @@ def known_profile(distance, k0=0.38, k1=0.12, orders=(8, 16)):
         return np.column_stack([np.ones_like(x), x, x**2, np.cos(np.outer(x, waves))])
 
     def inside(coefficients, order):
-        """The largest slope, and whether it is away from the ends."""
+        """Return the largest slope, and whether it is away from the ends."""
         slopes = np.abs(np.gradient(terms(fine, orders[1]) @ coefficients, fine))
         return slopes.max() / distance[-1], abs(fine[slopes.argmax()] - 0.5) < 0.5 - 1.0 / order
 
@@ -49,7 +50,7 @@ def known_profile(distance, k0=0.38, k1=0.12, orders=(8, 16)):
 
 
 def cubic_crystals(rows=400, columns=512, pixel=0.5, edge=20.0, count=900):
-    """Heights in µm of a heap of cubes that stand on a corner, each turned about its diagonal."""
+    """Return heights in µm of a heap of cubes on their corners, each rotated about its diagonal."""
     generator = np.random.default_rng(SEED)
     grid = np.mgrid[0:rows, 0:columns] * pixel
     surface = np.full((rows, columns), -np.inf)
@@ -125,7 +126,7 @@ def with_fixed_date(path):
 
 def main():
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
-    print(f"relief of known_slopes.png: {write_png(folder):.4f} µm")
+    print(f"height range of known_slopes.png: {write_png(folder):.4f} µm")
     heights = cubic_crystals()
     write_tiff(folder, heights)
     write_x3p(folder, heights)

@@ -1,4 +1,4 @@
-"""A wall of one's own: a strain energy in plain arithmetic, used in both halves of the model.
+"""Your own wall: a strain energy in plain arithmetic, used for the far field and the contact.
 
 stonepass pressure --xi 1.2 --eta 1.3 --material examples/own_law.py:energy
 """

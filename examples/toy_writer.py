@@ -2,8 +2,9 @@
 
 python examples/toy_writer.py [FOLDER]
 
-In the package this file would stand in `stonepass/export/writers`, and its `CONTACT` in the tuple
-of `stonepass/export/registry.py`; then ``stonepass export`` has it too, with its option and help.
+To add the format to the package, put this file into `stonepass/export/writers` and its `CONTACT`
+into the tuple of `stonepass/export/registry.py`. ``stonepass export`` then has the format, its
+option and its help.
 """
 
 import sys
@@ -17,7 +18,7 @@ PASCAL_PER = {"kPa": 1e3, "mmHg": 133.322387415}
 
 
 def contact_table(case, options, solved):
-    """Return the table; no content where the stone is not held, so that there is no contact."""
+    """Return the table, or no content if the stone is not held and there is no contact."""
     answer, unit = solved(), options["unit"]
     contact = answer.contact
     if contact is None:

@@ -76,6 +76,12 @@ def test_values_are_values():
     assert replace(stone, friction=0.1) == sp.Stone("4.2 mm", friction=0.1)
     ureter = sp.Ureter("3.5 mm", "4.55 mm")
     assert replace(ureter, material="latex") == sp.Ureter("3.5 mm", "4.55 mm", "latex")
+    with pytest.raises(sp.Misplaced, match=r"the diameters give 0\.75 mm"):
+        replace(ureter, outer_diameter="5 mm")
+    derived = {"wall_ratio": None, "wall_thickness": None}
+    assert replace(ureter, outer_diameter="5 mm", **derived) == sp.Ureter("3.5 mm", "5 mm")
+    thick = replace(ureter, outer_diameter=None, wall_ratio=None, wall_thickness="0.75 mm")
+    assert thick == sp.Ureter("3.5 mm", "5 mm")
     with pytest.raises(AttributeError):
         stone.friction = 0.2
 

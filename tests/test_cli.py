@@ -493,7 +493,7 @@ def test_a_question_asked_again_is_remembered(cli, solved, tmp_path):
     code, out, err = cli(*question)
     assert (code, out, len(solved)) == (0, first[1], count)
     assert re.fullmatch(
-        r"remembered from an earlier run, which saved [\d.]+ s; --no-cache solves it again\n", err
+        r"read from the cache, which saved [\d.]+ s; --no-cache solves it again\n", err
     )
     assert "remembered" not in cli(*question[:-2], "--no-cache")[2]
     assert len(solved) > count
@@ -546,7 +546,7 @@ def test_help_has_panels_and_shows_no_default_twice(cli):
     assert sorted(name for names in PANELS.values() for name in names) == sorted(COMMANDS)
     out = cli("pressure", "--help")[1]
     headings = re.findall(r"^(\S.*):$", out, re.MULTILINE)
-    assert headings[:4] == ["What you ask", "Stone", "Ureter and its load", "Model"]
+    assert headings[:4] == ["Question", "Stone", "Ureter and its load", "Model"]
     assert headings[-3:] == ["Solver", "Output", "Help"]
     for words, _ in commands():
         told = " ".join(cli(*words, "--help")[1].split())

@@ -1,5 +1,6 @@
 """The documentation: its links, its drawings, its words, and what the code says of its pages."""
 
+import csv
 import importlib.util
 import re
 import tomllib
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import stonepass
+from stonepass.model.far_field import inflation
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -117,6 +119,32 @@ def test_the_citation_file_has_the_version_of_the_package():
     project = tomllib.loads(text_of(ROOT / "pyproject.toml"))["project"]
     assert f"\nversion: {project['version']}\n" in cited
     assert project["version"] == stonepass.__version__
+
+
+def test_the_pressures_above_the_end_of_the_closure_are_those_of_the_data():
+    """The theory page gives the range of the direct pressure over P_u(r_a = R_s)."""
+    law, over = stonepass.material("latex").law, []
+    with (DOCS / "data" / "closures-latex.csv").open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            if row["direct_pressure_kPa"] and not row["derived_pressure_kPa"]:
+                end = inflation(float(row["size_ratio"]), float(row["wall_ratio"]), law)
+                over.append(1e3 * float(row["direct_pressure_kPa"]) / float(end))
+    found = (
+        f"the {len(over)} latex cases .* at {min(over):.2f} to {max(over):.2f} times the pressure"
+    )
+    assert re.search(found, " ".join(text_of(DOCS / "theory.md").split()))
+
+
+def test_the_readme_compares_stated_and_true_errors_as_the_verification_does():
+    section = text_of(DOCS / "verification.md").split("<!-- error_estimates -->")[1]
+    rows = re.findall(
+        r"^\| (?:fast|standard|reference) (?:\|[^|\n]+){7,8}\|$", section, re.MULTILINE
+    )
+    numbers = [[cell.strip(" °") for cell in row.split("|")] for row in rows]
+    ratios = [float(row[6]) / float(row[4]) for row in numbers]  # stated over true, both medians
+    assert len(ratios) == 9
+    found = f"stated error is {min(ratios):.0f} to {max(ratios):.0f} times the median true error"
+    assert found in " ".join(text_of(ROOT / "README.md").split())
 
 
 def test_the_glossary_is_sorted_and_its_words_are_in_use():

@@ -61,6 +61,8 @@ def test_example_runs(path, capsys, tmp_path, monkeypatch):
     monkeypatch.setenv("STONEPASS_CACHE", str(tmp_path))
     if path.name in COMMANDS:
         assert run([part.format(path) for part in COMMANDS[path.name]]) == 0
+    elif path.suffix == ".toml" and "[vary]" in path.read_text():
+        assert run(["sweep", str(path), "--out", str(tmp_path / "s"), "--workers", "1"]) == 0
     elif path.suffix == ".toml" and "[stone]" in path.read_text():
         command = "assess" if "[assessment]" in path.read_text() else "pressure"
         assert run([command, str(path), *(FAST if command == "pressure" else [])]) == 0

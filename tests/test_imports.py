@@ -37,6 +37,12 @@ def refusal(arguments):
     return f"from stonepass.cli import run; assert run('{arguments}'.split()) == 2"
 
 
+SURROGATE = (
+    "import stonepass as sp; "
+    "sp.load_surrogate().evaluate(size_ratio=1.2, wall_ratio=1.3, friction=0.5)"
+)
+
+
 @pytest.mark.parametrize(
     ("statement", "absent"),
     [
@@ -45,6 +51,9 @@ def refusal(arguments):
         (refusal("closures --xi 40 --eta 1.3"), (*HEAVY, "scipy")),
         (refusal("invitro none.csv --material latex"), (*HEAVY, "scipy")),
         (refusal("assess none.toml"), (*HEAVY, "scipy")),
+        (refusal("sweep none.toml --out none"), (*HEAVY, "pyarrow", "distributed", "xarray")),
+        (refusal("results none"), (*HEAVY, "pyarrow", "xarray")),
+        ("import stonepass; stonepass.read_sweep", (*HEAVY, "pyarrow", "distributed")),
         ("import stonepass", (*HEAVY, "numpy", "scipy", "pint", "pydantic", "typer", "autograd")),
         (door("--help"), (*HEAVY, "numpy", "scipy", "pint", "pydantic", "autograd", "rich")),
         (door("pressure --help"), (*HEAVY, "scipy", "pint", "autograd")),
@@ -58,6 +67,7 @@ def refusal(arguments):
         ("import stonepass.model.far_field", (*HEAVY, "scipy")),
         ("import stonepass.model.models.elastic_foundation", (*HEAVY, "scipy")),
         ("import stonepass.records.answer", (*HEAVY, "scipy")),
+        (SURROGATE, (*HEAVY, "scipy.stats", "scipy.optimize", "dask", "distributed")),
         ("from stonepass.records import closures, compare, friction, rising", (*HEAVY, "scipy")),
         (
             "import stonepass.records.reference, stonepass.records.profile",  # all of them
@@ -128,7 +138,11 @@ LATE_LIBRARIES = {
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
     "scipy.ndimage": ("surface.grey_scale",),
-    "scipy.stats": ("studies.uncertain_quantity",),
+    "scipy.stats": (
+        "studies.surrogates.box",
+        "studies.sweeps.sampling",
+        "studies.uncertain_quantity",
+    ),
     "stonepass.report": ("stonepass",),  # results are shown by it, from their first table on
 }
 

@@ -10,7 +10,7 @@ from options import asking
 from shown import check_shown
 
 from stonepass.bench.agreement import disagreement
-from stonepass.bench.comparison import Setting, compare, size_curves
+from stonepass.bench.comparison import Setting, compare, point_curves, size_curves
 from stonepass.bench.invitro import fit_friction
 from stonepass.bench.least_squares import profile_level
 from stonepass.cli import run
@@ -227,6 +227,21 @@ def test_figure_shows_every_point_and_curve():
     marks = sum(len(c.lines[0].get_xdata()) for c in series_axes.containers)
     assert marks == len(points)
     assert region.get_xlabel() == "friction μ"
+
+
+def test_the_figure_of_a_result_shows_the_model_at_the_measured_sizes():
+    points = made_up([*DRY, *WET], 0.3, noise=0.02)
+    found = fit_friction(points, QUICK, solver=MadeUp())
+    curves = point_curves(found.comparison)
+    answers = {a.case: a.pressure for a in found.comparison.answers}
+    assert sum(len(curve.size_ratio) for curve in curves) >= 4
+    for curve in curves:
+        assert np.all(np.diff(curve.size_ratio) > 0.0)
+        assert set(curve.pressure) <= set(answers.values())
+    drawn = [line.get_xydata() for line in found.figure().axes[0].lines]
+    for curve in curves:
+        expected = np.column_stack([curve.size_ratio, curve.pressure / 1e3])
+        assert any(np.array_equal(line, expected) for line in drawn)
 
 
 def with_sd(points, share):

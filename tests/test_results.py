@@ -126,6 +126,13 @@ def test_a_plot_of_nothing_is_refused() -> None:
         loose.figure()
 
 
+def test_a_notebook_displays_a_figure_without_pyplot(results: dict[type, Result]) -> None:
+    png, size = results[sp.CriticalCurve].figure()._repr_png_()
+    assert png.startswith(b"\x89PNG")
+    pixels = tuple(int.from_bytes(png[at : at + 4], "big") for at in (16, 20))
+    assert pixels == (2 * size["width"], 2 * size["height"])
+
+
 def test_saving(results: dict[type, Result], tmp_path: Path) -> None:
     answer, curve = results[sp.Answer], results[sp.CriticalCurve]
     answer.save(tmp_path / "answer.json")

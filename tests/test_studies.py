@@ -1,4 +1,4 @@
-"""The contract of studies and executors; a worked example of a study of one's own."""
+"""The contract of studies and executors; an additional study as a worked example."""
 
 import pickle
 import subprocess
@@ -50,7 +50,7 @@ def test_warnings_of_another_process_come_home():
 
 @dataclass(frozen=True)
 class HighestPressure:
-    """A study of one's own: the friction that needs the highest pressure, by the beam."""
+    """An additional study: the friction that needs the highest pressure, with the beam model."""
 
     frictions: tuple[float, ...]
 

@@ -1,4 +1,4 @@
-"""Our seated states beside CalculiX's, from exported decks: walls, sizes, loads, shapes, laws."""
+"""Seated states compared with those of CalculiX, which solves exported decks."""
 
 from __future__ import annotations
 
@@ -99,13 +99,15 @@ def section() -> Section:
         pressed.append(abs(critical))
     lost = sum(found is None for found in solved)
     return Section(
-        title="Beside CalculiX",
+        title="Comparison with CalculiX",
         text=(
-            "Exported decks, run by CalculiX 2.20, read back by `stonepass compare`: how far "
-            "CalculiX is from our `standard` answer. Its contact is of penalty, so it reaches a "
-            "little farther; σ is its own contact stress, averaged over each element, at 90° and, "
-            "by the largest difference, over the inner half of the contact; P_ucr is the same "
-            "balance and closure on both contacts. Latex and friction 0.475 unless said."
+            "CalculiX 2.20 solves exported decks, and `stonepass compare` reads its results. The "
+            "table gives the difference of CalculiX from our `standard` answer. CalculiX enforces "
+            "contact by a penalty, so that its contact reaches slightly farther. σ is its contact "
+            "stress, averaged over each element: at 90°, and as the largest difference over the "
+            "inner half of the contact. P_ucr is computed from both contacts with the same balance "
+            "and closure. The wall is latex and the friction coefficient 0.475 unless stated "
+            "otherwise."
         ),
         tables=[("", ("case", "elements", "α₀", "σ(90°)", "σ, largest", "P_ucr"), rows)],
         checks=[
@@ -127,7 +129,7 @@ def solver(folder: Path) -> Callable[[int, Question], Comparison | None]:
             return None
         try:
             found = compare(question.case, read_contact(model, folder / f"{job}.dat"))
-        except sp.BadInput:  # it broke off without saying so
+        except sp.BadInput:  # CalculiX stopped early with exit code 0
             return None
         return found if isinstance(found, Comparison) else None
 

@@ -1,4 +1,4 @@
-"""The ground matrix: which G meets both published critical sizes, and what P_out adds."""
+"""Calibration of the ground matrix to the published critical sizes, and the effect of P_out."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def section() -> Section:
         margins[G] = margin(G)
         rows.append(
             [
-                f"{G / 1e3:g}" + (" (**taken**)" if G == G_CALIBRATED else ""),
+                f"{G / 1e3:g}" + (" (**used**)" if G == G_CALIBRATED else ""),
                 *(f"{sizes[eta, False]:.4f}" for eta in PUBLISHED),
                 f"{deviations[G]:.4f}",
                 f"{margins[G]:.2f}",
@@ -34,32 +34,34 @@ def section() -> Section:
     return Section(
         title="Calibration of the ground matrix, and confining pressure",
         text=(
-            "ξ_cr at 12 kPa, friction 0.5, pressed, against the published 1.22 (η = 1.3) and 1.11 "
-            "(η = 3.4). One G serves both. Of those that meet both within 0.01 we take one that "
-            "keeps the thin wall strongly elliptic over the paper's range, ξ ≤ 1.3. The thin wall "
-            "under 4 and 8 kPa, below, is beyond that, and its answers carry warnings."
+            "The first table gives ξ_cr at 12 kPa for friction 0.5 and pressed seating. The "
+            "published values are 1.22 (η = 1.3) and 1.11 (η = 3.4), and one value of G serves "
+            "both. Among the values that meet both sizes within 0.01, we use one for which the "
+            "thin wall is strongly elliptic over the paper's range, ξ ≤ 1.3. *Margin* is the "
+            "[stability margin](theory.md#stability). Under 4 and 8 kPa (second table) the thin "
+            "wall is no longer strongly elliptic, and its answers carry warnings."
         ),
         tables=[
             (
                 "",
                 ("G (kPa)", "η 1.3", "η 3.4", "largest deviation", "margin at η 1.3, ξ 1.3",
-                 "η 1.3, ground in far field", "η 3.4, ground in far field"),
+                 "η 1.3, G in the far field too", "η 3.4, G in the far field too"),
                 rows,
             ),
             (
-                "P_ucr (kPa) under confining pressure, and what it adds:",
-                ("η / ξ", "confinement", "0 kPa", "4 kPa", "8 kPa", "added by 4", "added by 8"),
+                "P_ucr in kPa under confining pressure, and its increase:",
+                ("η / ξ", "confinement", "0 kPa", "4 kPa", "8 kPa", "4 − 0 kPa", "8 − 0 kPa"),
                 confined,
             ),
         ],
         checks=[
             Check(
-                "both published sizes met within 0.01 by the one G taken",
+                "the G that is used meets both published sizes within 0.01",
                 f"{deviations[G_CALIBRATED]:.4f}",
                 deviations[G_CALIBRATED] <= 0.01,
             ),
             Check(
-                "with it the thin wall is strongly elliptic at ξ = 1.3, frictionless",
+                "with it the frictionless thin wall is strongly elliptic at ξ = 1.3",
                 f"{margins[G_CALIBRATED]:.2f}",
                 margins[G_CALIBRATED] > 0.05,
             ),
@@ -108,7 +110,7 @@ def confinement() -> tuple[list[list[str]], list[Check]]:
             share = [a / p for a, p in zip(added, (4.0, 8.0), strict=True) if a is not None]
             checks.append(
                 Check(
-                    f"η {eta:g}, ξ {xi:g}, {kind}: P_out adds itself to 25 %",
+                    f"η {eta:g}, ξ {xi:g}, {kind}: P_ucr increases by P_out within 25 %",
                     ", ".join(f"{s:.2f}" for s in share),
                     len(share) == 2 and all(abs(s - 1.0) <= 0.25 for s in share),
                 )

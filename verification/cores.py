@@ -1,4 +1,4 @@
-"""Run one function over many jobs on all cores, and tell how far it is."""
+"""Call a function for many jobs on all cores, and print the progress."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ INTERVAL = 15.0  # seconds between lines
 
 
 def on_all_cores(what: str, function: Callable[..., Any], jobs: Sequence[tuple]) -> list[Any]:
-    """Call `function` with each tuple of arguments, in new processes; results in order.
+    """Call `function` with each tuple of arguments, in new processes; return results in order.
 
-    The processes end with this one, however it ends.
+    The processes end when this one ends, even if it is killed.
     """
     found: list[Any] = []
     last = time.monotonic()

@@ -1,4 +1,4 @@
-"""Does the error that an answer claims cover the error it has?"""
+"""Stated errors of answers compared with their true errors."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ import stonepass as sp
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import LEVELS
 
-SEED, CASES = 20247, 120  # the claims were tuned on another seed
+SEED, CASES = 20247, 120  # the error estimates were tuned on another seed
 COVERED = 0.95
 QUANTITIES = ("α₀", "σ(π/2)", "P_ucr")
 REFERENCE = LEVELS["reference"].resolution
-# What `reference` itself is measured against, in the first cases only: an hour otherwise.
+# Resolution for the true error of `reference`; all cases would take an hour.
 BEYOND = Resolution(order=5, closed=20, edge=0.006, growth=1.4, increments=96, path_columns=24)
 BEYOND_CASES = 16
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """True and claimed error of one quantity of one answer; relative but for α₀, in degrees."""
+    """True and stated error of a quantity of an answer: in degrees for α₀, otherwise relative."""
 
     level: str
     quantity: str
@@ -53,26 +53,28 @@ def section() -> Section:
     }
     missed = sorted((c for c in everything if not c.covered), key=lambda c: -c.true / c.claimed)
     return Section(
-        title="The error that answers claim",
+        title="Stated and true errors",
         text=(
-            f"{CASES} random cases, seed {SEED}, drawn as those of the robustness grid; {unsolved} "
-            "have no seated state to compare. The error of `fast` and `standard` is measured "
-            "against the `reference` level; that of `reference` against three times its increments "
-            f"on a finer mesh, in the first {BEYOND_CASES}. *Claimed* is what the answer itself "
-            "says, from its own second solve. Quantiles over the cases, relative errors but for "
-            "α₀. Where the error is a tenth of the claim in the median, that a claim covers it is "
-            "a weak test of the claim: it is on the safe side, not sharp."
+            f"{CASES} random cases (seed {SEED}) are drawn as in the section *Robustness*; "
+            f"{unsolved} of them have no seated state. The true error of `fast` and `standard` is "
+            "the difference to the accuracy `reference`. The true error of `reference` is the "
+            "difference to a solve with three times as many increments on a finer mesh, for the "
+            f"first {BEYOND_CASES} cases. The *stated* error is part of the answer and comes from "
+            "its own second solve. The table gives quantiles over the cases; all errors but those "
+            "of α₀ are relative. *Covered* is the fraction of cases whose true error is not larger "
+            "than the stated one. The stated errors are several times larger than the true ones in "
+            "the median, so that coverage is a weak test: they are conservative and not sharp."
         ),
         tables=[
             (
                 "",
-                ("accuracy", "quantity", "cases", "true: median", "95 %", "claimed: median",
-                 "95 %", "true/claimed: median", "covered"),
+                ("accuracy", "quantity", "cases", "true: median", "95 %", "stated: median",
+                 "95 %", "true/stated: median", "covered"),
                 [row(level, quantity, group) for (level, quantity), group in groups.items()],
             ),
             (
-                "Not covered:",
-                ("accuracy", "quantity", "true", "claimed", "case"),
+                "True errors that are larger than the stated ones:",
+                ("accuracy", "quantity", "true", "stated", "case"),
                 [
                     [c.level, c.quantity, shown(c, c.true), shown(c, c.claimed), c.case]
                     for c in missed
@@ -88,7 +90,7 @@ def check(level: str, quantity: str, group: Sequence[Comparison]) -> Check:
     covered = sum(c.covered for c in group)
     least = 10 if level == "reference" else 50
     return Check(
-        f"{level}: the error of {quantity} lies within the claim in ≥ {COVERED:.0%}",
+        f"{level}: at least {COVERED:.0%} of the errors of {quantity} are within the stated error",
         f"{covered} of {len(group)}",
         len(group) >= least and covered >= COVERED * len(group),
     )
@@ -107,7 +109,7 @@ def shown(comparison: Comparison, value: float) -> str:
 
 
 def compare(case: sp.Case, levels: Sequence[str], truth: Resolution) -> list[Comparison]:
-    """Claimed against true errors at each level; nothing where there is no seated state."""
+    """Return stated and true errors at each accuracy; an empty list without a seated state."""
     fine = sp.solve(case, truth)
     found = []
     for level in levels:
@@ -132,5 +134,5 @@ def compare(case: sp.Case, levels: Sequence[str], truth: Resolution) -> list[Com
 
 
 def cases() -> list[sp.Case]:
-    """One size of each family."""
+    """Return one size of each family."""
     return [family[k % len(family)] for k, family in enumerate(families(SEED, CASES))]

@@ -1,4 +1,4 @@
-"""Far field: quadrature for any law against the closed forms, and against Lamé."""
+"""Far field: the quadrature for any law compared with the closed forms."""
 
 from __future__ import annotations
 
@@ -26,15 +26,16 @@ def section() -> Section:
     return Section(
         title="Far field: quadrature against the closed forms (Eqs 20 and 22)",
         text=(
-            "Largest relative difference over r_a/R_a = 1.01–1.5. The quadrature integrates Eq. 12 "
-            "with the exact slope of the energy and knows nothing of the closed forms, so it also "
-            "decides erratum 1: the printed Eq. 22 has R_a²/R_b² outside the second erfi."
+            "The table gives the largest relative difference for r_a/R_a from 1.01 to 1.5. The "
+            "quadrature integrates Eq. 12 with the exact slope of the energy and does not use the "
+            "closed forms. The comparison therefore also decides erratum 1: the printed Eq. 22 has "
+            "R_a²/R_b² outside the second erfi."
         ),
         tables=[("", ("law", "η", "difference"), rows)],
         checks=[
             Check("quadrature and closed forms agree to 1e-13", f"{worst:.0e}", worst <= 1e-13),
             Check(
-                "Eq. 22 as printed is low by 2.6 % at η = r_a/R_a = 1.3",
+                "Eq. 22 as printed is 2.6 % low at η = r_a/R_a = 1.3",
                 f"{printed:+.2%}",
                 abs(printed + 0.026) < 5e-4,
             ),

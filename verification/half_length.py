@@ -1,4 +1,4 @@
-"""How much does the length of the tube matter, its ends being held?"""
+"""Effect of the length of the tube if its ends are held."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def section() -> Section:
         missed = abs(predicted / sigma[5] - 1.0)
         checks += [
             Check(
-                f"{material} η {eta:g}: σ(π/2) moves by less than 1 % from L = 8 to 12",
+                f"{material} η {eta:g}: σ(π/2) changes by less than 1 % from L = 8 to 12",
                 f"{eight_to_twelve:.2%}",
                 eight_to_twelve < 0.01,
             ),
             Check(
-                f"{material} η {eta:g}: as 1/L (L = 24 predicted from 12 and 16 to 0.05 %)",
+                f"{material} η {eta:g}: σ(π/2) varies as 1/L (L = 24 from 12 and 16 to 0.05 %)",
                 f"{missed:.1e}",
                 missed < 5e-4,
             ),
@@ -36,9 +36,10 @@ def section() -> Section:
     return Section(
         title="Half-length of the tube",
         text=(
-            "σ(π/2) in kPa. The ends are held (u_z = 0), so the stone's bulge stretches the whole "
-            "tube a little: an effect of order 1/L, not a boundary layer. L is a stated input "
-            "for that reason."
+            "The table gives σ(π/2) in kPa for half-lengths L in units of R_a. The ends are held "
+            "(u_z = 0), so that the bulge over the stone stretches the whole tube slightly. The "
+            "effect is of order 1/L and not confined to a boundary layer at the ends. L is "
+            "therefore an input."
         ),
         tables=[("", ("case η/ξ", *(f"L = {L:g}" for L in LENGTHS)), rows)],
         checks=checks,

@@ -1,4 +1,4 @@
-"""The laboratory: intervals that cover, friction and stiffness recovered, the surface, the page."""
+"""Fits to tests and series, the response surface of an assessment, and its printed report."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ from stonepass.units import Pressure
 ROOT = Path(__file__).parents[1]
 SEED = 20260
 CORES = os.cpu_count() or 1
-SERIES = 300  # noisy series of a law and a kind of noise: a share of 95 % is known to 1.3 %
+SERIES = 300  # noisy series of a law and a kind of noise; a fraction of 95 % is known to ± 1.3 %
 NOISE = 0.01
-COVERED = (0.93, 0.97)  # of intervals that say 95 %, the mean over laws of a kind of noise
-EACH = (0.91, 0.99)  # of one law, three standard deviations of the count
-ALARMS = 0.04  # of series that obey the law, with a caution
-ONWARD = 0.6  # correlation of neighbours where errors go on
+COVERED = (0.93, 0.97)  # coverage of 95 % intervals, mean over the laws for a kind of noise
+EACH = (0.91, 0.99)  # coverage for one law, three standard deviations of the count
+ALARMS = 0.04  # largest fraction of cautions for series that obey the law
+ONWARD = 0.6  # correlation of neighbouring errors
 LAWS = {
     "neo-hookean": (NeoHookean(146.5e3), {}, ("axial",)),
     "mooney-rivlin": (MooneyRivlin(1e5, 3e4), {}, ("axial",)),
@@ -62,12 +62,12 @@ LAWS = {
         ("axial", "circumferential"),
     ),
 }
-# Points of a strip, whether errors are in proportion, correlation of neighbours.
+# Points of a test, whether errors are proportional to the stress, correlation of neighbours.
 NOISES = {
     "equal": (14, False, 0.0),
-    "in proportion": (14, True, 0.0),
+    "proportional": (14, True, 0.0),
     "equal, 5 points": (5, False, 0.0),
-    "going on": (30, False, ONWARD),
+    "correlated": (30, False, ONWARD),
 }
 TUBES = [(1.5, 1.1, 0.0), (1.5, 1.3, 0.0), (2.0, 1.2, 0.0), (2.0, 1.3, 0.0), (1.5, 1.2, 5.4),
          (2.0, 1.2, 5.4)]  # fmt: skip
@@ -78,7 +78,7 @@ SURFACES = {
     "latex": ("latex", Load(), (1.3, 2.5)),
 }
 CONDITIONS = 40
-MEDIAN, TAIL = 0.015, 0.06  # of the surface's relative errors: median, and 95 in 100
+MEDIAN, TAIL = 0.015, 0.06  # bounds of the median and the 95 % quantile of the relative error
 
 
 def section() -> Section:
@@ -90,13 +90,13 @@ def section() -> Section:
     return Section("From the bench and the clinic", TEXT, checks, tables)
 
 
-TEXT = """Constants are fitted to made-up strips with 1 % of noise, many times over, and the
-95 % intervals are counted that hold the true constant, and the fits with a caution: these are
-false alarms, but for errors that go on from point to point. A series of critical pressures is
-made by the model itself, pressed seating, and its friction fitted, once with the wall's own
-stiffness and once with a wall 1.25 times as stiff as the fit is told. The response surface behind
-an assessment is compared with whole solves at random conditions between the lumen and 1.75 times
-it."""
+TEXT = """Constants are fitted to simulated tensile tests with 1 % of noise. The first table gives
+the fraction of the 95 % intervals that contain the true constant, and the fraction of the fits
+with a caution. These cautions are false alarms, except for errors that are correlated from point
+to point. A series of critical pressures is computed with the model and pressed seating. Friction
+is fitted to it twice: with the stiffness of the wall, and with a wall that is 1.25 times as stiff
+as the fit assumes. The response surface of an assessment is compared with full solves at random
+conditions between the lumen and 1.75 times the lumen."""
 
 
 def _fits():
@@ -111,20 +111,20 @@ def _fits():
             rows.append((law, noise, shares, f"{told:.1%}"))
         means = [float(np.mean(list(held.values()))) for held, _ in some.values()]
         alarms = float(np.mean([told for _, told in some.values()]))
-        if noise == "going on":  # intervals do not hold here: counted, and told of
+        if noise == "correlated":  # the intervals are not made for it, so only the table has it
             continue
         mean = float(np.mean(means))
         within = COVERED[0] <= mean <= COVERED[1] and all(EACH[0] <= m <= EACH[1] for m in means)
         shown = f"{mean:.1%} ({min(means):.1%} to {max(means):.1%})"
-        checks.append(Check(f"intervals, errors {noise}: hold the true constant", shown, within))
+        checks.append(Check(f"intervals contain the true constant, errors {noise}", shown, within))
         checks.append(Check(f"false alarms, errors {noise}", f"{alarms:.1%}", alarms <= ALARMS))
     caption = (
-        f"95 % intervals that hold the true constant, and fits with a caution, of {SERIES} noisy "
-        "series each: noise of 1 % of the largest stress, or of 1 % of each with `--relative`; "
-        f"*going on* is noise of 30 points whose neighbours have a correlation of {ONWARD}, for "
-        "which the intervals are not made."
+        "95 % intervals that contain the true constant, and fits with a caution, for "
+        f"{SERIES} noisy series each. The noise is 1 % of the largest stress (*equal*), or 1 % of "
+        "each stress with `--relative` (*proportional*). *Correlated* noise has 30 points with a "
+        f"correlation of {ONWARD} between neighbours; the intervals are not made for it."
     )
-    return checks, (caption, ("law", "errors", "held", "with a caution"), rows)
+    return checks, (caption, ("law", "errors", "containing", "with a caution"), rows)
 
 
 def _coverage(name: str, noise: str) -> tuple[dict[str, float], float]:
@@ -166,16 +166,16 @@ def _series():
     apart = max(abs(both.joint.friction.value / FRICTION - 1.0),
                 abs(both.joint.stiffness.value / STIFFER - 1.0))  # fmt: skip
     rows = [
-        ("friction alone, the wall's own stiffness", f"{own.friction.value:.5f}", "–"),
-        ("friction alone, wall 1.25 times as stiff", f"{both.friction.value:.5f}", "–"),
-        ("both, wall 1.25 times as stiff", f"{both.joint.friction.value:.5f}",
+        ("friction alone, stiffness as assumed", f"{own.friction.value:.5f}", "–"),
+        ("friction alone, wall 1.25 times as stiff as assumed", f"{both.friction.value:.5f}", "–"),
+        ("both, wall 1.25 times as stiff as assumed", f"{both.joint.friction.value:.5f}",
          f"{both.joint.stiffness.value:.5f}"),
     ]  # fmt: skip
     checks = [
-        Check("friction of a series comes back", f"{off:.1e}", off < 1e-3),
-        Check("friction and stiffness come back together", f"{apart:.1e}", apart < 5e-3),
+        Check("the friction of a series is recovered", f"{off:.1e}", off < 1e-3),
+        Check("friction and stiffness are recovered together", f"{apart:.1e}", apart < 5e-3),
     ]
-    caption = f"A series of {len(TUBES)} spheres, friction {FRICTION}, without noise."
+    caption = f"Fits to a series of {len(TUBES)} spheres with friction {FRICTION}, without noise."
     return checks, (caption, ("fitted", "friction", "stiffness"), rows)
 
 
@@ -205,13 +205,14 @@ def _surfaces():
         shown = (f"{share:.2%}" for share in shares)
         rows.append((name, str(errors.tried), *shown, str(errors.bounds)))
         checks.append(Check(f"surface, {name}: median error", f"{middle:.2%}", middle < MEDIAN))
-        checks.append(Check(f"surface, {name}: 95 in 100 below", f"{tail:.2%}", tail < TAIL))
-        checks.append(Check(f"surface, {name}: claimed at least that", f"{errors.claimed:.2%}",
-                            tail <= 1.2 * errors.claimed))  # fmt: skip
-    header = ("wall", "solves", "median", "95 in 100", "largest", "claimed (95 in 100)", "bounds")
+        checks.append(Check(f"surface, {name}: 95 % quantile", f"{tail:.2%}", tail < TAIL))
+        checks.append(Check(f"surface, {name}: that is at most 1.2 times the stated error",
+                            f"{errors.claimed:.2%}", tail <= 1.2 * errors.claimed))  # fmt: skip
+    header = ("wall", "solves", "median", "95 %", "largest", "stated (95 %)", "lower bounds")
     caption = (
-        f"Relative error of the response surface in {CONDITIONS} random conditions, against whole "
-        "solves; conditions where either says only a lower bound are counted, not compared."
+        f"Relative error of the response surface at {CONDITIONS} random conditions, compared with "
+        "full solves. Conditions for which one of them gives only a lower bound are counted and "
+        "not compared."
     )
     return checks, (caption, header, rows)
 
@@ -248,13 +249,16 @@ def _errors(name: str, load: Load, walls: tuple[float, float]) -> _Errors:
 
 
 def _page():
-    """Pages of the printed report, of the example and of one with everything uncertain."""
+    """Count the printed pages of the example's report and of one with large uncertainties."""
     browser = shutil.which("chromium") or shutil.which("google-chrome")
     header = ("report", "pages")
     if browser is None:
-        return [], ("No browser was at hand to print the report.", header, [])
+        return [], ("No browser was found to print the report.", header, [])
     rows, pages = [], []
-    for name, path in (("example", ROOT / "examples" / "patient.toml"), ("widest", None)):
+    for name, path in (
+        ("example", ROOT / "examples" / "patient.toml"),
+        ("large uncertainties", None),
+    ):
         with TemporaryDirectory() as folder:
             given = Path(folder) / "patient.toml"
             given.write_text(WIDEST if path is None else path.read_text(encoding="utf-8"))
@@ -264,7 +268,7 @@ def _page():
         pages.append(count)
         rows.append((name, str(count)))
     check = Check("a report prints on two A4 pages", ", ".join(map(str, pages)), pages == [2, 2])
-    return [check], ("Pages of a report, printed by Chromium.", header, rows)
+    return [check], ("Number of pages of a report, printed by Chromium.", header, rows)
 
 
 def _printed(browser: str, found, folder: Path) -> int:

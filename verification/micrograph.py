@@ -1,4 +1,4 @@
-"""Friction from a micrograph: slopes that are known exactly, damaged and hostile files."""
+"""Friction from a micrograph: surfaces with known slopes, damaged and hostile files."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ from stonepass.surface.surface_image import Area, SurfaceImage
 
 ROOT = Path(__file__).parents[1]
 MICRO = 1e-6
-LENGTH = 500.0  # µm, of every path
+LENGTH = 500.0  # length of every path in µm
 PIXELS = (0.25, 0.5, 1.0, 2.0)  # µm
-ANGLES = (0, 30, 45, 90)  # degrees, of the slopes and the paths in the picture
+ANGLES = (0, 30, 45, 90)  # direction of the slopes and the paths in the picture, in degrees
 BITS = (8, 16)
 NOISE = (0.0, 0.01, 0.02, 0.05)  # standard deviation of every pixel over the height range
 PATHS = 6
 EXACT = 0.5 / (1.0 - 0.38 * 0.12)
-# Largest relative error of the friction coefficient for each noise; where it comes from is said on
-# the page.
+# Largest relative error of the friction coefficient for each noise level; the text of the section
+# explains how noise changes the scale of the heights.
 BOUNDS = dict(zip(NOISE, (0.005, 0.02, 0.05, 0.10), strict=True))
 ORDERS, SHARES = (8, 16, 32), (0.25, 0.5, 0.75, 0.9, 1.0, 1.2)
 FOLLOWED, LARGEST_RATIO = 0.75, 0.05
-# Surfaces whose waves are not those of the tool's basis, without noise: how many of each kind, and
-# the bounds of the median and of nine in ten of the relative errors of the friction coefficient.
+# Surfaces without noise whose waves are not terms of the baselines: number of each kind, and bounds
+# of the median and of 90 % of the relative errors of the friction coefficient.
 OTHERS = 200
 OTHER_BOUNDS = {"one wave": (0.05, 0.12), "two waves": (0.09, 0.15), "ten waves": (0.03, 0.10),
                 "filtered noise": (0.03, 0.10)}  # fmt: skip
@@ -57,7 +57,7 @@ def section() -> Section:
     by_noise = {noise: largest(errors, 3, noise) for noise in NOISE}
     rows = [
         [what, *(f"{largest(errors, k, value, noise):.2%}" for noise in NOISE)]
-        for k, name, values in ((0, "pixel {} µm", PIXELS), (1, "turned by {}°", ANGLES),
+        for k, name, values in ((0, "pixel {} µm", PIXELS), (1, "rotated by {}°", ANGLES),
                                 (2, "{} bit", BITS))
         for value in values
         for what in (name.format(value),)
@@ -69,40 +69,41 @@ def section() -> Section:
     return Section(
         title="Friction from a micrograph",
         text=(
-            "Surfaces whose mean profile has a baseline of slope 0.38 and a deviation of slope "
-            f"0.12, exactly, so that μ = {EXACT:.4f}: {len(errors)} pictures, all pixel sizes, "
-            "directions, bit depths and noise levels together; paths of 500 µm, six for each "
-            "picture. Noise is of every pixel for itself, its standard deviation over the height "
-            "range. "
-            "What it costs is the scale: the range of greys grows by the noise of the darkest and "
-            "brightest places, so that slopes come out too small; that is why the range is taken "
-            "after averaging over 5 × 5 pixels. Single profiles keep their noise: the slope by "
-            "root mean square is not compared."
+            "The mean profile of each surface consists exactly of a baseline of slope 0.38 and a "
+            f"deviation of slope 0.12, so that μ = {EXACT:.4f}. There are {len(errors)} pictures, "
+            "one for each combination of pixel size, direction, bit depth and noise level, with "
+            "six paths of 500 µm in each. The noise of each pixel is independent of the others. "
+            "The noise level is its standard deviation divided by the height range. Noise changes "
+            "the scale of the heights: the range of grey values grows by the noise at the darkest "
+            "and brightest places, so that the slopes are too small. For this reason the range is "
+            "taken after averaging over 5 × 5 pixels. Single profiles keep their noise, so that "
+            "their root-mean-square slope is not compared."
         ),
         tables=[
-            ("Largest error of μ, relative, over the noise:",
+            ("Largest relative error of μ for each noise level:",
              ("", *(f"{noise:.0%}" for noise in NOISE)), rows),
-            ("Slope of a baseline over that of a wave, median and largest of 24 phases, by the "
-             "wave's frequency over the highest that the baseline follows (a wave is no sum of "
-             "its terms):",
+            ("Slope of the baseline that is fitted to a sine wave, divided by the slope of the "
+             "wave: median and largest value of 24 phases. The column is the frequency of the wave "
+             "divided by the highest frequency of the baseline. A sine wave of any phase is not a "
+             "sum of the terms of the baseline:",
              ("order", *(f"{share:g}" for share in SHARES)),
              [[str(order), *(f"{np.median(waves[order, s]):.2f}, {max(waves[order, s]):.2f}"
                              for s in SHARES)] for order in ORDERS]),
-            ("Mean profiles without noise whose waves are not the tool's own: their lengths fit "
-             "the path by chance only, those of the first part 1.33 times the first baseline's "
-             "shortest and longer, those of the second part from 0.67 to 0.75 times it. Error of μ "
-             "against the steepest slopes of both parts in the middle of the path, where the tool "
-             "looks, and along the whole path:",
+            ("Error of μ for mean profiles without noise whose waves are not terms of the "
+             "baselines. The wavelengths of the first part are at least 1.33 times the shortest "
+             "wavelength of the first baseline, and those of the second part 0.67 to 0.75 times "
+             "it. μ is compared with the largest slopes of both parts in the middle of the path, "
+             "where slopes are evaluated, and along the whole path:",
              ("surface", "median", "5 % to 95 %", "largest", "median, whole path",
               "5 % to 95 %, whole path"),
              [[kind, *spread_of([each[0] for each in found]),
                *spread_of([each[1] for each in found])[:2]] for kind, found in others.items()]),
             (f"{TRIED} damaged files (bytes changed or left out, some cut short), seed {SEED}:",
-             ("kind", "read", "refused in one sentence", "anything else"),
+             ("kind", "read", "refused in one sentence", "other results"),
              [[kind, *(str(fuzzed[kind, how]) for how in ("read", "refused")),
                str(sum(c for (k, how), c in fuzzed.items()
                        if k == kind and how not in ("read", "refused")))] for kind in kinds]),
-            ("Hostile files by the command, as a process, in processor time:",
+            ("Hostile files given to the command: processor time and memory of its processes:",
              ("file", "s", "MB"),
              [[name, f"{seconds:.1f}", f"{memory:.0f}"] for name, _, seconds, memory in refused]),
         ],
@@ -110,20 +111,20 @@ def section() -> Section:
             *(Check(f"μ of known slopes within {BOUNDS[noise]:.1%} at noise {noise:.0%}",
                     f"{error:.2%} at most", error <= BOUNDS[noise])
               for noise, error in by_noise.items()),
-            Check(f"waves of up to {FOLLOWED:g} of the highest frequency have their slope within "
+            Check(f"slopes of waves up to {FOLLOWED:g} of the highest frequency are found within "
                   f"{LARGEST_RATIO:.0%}", f"{apart:.1%} at most", apart <= LARGEST_RATIO),
-            *(Check(f"μ of surfaces of {kind}, not of the tool's own: median within "
-                    f"{OTHER_BOUNDS[kind][0]:.0%}, nine in ten within {OTHER_BOUNDS[kind][1]:.0%}",
+            *(Check(f"μ of {kind} outside the terms of the baselines: median within "
+                    f"{OTHER_BOUNDS[kind][0]:.0%}, 90 % within {OTHER_BOUNDS[kind][1]:.0%}",
                     ", ".join(spread_of([each[0] for each in found])[:2]),
                     within(found, *OTHER_BOUNDS[kind]))
               for kind, found in others.items()),
             Check("a damaged file is read or refused in one sentence, whatever the damage",
                   f"{sum(fuzzed.values())} tried, {odd} ended otherwise",
                   odd == 0 and sum(fuzzed.values()) == TRIED),
-            Check("hostile files: one sentence, exit 2", f"{len(refused)} files, not so: "
+            Check("hostile files: exit code 2, one sentence", f"{len(refused)} files, exceptions: "
                   f"{', '.join(wrong) or 'none'}", not wrong and len(refused) >= 25),
-            Check(f"within {LARGEST_TIME:g} s of processor time and {LARGEST_MEMORY:g} MB for the "
-                  "largest process",
+            Check(f"hostile files take at most {LARGEST_TIME:g} s, and {LARGEST_MEMORY:g} MB in "
+                  "the largest process",
                   f"{slowest:.1f} s, {biggest:.0f} MB",
                   slowest <= LARGEST_TIME and biggest <= LARGEST_MEMORY),
         ],
@@ -138,7 +139,7 @@ def maker():
 
 
 def known_answers() -> list[tuple[float, int, int, float, float]]:
-    """Pixel, angle, bits, noise, and the relative error of the friction coefficient."""
+    """Return pixel, angle, bits, noise, and the relative error of the friction coefficient."""
     distance = np.linspace(0.0, LENGTH, 20_001)
     heights = maker().known_profile(distance)
     generator = np.random.default_rng(SEED)
@@ -151,7 +152,7 @@ def known_answers() -> list[tuple[float, int, int, float, float]]:
 
 
 def surface(distance, heights, pixel, angle, bits, noise, generator):
-    """A picture of heights that vary in one direction only, and six paths along it."""
+    """Return a picture of heights that vary in one direction only, and six paths along it."""
     along = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
     across = np.array([-along[1], along[0]])
     apart = 12.0 * pixel
@@ -173,7 +174,7 @@ def surface(distance, heights, pixel, angle, bits, noise, generator):
 
 
 def followed() -> dict[tuple[int, float], list[float]]:
-    """Steepest slope of a baseline over that of a sine, by order and frequency."""
+    """Return the largest slope of a baseline over that of a sine, by order and frequency."""
     distance = np.linspace(0.0, LENGTH, 2001)
     found = {}
     for order, share in product(ORDERS, SHARES):
@@ -187,13 +188,13 @@ def followed() -> dict[tuple[int, float], list[float]]:
 
 
 def other_waves() -> dict[str, list[tuple[float, float]]]:
-    """Relative errors of μ by kind of surface: against the middle of the path, and all of it."""
+    """Return relative errors of μ by kind of surface: for the middle and the whole path."""
     generator = np.random.default_rng(SEED)
     return {kind: [error_of(kind, generator) for _ in range(OTHERS)] for kind in OTHER_BOUNDS}
 
 
 def error_of(kind: str, generator: np.random.Generator) -> tuple[float, float]:
-    """The errors of one surface: first part of slope 0.38, second of 0.12, in the middle."""
+    """Return the errors of a surface; its parts have slopes of 0.38 and 0.12 in the middle."""
     x = np.linspace(0.0, LENGTH, 1001)
     highest = 8 / (2.0 * LENGTH)  # waves per µm that the first baseline follows
     count = {"one wave": 1, "two waves": 1, "ten waves": 5, "filtered noise": 100}[kind]
@@ -215,7 +216,7 @@ def error_of(kind: str, generator: np.random.Generator) -> tuple[float, float]:
 
 
 def some_waves(x, numbers, generator):
-    """Heights and slopes of waves with these numbers per µm, of like slopes and any phase."""
+    """Return heights and slopes of waves of given numbers per µm and random phases."""
     phases = generator.uniform(0.0, 2.0 * np.pi, len(numbers))
     slopes = generator.normal(size=len(numbers)) if len(numbers) > 1 else np.ones(1)
     places = 2.0 * np.pi * np.outer(x, numbers) + phases
@@ -223,7 +224,7 @@ def some_waves(x, numbers, generator):
 
 
 def spread_of(errors) -> tuple[str, str, str]:
-    """Median, nine in ten, and the largest."""
+    """Return the median, the range of 90 %, and the largest error as text."""
     low, middle, high = np.quantile(errors, (0.05, 0.5, 0.95))
     return f"{middle:+.1%}", f"{low:+.1%} to {high:+.1%}", f"{max(errors, key=abs):+.1%}"
 
@@ -238,7 +239,7 @@ def largest(errors, which, value, noise=None):
 
 
 def fuzz() -> Counter:
-    """How damaged files end, by kind, tried in several processes."""
+    """Return how damaged files end, by kind; several processes try them."""
     cores = os.cpu_count() or 1
     shares = [(SEED + k, TRIED // cores + (k < TRIED % cores)) for k in range(cores)]
     with ProcessPoolExecutor(cores, mp_context=get_context("spawn")) as pool:
@@ -270,7 +271,7 @@ def fuzz_some(share: tuple[int, int]) -> Counter:
                 )
                 some = generator.choice([0, 1, 127, 128, 255, int(generator.integers(256))])
                 length = int(generator.integers(1, 5))
-                kept = length if generator.random() < 0.8 else 1  # else all behind it moves up
+                kept = length if generator.random() < 0.8 else 1  # else the rest moves up
                 raw[at : at + length] = bytes([int(some)]) * kept
             if generator.random() < 0.2:
                 raw = raw[: int(generator.integers(1, len(raw)))]
@@ -287,7 +288,7 @@ def fuzz_some(share: tuple[int, int]) -> Counter:
 
 
 def hostile_files() -> list[tuple[str, bool, float, float]]:
-    """Name, whether it was refused as it should, seconds, and MB of the largest process."""
+    """Return name, whether it was refused properly, seconds, and MB of the largest process."""
     from picture_files import hostile
 
     found = []
@@ -307,8 +308,8 @@ def hostile_files() -> list[tuple[str, bool, float, float]]:
     return found
 
 
-# Runs a command; prints its exit code, the memory of its largest process in kB, and the processor
-# time of all of them in s: the clock says how busy the machine is.
+# Runs a command and prints its exit code, the memory of its largest process in kB, and the
+# processor time of all its processes in s. Elapsed time would depend on the load of the machine.
 MEASURE = """
 import resource, subprocess, sys
 done = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL)

@@ -1,4 +1,4 @@
-"""What a verification run returns, and how it becomes a section of the page."""
+"""Data of a section of the verification page, and its Markdown."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Check:
-    """A claim with the number it rests on; `holds` is decided by the run, never typed in."""
+    """A claim, the measured value that supports it, and whether it holds, as the run found."""
 
     claim: str
     measured: str
@@ -18,7 +18,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Section:
-    """One heading of the page: prose, tables, checks."""
+    """A section of the page: title, text, tables and checks."""
 
     title: str
     text: str
@@ -46,13 +46,13 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 HEAD = """# Verification
 
-`make verify` writes this page. The date and the code of the run that measured the numbers of a
-section stand below it. `python verification/run.py NAME` renews one section."""
+`make verify` writes this page. The line below each section has the date of its run, the version of
+the code, and the command that renews the section."""
 MARK = re.compile(r"^<!-- (\w+) -->$", re.MULTILINE)
 
 
 def renewed(page: str, name: str, section: str, order: Sequence[str]) -> str:
-    """The page with section `name` put in its place; others stay as long as `order` names them."""
+    """Return the page with a new section `name` and the others that `order` names."""
     parts = MARK.split(page)
     found = dict(zip(parts[1::2], parts[2::2], strict=True)) | {name: section}
     kept = [f"<!-- {each} -->\n{found[each].strip()}" for each in order if each in found]

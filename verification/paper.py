@@ -1,4 +1,4 @@
-"""The paper's claims, each an assertion with its tolerance; and the sensitivity table."""
+"""The claims of the paper, each with its tolerance, and the sensitivity table."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stonepass.paper.run import WITH_CLAIMS, reproduce
 from stonepass.paper.section import Asked, Claim
 from stonepass.studies.executor import process_pool
 
-INTERVAL = 15.0  # seconds between lines
+INTERVAL = 15.0  # seconds between lines of progress
 
 
 def section() -> Section:
@@ -37,17 +37,17 @@ def section() -> Section:
         title="The paper's claims",
         text=(
             "`stonepass paper` computes every claim of the paper that is a number or a statement "
-            "about numbers; nothing is typed in but the published side. A claim holds where the "
-            "deviation lies within its tolerance. Without the unpublished Supporting Information "
-            "some cannot be judged."
+            "about numbers. Only the published values are constants of the code. A claim holds if "
+            "the deviation is within its tolerance. Some claims cannot be judged without the "
+            "Supporting Information, which is not published."
         ),
         tables=[
-            ("Why these tolerances:", ("claim", "published", "reason"),
+            ("Reasons for the tolerances:", ("claim", "published", "reason"),
              [[c.what, c.published, c.reason] for c in judged]),
-            ("Not judged:", ("claim", "published", "reason"),
+            ("Claims that cannot be judged:", ("claim", "published", "reason"),
              [[c.what, c.published, c.reason] for c in claims if c.holds is None]),
-            ("ξ_cr at 12 kPa under every choice:",
-             ("about", "choice", "η", "outcome", "ξ_cr", "±", "change"),
+            ("ξ_cr at 12 kPa for each alternative where the paper leaves a choice:",
+             ("subject", "alternative", "η", "outcome", "ξ_cr", "±", "change"),
              [shortened(row.split(",")) for row in rows]),
         ],
         checks=[Check(claim.what, measured(claim), bool(claim.holds)) for claim in judged],
@@ -57,11 +57,11 @@ def section() -> Section:
 def measured(claim: Claim) -> str:
     if claim.tolerance is None or claim.deviation is None:
         return claim.ours
-    return f"{claim.ours}; deviation {claim.deviation:+.3g} of at most ± {claim.tolerance:.3g}"
+    return f"{claim.ours}; deviation {claim.deviation:+.3g}, tolerance ± {claim.tolerance:.3g}"
 
 
 def shortened(row: list[str]) -> list[str]:
-    """A row whose numbers have four digits; a choice may hold a comma."""
+    """Return a row whose numbers have four digits; an alternative can contain a comma."""
     about, *choice, eta, outcome, size, error, change = row
     what = ",".join(choice).strip('"')
     numbers = [f"{float(value):.4f}" if value else "–" for value in (size, error, change)]

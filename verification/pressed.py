@@ -1,4 +1,4 @@
-"""Seating with friction: independence of the increments, and both limits."""
+"""Seating with friction: convergence with the increments, no friction, and full stick."""
 
 from __future__ import annotations
 
@@ -31,24 +31,25 @@ def section() -> Section:
     return Section(
         title="Seating with friction",
         text=(
-            "The arc is pressed radially into the wall; wall points stick or slip. *Default* is 8 "
-            "increments. Random cases are in the robustness grid."
+            "The arc is pressed radially into the wall, and points of the wall stick or slip. The "
+            "default is 8 increments. The section *Robustness* has random cases."
         ),
         tables=[
             (
-                "P_ucr in kPa over the number of increments:",
+                "P_ucr in kPa for different numbers of increments:",
                 ("material η/ξ/μ", *(str(n) for n in INCREMENTS)),
                 increments,
             ),
             (
-                "Default settings against the `reference` level: 32 increments, twice the columns "
-                "on the path, and order 5 on a finer fitted mesh:",
+                "The default settings compared with the accuracy `reference`, which has 32 "
+                "increments, twice the columns of elements on the path, and order 5 on a finer "
+                "fitted mesh. The last two columns are relative errors:",
                 ("material η/ξ/μ", "α₀ (°)", "error α₀ (°)", "P_ucr", "σ(π/2)"),
                 accuracy,
             ),
             (
-                "Latex η 1.5, ξ 1.2: from no friction to full stick (σ in kPa, energy per R_a³):",
-                ("μ while seated", "α₀ (°)", "σ(π/2)", "slipping share", "dissipated (Pa)"),
+                "From no friction to full stick (latex, η 1.5, ξ 1.2; σ in kPa, energy over R_a³):",
+                ("μ during seating", "α₀ (°)", "σ(π/2)", "slipping fraction", "dissipated (Pa)"),
                 limits,
             ),
         ],
@@ -67,7 +68,7 @@ def increment_table() -> tuple[list[list[str]], list[Check]]:
         spread = max(abs(p / pressures[-1] - 1.0) for p in pressures[2:])
         checks.append(
             Check(
-                f"{material} η {eta:g}: P_ucr from 8 increments on within 0.3 % of 64",
+                f"{material} η {eta:g}: P_ucr with 8 or more increments within 0.3 % of 64",
                 f"{spread:.2%}",
                 spread <= 3e-3,
             )
@@ -127,12 +128,12 @@ def limit_table() -> tuple[list[list[str]], list[Check]]:
     large = float(np.sqrt((change**2).mean()) / one.peak_contact_pressure)
     return rows, [
         Check(
-            "μ → 0 tends to the frictionless state (α₀, μ = 0.001)",
+            "α₀ tends to that of the frictionless state as μ → 0 (μ = 0.001)",
             f"{np.degrees(small):.4f}°",
             np.degrees(small) < 0.01,
         ),
         Check(
-            "large μ tends to full stick (rms change of σ(θ), μ = 2 against 1)",
+            "σ(θ) tends to that of full stick as μ grows (rms change from μ = 1 to 2)",
             f"{large:.2%}",
             large < 0.01,
         ),

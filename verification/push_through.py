@@ -1,4 +1,4 @@
-"""The loaded push-through: identities, convergence, a random grid, what resists microbuckling."""
+"""The direct model: identities, convergence, a random grid, and the relaxed energy."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from stonepass.units import Pressure
 SEED, GRID, REFERENCED = 20248, 100, 40
 EXACT, REFINED_EXACT, CONVERGED, SOLVED, COVERED = 2e-3, 5e-4, 5e-3, 0.98, 0.95
 TETHER = 0.1
-SHARE = 0.5  # of the pressure that opens the tube to R_s
+SHARE = 0.5  # fraction of R_s − lumen by which the urine pressure opens the tube
 BLUNT, EGG = sp.Shape(1.2, (0.95, 0.0, 0.0, 0.0, 0.05)), sp.Shape(1.3, (1.01, 0.12, 0.01, 0.04))
 NAMES = {BLUNT: "blunt", EGG: "egg"}
 MESHES = ("fast, coarser", "fast", "standard", "reference")
@@ -48,7 +48,7 @@ NAMED = (("latex", 1.5, 1.2, 0.475), ("ureter", 1.3, 1.21, 0.5), ("ureter", 3.4,
 
 @dataclass(frozen=True)
 class Drawn:
-    """One case of the grid: what it came to, and its errors against `reference` where solved."""
+    """Result of one case of the grid, and its errors compared with `reference` if solved."""
 
     text: str
     outcome: str
@@ -56,7 +56,7 @@ class Drawn:
     microbuckled: bool
     seconds: float
     penetration: float
-    errors: tuple[tuple[float, float], ...]  # true and claimed: α, σ(π/2), P_ucr
+    errors: tuple[tuple[float, float], ...]  # true and stated: α, σ(π/2), P_ucr
 
 
 def section() -> Section:
@@ -70,26 +70,28 @@ def section() -> Section:
     return Section(
         title="The push-through, solved directly",
         text=(
-            "Without friction the force N on the held stone is known: N = I(P) = ∫ π r_a² dp where "
-            "the wall has the same axial stretch far away on both sides, and with the sides' own "
-            "stretches where it has not. P is the pressure that opens the tube halfway from its "
-            "lumen to R_s. First at default settings with held ends, L = 10: N against I, and "
-            "against the exact force with the measured stretches; then with a weak axial tether, "
-            "at `reference`. What is left of N/I − 1 with held ends is the work of the strained "
-            "sides, not an error. With friction the same holds less D, what friction takes."
-            f"\n\nThe random grid has {GRID} cases (seed {SEED}): η 1.15–3.4, ξ 1.02–1.4 (latex) "
-            "or to 1.3 (ureter), μ 0.05–0.8. Errors are measured against `reference`, for the "
-            f"first {REFERENCED}."
+            "Without friction the force N on the held stone is [known](theory.md#identity): it is "
+            "I(P) = ∫ π r_a² dp if the wall has the same axial stretch far from the stone on both "
+            "sides, and follows from the two stretches otherwise. P is the pressure that opens the "
+            "tube halfway from its lumen to R_s. The first table compares N with I, and with the "
+            "exact force for the computed stretches, at default settings with held ends and L = 10 "
+            "R_a. Its last column is for a weak axial tether instead of held ends, at the accuracy "
+            "`reference`. With held ends, N/I − 1 is not an error but the effect of the strains of "
+            "the two sides. With friction, N + D takes the place of N, where D is the energy that "
+            "friction dissipates for a unit advance of the stone."
+            f"\n\nThe random grid has {GRID} cases (seed {SEED}) with η 1.15–3.4, ξ 1.02–1.4 "
+            "(latex) or 1.02–1.3 (ureter) and μ 0.05–0.8. The first "
+            f"{REFERENCED} are compared with the accuracy `reference`."
         ),
         tables=[
             (
                 "N without friction:",
-                ("case", "N/I − 1", "against the exact force", "tether: N/I − 1"),
+                ("case", "held ends: N/I − 1", "held ends: N/exact − 1", "tether: N/I − 1"),
                 [row[0] for row in identity],
             ),
             (
-                "N + D against I with friction, relative to I:",
-                ("case", "held ends, against the exact force", "tether, against I"),
+                "With friction, differences divided by I:",
+                ("case", "held ends: N + D − exact", "tether: N + D − I"),
                 [row[0] for row in friction],
             ),
             (
@@ -98,12 +100,13 @@ def section() -> Section:
                 [row[0] for row in meshes],
             ),
             (
-                "P_ucr in kPa with other parts of the ground matrix kept against microbuckling:",
-                ("case", "0.1", "0.2 (default)", "0.3", "margin"),
+                "P_ucr in kPa if other fractions of the ground matrix remain in the [relaxed "
+                "energy](theory.md#microbuckling-and-the-relaxed-energy):",
+                ("case", "0.1", "0.2 (default)", "0.3", "stability margin"),
                 [row[0] for row in kept],
             ),
-            ("The grid:", ("", "cases"), grid_rows(drawn)),
-            ("Not solved:", ("case", "cause"), failures(drawn)),
+            ("Random grid:", ("", "cases"), grid_rows(drawn)),
+            ("Cases without a solution:", ("case", "reason"), failures(drawn)),
         ],
         checks=[
             at_most("held ends: N within {} of the exact force", EXACT, [r[1] for r in identity]),
@@ -140,7 +143,7 @@ def case_of(
 
 
 def half_open(case: sp.Case) -> float:
-    """The pressure that opens the tube halfway from its lumen to R_s."""
+    """Return the pressure in Pa that opens the tube halfway from its lumen to R_s."""
     lumen = opened_radius(case, 0.0)
     assert lumen is not None
     target = lumen + SHARE * (case.size_ratio - lumen)
@@ -271,11 +274,11 @@ def grid_rows(drawn: Sequence[Drawn]) -> list[list[str]]:
     seconds = sorted(each.seconds for each in drawn)
     rows = [[f"`{name}`", str(sum(each.outcome == name for each in drawn))]
             for name in ("MOVES", "LEAKS", "NO_SOLUTION")]  # fmt: skip
-    rows.append(["of them with microbuckling", str(sum(each.microbuckled for each in drawn))])
+    rows.append(["cases with microbuckling", str(sum(each.microbuckled for each in drawn))])
     passed = sum(each.penetration > 1e-6 for each in drawn)
-    rows.append(["open wall passes through the stone by more than 1e-6 R_s", str(passed)])
+    rows.append(["cases whose open wall penetrates the stone by more than 1e-6 R_s", str(passed)])
     rows.append(
-        ["seconds, median and most", f"{seconds[len(seconds) // 2]:.1f}, {seconds[-1]:.1f}"]
+        ["time in s, median and largest", f"{seconds[len(seconds) // 2]:.1f}, {seconds[-1]:.1f}"]
     )
     return rows
 
@@ -289,7 +292,7 @@ def grid_checks(drawn: Sequence[Drawn]) -> list[Check]:
     solved = sum(each.outcome != "NO_SOLUTION" for each in drawn)
     checks = [
         Check(
-            f"≥ {SOLVED:.0%} of the grid solved, the rest named",
+            f"at least {SOLVED:.0%} of the grid is solved; the others state the reason",
             f"{solved} of {len(drawn)}",
             solved >= SOLVED * len(drawn)
             and all(each.cause for each in drawn if each.outcome == "NO_SOLUTION"),
@@ -301,9 +304,9 @@ def grid_checks(drawn: Sequence[Drawn]) -> list[Check]:
         true, claimed = (np.array([errors[k][i] for errors in measured]) for i in (0, 1))
         checks.append(
             Check(
-                f"the error of {quantity} lies within the claim in ≥ {COVERED:.0%}",
-                f"{covered} of {len(measured)}; true over claimed {np.median(true / claimed):.2f} "
-                "in the median",
+                f"at least {COVERED:.0%} of the errors of {quantity} are within the stated error",
+                f"{covered} of {len(measured)}; median of true over stated error "
+                f"{np.median(true / claimed):.2f}",
                 covered >= COVERED * len(measured) > 0,
             )
         )

@@ -23,7 +23,7 @@ import stonepass
 from stonepass.studies.executor import CORES, process_pool
 
 SIDE_BY_SIDE = ("far_field", "refinement", "accuracy", "half_length", "pressed", "calibration")
-# Each has its own workers.
+# Each of these sections has its own pool of processes.
 ON_ALL_CORES = (
     "error_estimates",
     "smoothness",
@@ -51,10 +51,10 @@ def main(names: list[str]) -> int:
         print(f"{name}: {seconds:.0f} s", file=sys.stderr, flush=True)
         stamp = (
             f"*{date.today()}, code {code}, NGSolve {ng.__version__}; {seconds:.0f} s, "
-            f"{os.cpu_count()} cores.*"
+            f"{os.cpu_count()} cores: `python verification/run.py {name}`*"
         )
         page = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
-        # Each as soon as it is there: what ran is kept where a later section breaks off.
+        # The page is written after each section, so that they are kept if a later one fails.
         PAGE.write_text(
             renewed(page, name, f"{section.markdown()}\n\n{stamp}", SECTIONS), encoding="utf-8"
         )
@@ -66,7 +66,7 @@ def main(names: list[str]) -> int:
 
 
 def sections(names: Sequence[str]) -> Iterator[tuple[str, Section, float]]:
-    """Run the sections of one process side by side, then the others one by one."""
+    """Run the sections that use one process concurrently, then the others one after another."""
     with process_pool(CORES) as pool:
         runs = [pool.submit(run, name) for name in names if name in SIDE_BY_SIDE]
         for finished in as_completed(runs):
@@ -83,7 +83,7 @@ def run(name: str) -> tuple[str, Section, float]:
 
 
 def revision() -> str:
-    """Version and commit of the code that runs, `+` where it differs from the commit."""
+    """Return version and commit of the code; `+` says that the code differs from the commit."""
     try:
         commit = git("rev-parse", "--short", "HEAD")
         changed = git("status", "--porcelain", "--", "src", "verification")

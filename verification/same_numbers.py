@@ -90,8 +90,7 @@ SLOW = {
     "paper": ["paper", "all", "--out", "OUT"],
 }
 PATIENTS = ("examples/patient.toml", "examples/person.toml")  # the later name first
-# What a run measures of itself, and names that carry the version.
-# The residual is what rounding leaves of the equilibrium.
+# Times, texts, names that contain the version, and the residual, which is rounding error.
 IGNORED = {
     "residual",
     "seconds",
@@ -115,7 +114,7 @@ RENAMED = {
 }
 # Words that were replaced on purpose: old value, new value.
 REWORDED = {("MOVES", "SOLVED"), ("CLEARS", "LEAKS")}
-# Options that a record has only for the model that owns them; a file's name; a resolved default.
+# Options that a record has only for their own model, names of files, and resolved defaults.
 GONE = {
     "seating", "as_printed", "closure_start", "closure", "series_order", "pairs", "wetted",
     "circumferential_modulus", "longitudinal_modulus", "secant_stretch", "seating_friction",
@@ -151,7 +150,7 @@ def collect(folder: Path, source: Path | None, quick: bool) -> int:
 
 
 def compare(before: Path, after: Path) -> int:
-    """Say of every file of `before` how it differs in `after`; count the files that differ."""
+    """Print how every file of `before` differs in `after`; return the number that differ."""
     differing, counts = 0, {"byte": 0, "digits": 0, "numbers": 0}
     kept = (".json", ".csv", ".inp", ".feb", ".vtu")
     files = sorted(p for p in before.rglob("*") if p.suffix in kept and "cache" not in p.parts)
@@ -188,10 +187,10 @@ def _same(a: float, b: float) -> bool:
 
 
 def _json(old: object, new: object, where: str = "", whole: object = None) -> tuple[list[str], int]:
-    """Differences of two documents, and how many numbers were compared.
+    """Return the differences of two documents and the number of numbers compared.
 
-    A key that is not where it was is looked for by its name in the whole new document. A number
-    that does not exist (null) need not be listed any more.
+    A key that has moved is searched by its name in the whole new document. A key whose value was
+    null may be missing.
     """
     if whole is None or (isinstance(new, dict) and "record_version" in new):
         whole = new
@@ -235,7 +234,7 @@ _MISSING = object()
 
 
 def _find(document: object, key: str) -> object:
-    """The first value of a key anywhere in a document."""
+    """Return the first value of a key anywhere in a document."""
     if isinstance(document, dict):
         if key in document:
             return document[key]
@@ -247,7 +246,7 @@ def _find(document: object, key: str) -> object:
 
 
 def _text(old: str, new: str) -> tuple[list[str], int]:
-    """The same for lines of text: every number in its place; words may differ."""
+    """Return the differences of two texts line by line; numbers must agree, words may differ."""
     a, b = (FINGERPRINT.sub("INNER", text).splitlines() for text in (old, new))
     if len(a) != len(b):
         return [f"{len(a)} and {len(b)} lines"], 0

@@ -1,4 +1,4 @@
-"""Stones without names: random convex shapes, seated and pushed, each also turned round."""
+"""Random convex stones: seated, pushed through, and turned round."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ SEED, GRID = 20249, 60
 SOLVED, EXACT, MIRRORED, THROUGH, COVERED = 0.98, 5e-4, 1e-5, 1e-4, 0.95
 TETHER, SHARE = 0.1, 0.6
 POINTS = 61
-LENGTHS = (0.55, 1.9)  # over the diameter; what lies at the ends of 0.5 to 2 may be refused
+LENGTHS = (0.55, 1.9)  # over the diameter; shapes close to 0.5 and 2 may be refused
 LEAST_CURVATURE = 0.15  # g + g″: 1 on a spheroid
 
 
 @dataclass(frozen=True)
 class Drawn:
-    """What one stone came to."""
+    """Results of one stone."""
 
     text: str
     outcomes: tuple[str, ...]  # frictionless, pressed, direct
     causes: tuple[str, ...]
     identity: float | None  # N/I − 1 without friction
-    turned: float | None  # α₀ of the stone against π − the downstream angle of it turned round
-    through: float  # ρ of the shape through its own points
-    errors: tuple[tuple[float, float], ...]  # true and claimed error of P_ucr, pressed and direct
+    turned: float | None  # difference of the contact edges from those of the stone turned round
+    through: float  # largest error of ρ of the shape fitted to its own points
+    errors: tuple[tuple[float, float], ...]  # true and stated error of P_ucr, pressed and direct
 
 
 def section() -> Section:
@@ -43,17 +43,17 @@ def section() -> Section:
     return Section(
         title="Stones that are not spheres",
         text=(
-            f"{GRID} random convex stones (seed {SEED}) with lengths from {LENGTHS[0]} to "
-            f"{LENGTHS[1]} diameters, outlines g of six terms, curvature g + g″ ≥ "
-            f"{LEAST_CURVATURE}, half with mirror images: "
-            "seated without friction, pressed in with friction, and pushed through. Without "
-            "friction the force on the held stone must be I(P) whatever the shape (tether, "
-            "`reference` mesh); turned round, the stone must be seated as the mirror image; and a "
-            "shape put through points of its own meridian must be the shape."
+            f"{GRID} random convex stones (seed {SEED}) have lengths from {LENGTHS[0]} to "
+            f"{LENGTHS[1]} diameters, outlines g of six terms and a curvature g + g″ of at least "
+            f"{LEAST_CURVATURE}; half of them have mirror symmetry. Each is seated without "
+            "friction, pressed in with friction, and pushed through. Without friction the force "
+            "on the held stone must be I(P) whatever its shape (weak axial tether, mesh of "
+            "`reference`). The seated state of the stone turned round must be the mirror image. A "
+            "shape fitted to points of its own meridian must reproduce itself."
         ),
         tables=[
             ("Outcomes:", ("model", "`MOVES`", "`NO_SOLUTION`", "other"), outcome_rows(drawn)),
-            ("Not solved:", ("stone", "cause"), failures(drawn)),
+            ("Cases without a solution:", ("stone", "reason"), failures(drawn)),
         ],
         checks=checks(drawn),
     )
@@ -92,7 +92,7 @@ def identity(case: sp.Case) -> float | None:
 
 
 def turned(case: sp.Case) -> float | None:
-    """Largest difference of the edges, frictionless, in rad."""
+    """Return the largest difference of the contact edges in rad, without friction."""
     smooth = sp.SeatedBalance(seating="frictionless")
     mirrored = sp.Stone(size_ratio=case.size_ratio, shape=case.stone.shape.turned())
     one = sp.seat(replace(case, model=smooth), Resolution())
@@ -150,17 +150,21 @@ def checks(drawn: Sequence[Drawn]) -> list[Check]:
     errors = [error for each in drawn for error in each.errors]
     covered = sum(true <= claim for true, claim in errors)
     return [
-        Check(f"≥ {SOLVED:.0%} solved", f"{solved} of {len(asked)}", solved >= SOLVED * len(asked)),
+        Check(
+            f"at least {SOLVED:.0%} solved",
+            f"{solved} of {len(asked)}",
+            solved >= SOLVED * len(asked),
+        ),
         worst(f"N within {EXACT:.2%} of I(P)", exact, EXACT, len(drawn)),
-        worst(f"turned round the mirror image to {MIRRORED:g} rad", mirrored, MIRRORED, len(drawn)),
+        worst(f"turned round: mirror image to {MIRRORED:g} rad", mirrored, MIRRORED, len(drawn)),
         worst(
-            f"through its own points the shape to {THROUGH:g} R_s",
+            f"fitted to its own points: the shape to {THROUGH:g} R_s",
             [each.through for each in drawn],
             THROUGH,
             len(drawn),
         ),
         Check(
-            f"the error of P_ucr lies within the claim in ≥ {COVERED:.0%}",
+            f"at least {COVERED:.0%} of the errors of P_ucr are within the stated error",
             f"{covered} of {len(errors)}",
             covered >= COVERED * len(errors) > 0,
         ),
@@ -195,7 +199,7 @@ def cases() -> list[sp.Case]:
 
 
 def random_shape(random: np.random.Generator, *, symmetric: bool) -> sp.Shape:
-    """One whose curvature stays well above zero; drawn again where it does not."""
+    """Return a random shape whose curvature is well above zero."""
     while True:
         c2, c3, c4, c5 = random.normal(0.0, (0.12, 0.05, 0.03, 0.015))
         if symmetric:

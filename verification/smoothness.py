@@ -1,4 +1,4 @@
-"""Are contact angle and critical pressure smooth functions of size and wall, mesh and all?"""
+"""Smoothness of contact angle and critical pressure as functions of size and wall ratio."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SEED, RANDOM_LINES = 20246, 14
 POINTS, DEGREE = 13, 3
 SMOOTH = 0.01
 PRESSURE_STEP, ANGLE_STEP = 1e-4, 1e-3  # of P_ucr; degrees of α₀
-STEP = 0.01  # between neighbours, as a share of ξ − lumen or η − 1
+STEP = 0.01  # between neighbours, as a fraction of ξ − lumen or η − 1
 NAMED = (
     ("latex", 1.5, 1.2, 0.475, "frictionless"),
     ("latex", 1.5, 1.2, 0.475, "pressed"),
@@ -33,11 +33,11 @@ VARIABLES = ("ξ", "η")
 
 @dataclass(frozen=True)
 class Line:
-    """Neighbouring solves along ξ or η: largest deviation of each slope from a smooth one.
+    """Neighbouring solves along ξ or η: the largest deviation of each slope from a smooth one.
 
-    The steps are the same deviations over one interval, of P_ucr itself and of α₀ in degrees.
-    `kinked` where some state has no smooth contact edge, as in a wall that has lost its
-    stability; it then says so itself.
+    The steps are these deviations times the interval: relative for P_ucr, in degrees for α₀.
+    `kinked` says that some state has no smooth contact edge, as in a wall that has lost its
+    stability; the answer reports this.
     """
 
     case: sp.Case
@@ -69,29 +69,34 @@ def section() -> Section:
             enough and slope <= SMOOTH,
         ),
         Check(
-            f"P_ucr has no step of {PRESSURE_STEP:.0e} of itself, along ξ and η",
-            f"{pressure:.0e} at worst of {len(smooth)} lines",
+            f"P_ucr has no relative step above {PRESSURE_STEP:.0e}, along ξ and η",
+            f"{pressure:.0e} at worst, {len(smooth)} lines",
             enough and pressure <= PRESSURE_STEP,
         ),
         Check(
-            f"α₀ has no step of {ANGLE_STEP}°, along ξ and η",
-            f"{angle:.4f}° at worst of {len(smooth)} lines",
+            f"α₀ has no step above {ANGLE_STEP}°, along ξ and η",
+            f"{angle:.4f}° at worst, {len(smooth)} lines",
             enough and angle <= ANGLE_STEP,
         ),
     ]
     return Section(
         title="Smoothness",
         text=(
-            f"{POINTS} neighbouring solves at default settings, {STEP:.0%} of ξ less the loaded "
-            "lumen (or of η − 1) apart, so that a step of P_ucr by one ten-thousandth shows as 1 % "
-            "of its slope. The slopes between neighbours against those of a polynomial of degree "
-            f"{DEGREE} through all points: the largest deviation, relative to the mean slope or, "
-            "where that is less, to a tenth of the quantity over ξ less lumen (or η − 1). Along η "
-            "a slope may nearly vanish, so there the steps count: the same deviations over one "
-            "interval. What is left of them comes from the increments of the path, and from the "
-            "number of element rows, which changes with the wall. The element beside the contact "
-            f"edge spans 2 % of the contact. Six named cases, and {RANDOM_LINES} drawn as in the "
-            f"robustness grid (seed {SEED})."
+            f"Each line has {POINTS} neighbouring solves at default settings. The distance of "
+            f"neighbours is {STEP:.0%} of ξ − ξ_lumen, where ξ_lumen is the lumen under load "
+            f"divided by the inner diameter, or {STEP:.0%} of η − 1. A step of P_ucr by one "
+            "ten-thousandth then shows as 1 % of its slope. The table compares the slopes between "
+            f"neighbours with those of a polynomial of degree {DEGREE} through all points and "
+            "gives the largest deviation, divided by the mean slope. If the mean slope is smaller "
+            "than a tenth of the mean of the quantity (P_ucr or π/2 − α₀) divided by ξ − ξ_lumen "
+            "or η − 1, the deviation is divided by the latter. Along η a slope can nearly vanish, "
+            "so that the steps are checked there: the same deviations times the distance of "
+            "neighbours. The deviations that remain come from the increments of the path, and from "
+            "the number of element rows, which changes with the wall. The element next to the "
+            "contact edge spans 2 % of the contact. There are six named cases and "
+            f"{RANDOM_LINES} cases drawn as in the section *Robustness* (seed {SEED}). *No smooth "
+            "edge* means that a state has no smooth contact edge, as in a wall that has lost its "
+            "stability."
         ),
         tables=[
             ("", ("case", "dP_ucr/dξ", "dα₀/dξ", "dP_ucr/dη", "dα₀/dη"), rows),
@@ -127,7 +132,7 @@ def line(case: sp.Case, variable: str) -> Line:
 
 
 def moved(case: sp.Case, variable: str, share: float) -> sp.Case:
-    """The case with ξ less the lumen, or η − 1 at the same ξ, larger by a share of itself."""
+    """Return the case with ξ − lumen, or η − 1 at the same ξ, larger by a fraction of itself."""
     if variable == "ξ":
         lumen = lumen_ratio(case.wall_ratio, case.ureter.material.law, case.load)
         assert lumen is not None
@@ -139,19 +144,19 @@ def moved(case: sp.Case, variable: str, share: float) -> sp.Case:
 def rough(
     share: Float[np.ndarray, " n"], values: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, " m"]:
-    """How far the differences of neighbours deviate from those of a smooth curve."""
+    """Return the deviations of the differences of neighbours from those of a smooth curve."""
     smooth = np.polynomial.Polynomial.fit(share, values, DEGREE)(share)
     return np.abs(np.diff(values) - np.diff(smooth))
 
 
 def slope_scale(share: Float[np.ndarray, " n"], values: Float[np.ndarray, " n"]) -> float:
-    """The mean slope, or a tenth of the mean value where that is more."""
+    """Return the mean slope, or a tenth of the mean value if that is larger."""
     mean = abs(values[-1] - values[0]) / (share[-1] - share[0])
     return float(max(mean, 0.1 * abs(values.mean())))
 
 
 def cases() -> Sequence[sp.Case]:
-    """The named ones, and random ones that move."""
+    """Return the named cases and random cases that have a critical pressure."""
     found = [
         sp.Case(
             sp.Stone(size_ratio=xi, friction=mu),

@@ -1,4 +1,4 @@
-"""Tables, cases, laws and patients in files: a damaged one is read or refused in a sentence."""
+"""Damaged files of tables, cases, laws and patients must be read, or refused in one sentence."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ TRIED = 20_000
 SEED = 20250
 PROCESSES = 2
 LARGEST_TIME = 2.0  # s of one core
-LEAST_SHARE = 0.05  # of a kind, read and refused: else the damage is too coarse or too fine
+LEAST_SHARE = 0.05  # of each kind read, and refused; else the damage is too large or too small
 MEMORY = 2_000_000_000  # bytes
 SHOWN = 20
 
 
 @dataclass
 class Ended:
-    """How damaged files ended, by kind."""
+    """Results of damaged files, by kind."""
 
     how: Counter[tuple[str, str]] = field(default_factory=Counter)
     slowest: dict[str, float] = field(default_factory=dict)
@@ -59,43 +59,45 @@ def section() -> Section:
     last = max(ended.slowest, key=ended.slowest.__getitem__)
     tables = [
         (f"{TRIED} damaged files, seed {SEED}:",
-         ("kind", "file", "tried", "read", "refused in one sentence", "anything else",
+         ("kind", "file", "tried", "read", "refused in one sentence", "other results",
           "slowest, s"), rows),
     ]  # fmt: skip
     if ended.others:
         shown = [[str(k), " ".join(told.split()).replace("|", "¦")] for k, told in ended.others]
-        tables.append((f"The first that ended otherwise, of {odd}:", ("no.", "how"), shown[:SHOWN]))
+        caption = f"The first of {odd} other results:"
+        tables.append((caption, ("number", "result"), shown[:SHOWN]))
     return Section(
         title="Tables and files of text",
         text=(
-            "A valid file for every reader of CSV, TOML and JSON, damaged one to four times: "
-            "bytes flipped, left out or repeated, files cut short; control characters, NUL and "
-            "other encodings; lines and cells swapped, repeated, left out or emptied; names "
-            "misspelt or of another file; numbers that are none, not finite, huge, tiny or "
-            "written otherwise; other units and uncertainties; values of another type, cells of "
-            "up to 140 000 characters, nesting 30 000 deep; quotes, line ends and byte order "
-            "marks. Each must be read into finite numbers, or be refused as bad input in one line "
-            "of fewer than "
-            f"{LONGEST_SENTENCE} characters without control characters, that ends in a full stop, "
-            "names the file and says what was expected; within "
-            f"{LONGEST_TIME:g} s of one core. That rows and columns are named is tested by hand "
-            "in tests/test_damaged_tables.py."
+            "A valid file of every kind that is read as CSV, TOML or JSON is damaged one to four "
+            "times. Bytes are flipped, left out or repeated, or the file is cut short. Control "
+            "characters, NUL characters and other encodings are inserted. Lines and cells are "
+            "swapped, repeated, left out or emptied. Names are misspelt or taken from another "
+            "file. Numbers are replaced by text, by values that are not finite, huge or tiny, or "
+            "by other notations. Units and uncertainties are changed. Values get another type, "
+            "cells up to 140 000 characters, and nested values a depth of 30 000. Quotes, line "
+            "ends and byte order marks are changed. Each file must be read into finite numbers, or "
+            f"be refused as bad input, within {LONGEST_TIME:g} s of one core. The message of a "
+            f"refusal has one line of fewer than {LONGEST_SENTENCE} characters without control "
+            "characters, ends in a full stop, names the file and says what was expected. "
+            "tests/test_damaged_tables.py checks with chosen files that the messages name rows and "
+            "columns."
         ),
         tables=tables,
         checks=[
             Check("a damaged file is read or refused in one sentence that names it",
                   f"{tried} tried, {odd} ended otherwise", odd == 0 and tried == TRIED),
-            *(Check(f"of every kind at least {LEAST_SHARE:.0%} are {how}",
-                    f"{share:.0%} at least", share >= LEAST_SHARE)
+            *(Check(f"at least {LEAST_SHARE:.0%} of the files of every kind are {how}",
+                    f"{share:.0%} or more", share >= LEAST_SHARE)
               for how, share in least.items()),
-            Check(f"none takes longer than {LARGEST_TIME:g} s of one core",
+            Check(f"no file takes longer than {LARGEST_TIME:g} s of one core",
                   f"{ended.slowest[last]:.2f} s ({last})", ended.slowest[last] <= LARGEST_TIME),
         ],
     )  # fmt: skip
 
 
 def fuzz() -> Ended:
-    """How all end; number k is damaged alike whichever process takes it."""
+    """Return the results; the damage of file k does not depend on the process that takes it."""
     shares = [range(first, TRIED, PROCESSES) for first in range(PROCESSES)]
     found = Ended()
     with ProcessPoolExecutor(PROCESSES, mp_context=get_context("spawn")) as pool:
@@ -112,7 +114,7 @@ def fuzz_some(numbers: range) -> Ended:
     names = list(KINDS)
     ended = Ended()
     with TemporaryDirectory() as folder:
-        for kind in names:  # what is imported with the first is not timed
+        for kind in names:  # imports of the first call are not timed
             assert outcome(kind, KINDS[kind].text.encode(), Path(folder)) == "read"
         for k in numbers:
             kind = names[k // PROCESSES % len(names)]

@@ -1,4 +1,4 @@
-"""Pages that follow from the code: the Python interface and the command line."""
+"""Pages that follow from the code: Python interface, command line, errors of surrogates."""
 
 import re
 from pathlib import Path
@@ -10,6 +10,7 @@ from typer.main import get_command
 
 import stonepass
 from stonepass.cli.app import app as command_line
+from stonepass.studies.surrogates.store import shipped_surrogates
 
 # Pages of the Python interface: its name, its title, and the packages whose public names it has.
 GROUPS = (
@@ -128,11 +129,28 @@ def _code(text):
     return "`" + text.replace("|", "\\|") + "`"
 
 
+def surrogate_errors():
+    """Return the measured errors of the surrogates of the package as a table."""
+    lines = [
+        "| material, model | cases | same outcome | compared | largest error | root mean square "
+        "| within the claim |",
+        "| --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for material, model in shipped_surrogates():
+        found = stonepass.load_surrogate(material, model).about["check"]
+        errors = (f"{100.0 * found[name]:.2g} %" for name in ("largest", "typical"))
+        cells = [f"`{material}`, {model}", found["cases"], found["same_outcome"],
+                 found["compared"], *errors, f"{100.0 * found['within']:.1f} %"]  # fmt: skip
+        lines.append("| " + " | ".join(map(str, cells)) + " |")
+    return "\n".join([*lines, ""])
+
+
 def write(app):
     """Write the pages where the build reads them; they are not under version control."""
     folder = Path(app.srcdir) / "generated"
     folder.mkdir(exist_ok=True)
-    for name, text in (*python_interface(), ("command_line", command_line_page())):
+    pages = {"command_line": command_line_page(), "surrogates": surrogate_errors()}
+    for name, text in (*python_interface(), *pages.items()):
         path = folder / f"{name}.md"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")

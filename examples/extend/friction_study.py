@@ -1,4 +1,4 @@
-"""A study of one's own, as it would stand in `stonepass/studies`: P_ucr over friction."""
+"""An additional study, as a file of `stonepass/studies` would define it: P_ucr over friction."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class FrictionRange:
     frictions: tuple[float, ...] = (0.1, 0.3, 0.5)
 
     def jobs(self):
-        """One job for each coefficient; whoever runs the study says where and with which cache."""
+        """Return one job for each coefficient; `run_study` decides where and with which cache."""
         return [PressureJob(self.case.with_friction(each)) for each in self.frictions]
 
     def reduce(self, results):
-        """Put the answers together; results arrive by their jobs, in any order."""
+        """Collect the answers; `results` maps each job to its result, in any order."""
         answers = [results[job] for job in self.jobs()]
         return [
             (friction, answer.pressure, answer.outcome.name)

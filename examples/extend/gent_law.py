@@ -1,7 +1,7 @@
-"""A wall law of one's own, as it would stand in `stonepass/materials`: Gent's rubber.
+"""An additional wall law, as a file of `stonepass/materials` would define it: Gent's rubber.
 
 A. N. Gent, A new constitutive relation for rubber, Rubber Chemistry and Technology 69 (1996) 59:
-W = −μ J_m/2 ln(1 − (I₁ − 3)/J_m). The chains of the network lock where I₁ − 3 reaches J_m.
+W = −μ J_m/2 ln(1 − (I₁ − 3)/J_m). The chains of the network are fully extended at I₁ − 3 = J_m.
 """
 
 from __future__ import annotations

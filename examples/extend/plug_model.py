@@ -1,8 +1,8 @@
-"""A model of one's own: the stone as a plug, held by a uniform pressure along its whole length.
+"""An additional model: the stone as a plug that a uniform pressure holds along its whole length.
 
-It stands here to show the contract of a model, not for its physics. The wall is taken to press on
-the stone with the pressure p that opens a uniform tube to the stone's radius, over the length of
-the stone, so that P_ucr π R_s² = μ p 2π R_s L, with L = `length` R_s: P_ucr = 2 μ p L/R_s.
+The example shows the contract of a model; its physics is too simple for use. The wall presses on
+the stone with the pressure p that opens a uniform tube to the radius R_s of the stone, over the
+length L = `length` R_s. The balance P_ucr π R_s² = μ p 2π R_s L gives P_ucr = 2 μ p L/R_s.
 """
 
 from __future__ import annotations
@@ -46,14 +46,14 @@ class Plug:
         check_inputs(self)
 
     def require_any_size(self):
-        """Accept: no option belongs to one stone."""
+        """Accept every model: no option belongs to one stone only."""
 
     def largest_size(self, case):
-        """The end of the material's strain range."""
+        """Return the largest stretch of the strain range of the material."""
         return case.ureter.material.strain_range[1]
 
     def solve(self, case, numerics, states, resolution=None):
-        """Answer a stuck stone; a plug needs no finite elements."""
+        """Return the answer for a stuck stone; a plug needs no finite elements."""
         law = far_field_law(case, ground=self.far_field_ground)
         opening = float(urine_pressure(np.array(case.size_ratio), case.wall_ratio, law, case.load))
         return Answer(
@@ -96,10 +96,10 @@ class PlugContact:
 
 @dataclass(frozen=True)
 class PlugDetail:
-    """What only this model knows."""
+    """Numbers that only this model has."""
 
     opening: float
 
     def quantities(self):
-        """The pressure that opens the tube to the stone's radius."""
+        """Return the pressure that opens the tube to the radius of the stone."""
         return (Quantity("opening_pressure", self.opening / 1e3, "kPa", "opening pressure"),)

@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from stonepass.records.rising import RisingRecord, rising_record
     from stonepass.records.sensitivity import SensitivityRecord, sensitivity_record
     from stonepass.records.size import SizeRecord, size_record
+    from stonepass.records.sweep import SweepRecord, sweep_record
     from stonepass.result import Result
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.closures import ClosureComparison, closures
@@ -101,6 +102,10 @@ if TYPE_CHECKING:
     from stonepass.studies.surrogates.check import check_surrogate
     from stonepass.studies.surrogates.store import load_surrogate, save_surrogate
     from stonepass.studies.surrogates.surrogate import Surrogate
+    from stonepass.studies.sweeps.plan import Sweep
+    from stonepass.studies.sweeps.results import SweepResults, read_results
+    from stonepass.studies.sweeps.run import sweep
+    from stonepass.studies.sweeps.sweep_file import read_sweep
     from stonepass.surface.friction import surface_friction
     from stonepass.surface.friction_result import SurfaceFriction
     from stonepass.surface.paths import StraightPath
@@ -185,6 +190,9 @@ _HOME = {
     "Surrogate": "studies.surrogates.surrogate",
     "SurrogateAnswers": "studies.surrogates.answers",
     "SurrogateCases": "studies.sensitivity.surrogate_cases",
+    "Sweep": "studies.sweeps.plan",
+    "SweepRecord": "records.sweep",
+    "SweepResults": "studies.sweeps.results",
     "Tension": "bench.test_data",
     "UncertainCase": "studies.sensitivity.uncertain_case",
     "UnstableLaw": "errors",
@@ -222,9 +230,11 @@ _HOME = {
     "read_opening_curve": "inputs.opening_curve_file",
     "read_patient": "clinic.patient",
     "read_points": "inputs.measured_pressures",
+    "read_results": "studies.sweeps.results",
     "read_sensitivity": "studies.sensitivity.study_file",
     "read_shape": "inputs.shape_file",
     "read_surface_image": "surface.readers",
+    "read_sweep": "studies.sweeps.sweep_file",
     "read_tension": "bench.test_data",
     "read_untrusted": "surface.untrusted",
     "rising_record": "records.rising",
@@ -237,6 +247,8 @@ _HOME = {
     "size_record": "records.size",
     "solve": "model.critical",
     "surface_friction": "surface.friction",
+    "sweep": "studies.sweeps.run",
+    "sweep_record": "records.sweep",
     "uncertain_case": "studies.sensitivity.uncertain_case",
     "write_case": "inputs.case_file",
 }
@@ -335,6 +347,9 @@ __all__ = [
     "Surrogate",
     "SurrogateAnswers",
     "SurrogateCases",
+    "Sweep",
+    "SweepRecord",
+    "SweepResults",
     "Tension",
     "UncertainCase",
     "UnstableLaw",
@@ -373,9 +388,11 @@ __all__ = [
     "read_opening_curve",
     "read_patient",
     "read_points",
+    "read_results",
     "read_sensitivity",
     "read_shape",
     "read_surface_image",
+    "read_sweep",
     "read_tension",
     "read_untrusted",
     "rising_record",
@@ -388,6 +405,8 @@ __all__ = [
     "size_record",
     "solve",
     "surface_friction",
+    "sweep",
+    "sweep_record",
     "uncertain_case",
     "write_case",
 ]

@@ -71,12 +71,12 @@ SENTENCES = {
     "moves_at_contact_angle": (
         "the drive exceeds the resistance already at the seated contact angle, because the paper's "
         "closure starts at the unloaded inner radius, which is wider than the narrowed lumen; the "
-        "critical pressure is that of the seated contact angle, and closure_start = 'lumen' is the "
-        "alternative"
+        "critical pressure is computed at the seated contact angle, and closure_start = 'lumen' "
+        "would start the closure at the narrowed lumen instead"
     ),
     "smaller_than_lumen": (
-        "the stone is smaller than the unloaded lumen, so the paper's closure would narrow while "
-        "the wall opens; the closure is held at the radius of the stone instead"
+        "the stone is smaller than the unloaded lumen, so the radius of the paper's closure would "
+        "decrease while the wall opens; the closure keeps the radius of the stone instead"
     ),
     "long_beam_contact": (
         "half the contact length is {decay_lengths:.2g} decay lengths of the beam, but the beam "
@@ -86,7 +86,7 @@ SENTENCES = {
         "the wall is {thickness:.2g} inner radii thick and is widened by {widening:.2g} inner "
         "radii, but the beam model assumes that both are small"
     ),
-    "no_closed_answer": "{outcome} by Eq. 15: {message}",
+    "no_closed_answer": "the closure of Eq. 15 has the outcome {outcome}: {message}",
     # --- surface images
     "single_path": (
         "there is only one profile, so the variation of the friction over the surface is unknown"
@@ -337,7 +337,7 @@ class Caution:
     values: tuple[tuple[str, Any], ...] = ()
 
     def __str__(self) -> str:
-        """The sentence, without a period."""
+        """Return the sentence, without a period."""
         return SENTENCES[self.code].format(**dict(self.values))
 
 

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Mapping
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields, replace
 from numbers import Real
 from typing import Any
 
 from stonepass.errors import BadInput, refuse_unknown, require
-from stonepass.units import format_length, format_pressure, length, pressure
+from stonepass.units import Length, Pressure, format_length, format_pressure, length, pressure
 
 __all__ = [
     "DeclaredInput",
@@ -25,6 +25,7 @@ __all__ = [
     "declared",
     "described",
     "inputs_of",
+    "read_declared",
     "set_inputs",
 ]
 
@@ -168,6 +169,31 @@ def check_inputs(instance: Any) -> None:
             if value is not None or not _optional(each):
                 read = _read(each.metadata["input"], each.name, value)
                 object.__setattr__(instance, each.name, read)
+
+
+def read_declared(declaration: Input, name: str, value: Any, *, si: bool = False) -> Any:
+    """Read and check one value of an input, as `check_inputs` does for a field.
+
+    Parameters
+    ----------
+    declaration : Input
+        The declaration of the input.
+    name : str
+        Name of the input in messages.
+    value : object
+        The value; a length or a pressure is text with a unit.
+    si : bool
+        True if a length or a pressure is given as a number in m or Pa.
+
+    Raises
+    ------
+    BadInput
+        The value is of the wrong kind, is out of bounds, or is not one of the choices.
+    """
+    kinds = {Kind.LENGTH: Length, Kind.PRESSURE: Pressure}
+    if si and declaration.kind in kinds:
+        value = kinds[declaration.kind](value)
+    return _read(replace(declaration, title=name), name, value)
 
 
 def set_inputs(instance: Any, **given: Any) -> None:

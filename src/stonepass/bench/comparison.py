@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -21,7 +22,9 @@ from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.studies.case_solver import CaseSolver
 
-__all__ = ["Comparison", "Setting", "SizeCurve", "compare", "size_curves"]
+__all__ = ["Comparison", "Setting", "SizeCurve", "compare", "point_curves", "size_curves"]
+
+T = TypeVar("T")
 
 SIZES = 9  # number of size ratios on a curve
 
@@ -193,11 +196,8 @@ def size_curves(comparison: Comparison, setting: Setting, solver: CaseSolver) ->
     solver : CaseSolver
         Solves the cases, without error estimates.
     """
-    tubes: dict[tuple[float, float], list[Point]] = {}
-    for point in comparison.points:
-        tubes.setdefault((point.wall_ratio, point.confining_pressure), []).append(point)
     grids = {}
-    for tube, some in tubes.items():
+    for tube, some in _by_tube(comparison.points, comparison.points).items():
         sizes = [point.size_ratio for point in some]
         if max(sizes) > min(sizes):
             grid = np.round(np.linspace(min(sizes), max(sizes), SIZES), 10)
@@ -218,3 +218,29 @@ def size_curves(comparison: Comparison, setting: Setting, solver: CaseSolver) ->
         )
         for tube, some in cases.items()
     ]
+
+
+def point_curves(comparison: Comparison) -> list[SizeCurve]:
+    """Return the model's pressures at the measured sizes as curves; nothing is solved.
+
+    There is a curve for each tube and load for which the model predicts at least two pressures.
+
+    Parameters
+    ----------
+    comparison : Comparison
+    """
+    curves = []
+    for tube, some in _by_tube(comparison.points, comparison.answers).items():
+        known = {each.case.size_ratio: each.pressure for each in some if _moves(each)}
+        if len(known) > 1:
+            sizes = np.array(sorted(known))
+            curves.append(SizeCurve(*tube, sizes, np.array([known[size] for size in sizes])))
+    return curves
+
+
+def _by_tube(points: Sequence[Point], values: Sequence[T]) -> dict[tuple[float, float], list[T]]:
+    """Return values, one for each point, grouped by wall ratio and confining pressure."""
+    found: dict[tuple[float, float], list[T]] = {}
+    for point, value in zip(points, values, strict=True):
+        found.setdefault((point.wall_ratio, point.confining_pressure), []).append(value)
+    return found

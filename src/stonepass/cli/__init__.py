@@ -101,7 +101,7 @@ def _renamed(argument: str) -> str:
 
 
 class _Terminated(BaseException):
-    """The system asked this process to end."""
+    """The system has asked this process to end (SIGTERM)."""
 
 
 def _terminate(*_: object) -> None:
@@ -131,7 +131,9 @@ def _beyond_the_machine(problem: Exception) -> str | None:
     """Return a sentence if the machine lacks memory or room for output, else None."""
     text = str(problem).lower()
     if isinstance(problem, MemoryError) or any(sign in text for sign in NO_MEMORY):
-        return "there is not enough memory for this; close other programs or raise the limit."
+        return (
+            "there is not enough memory for this command; close other programs or raise the limit."
+        )
     if isinstance(problem, OSError) and problem.errno in (errno.ENOSPC, errno.EDQUOT, errno.EIO):
         _discard_output()
         return f"the output could not be written: {problem.strerror}."
@@ -148,7 +150,7 @@ def _message(problem: Any, arguments: list[str]) -> str:
     option = getattr(problem, "option_name", None)
     if option is None or not problem.message.startswith("No such option"):
         return str(problem.format_message())
-    # A long option with a single hyphen is taken apart into short ones; the user wrote it whole.
+    # The parser splits a long option with a single hyphen into short ones; this is the whole word.
     given = next((each for each in arguments if each.startswith(option)), option).split("=")[0]
     names = [
         name.removeprefix("--")

@@ -20,6 +20,8 @@ COMMANDS = {
     "pressure": ("pressure", "Find the urine pressure at which a stone starts to move."),
     "size": ("size", "Find the largest stone that moves at a given urine pressure."),
     "curve": ("curve", "Compute the critical pressure for a range of stone sizes."),
+    "sweep": ("sweep", "Solve the cases of a study file and store every result."),
+    "results": ("results", "Show the results of a sweep, and write them as tables."),
     "push": ("push", "Follow a held stone while the urine pressure rises from zero."),
     "closures": ("closures", "Compare the closures of the paper's model with the direct model."),
     "export": ("export", "Write a case for CalculiX, Abaqus, FEBio or ParaView."),
@@ -36,7 +38,7 @@ COMMANDS = {
 }
 PANELS = {
     "Questions about a stone": ("pressure", "size", "curve", "push", "assess"),
-    "Many cases": ("sensitivity", "surrogate"),
+    "Many cases": ("sweep", "results", "sensitivity", "surrogate"),
     "Laboratory": ("friction", "fit", "invitro", "material"),
     "Comparisons": ("closures", "export", "compare", "headline", "paper"),
 }

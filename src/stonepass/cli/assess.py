@@ -28,8 +28,8 @@ EPILOG = epilog(
             "another maximum tolerable pressure, as JSON",
         ),
     ),
-    "0 assessed; 1 the model answers too few of the possible cases; 2 the request was refused; 3 "
-    "an error of the program",
+    "0 assessed; 1 the model has no answer for too many of the cases; 2 the request was refused; "
+    "3 an error of the program",
 )
 
 

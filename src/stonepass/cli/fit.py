@@ -82,8 +82,8 @@ Relative = Annotated[
     bool,
     typer.Option(
         "--relative/--absolute",
-        help="Whether the errors of measurement are proportional to the measured values "
-        "(relative), or of equal size (absolute).",
+        help="Errors of measurement are proportional to the measured values (relative), or of "
+        "equal size (absolute).",
         rich_help_panel=QUESTION,
     ),
 ]

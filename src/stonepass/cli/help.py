@@ -24,7 +24,7 @@ __all__ = [
     "epilog",
 ]
 
-QUESTION = "What you ask"
+QUESTION = "Question"
 STONE = "Stone"
 URETER = "Ureter and its load"
 MODEL_PANEL = "Model"

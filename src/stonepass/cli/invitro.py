@@ -1,4 +1,4 @@
-"""``stonepass invitro``: measured critical pressures beside those of the model."""
+"""``stonepass invitro``: measured critical pressures compared with those of the model."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def command(
         typer.Option(
             "--friction",
             metavar="NUMBER",
-            help="Friction coefficient of the comparison.  [default: the one that fits best]",
+            help="Friction coefficient of the model.  [default: the one that fits best]",
             rich_help_panel=QUESTION,
         ),
     ] = None,
@@ -105,7 +105,7 @@ def command(
     no_cache: NoCache = False,
     workers: Workers = None,
 ) -> int:
-    """Compare a series of measured critical pressures with the model, and fit its friction.
+    """Compare measured critical pressures with the model, and fit the friction coefficient.
 
     Every point is solved for several friction coefficients and stiffnesses, which takes minutes
     the first time.

@@ -183,7 +183,7 @@ def check_material(name: Name) -> int:
     warn(soft_law(entry))
     show(
         f"{entry.name}: free of stress at rest, strongly elliptic over its strain range at axial "
-        "stretch 1, and evaluated alike by the finite elements.",
+        "stretch 1, and equal in the finite elements and in NumPy.",
         *(f"  {what:<26}   {value}" for what, value in rows.items()),
     )
     return 0

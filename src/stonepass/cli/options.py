@@ -161,7 +161,7 @@ class Settings:
 
     @property
     def wetted(self) -> bool:
-        """Whether ``--wetted`` holds, for commands that compare the direct model with another."""
+        """True with ``--wetted``, for commands that compare the direct model with another."""
         return bool(self._values().get("method.wetted", False))
 
     def _values(self) -> dict[str, Any]:

@@ -15,7 +15,7 @@ __all__ = ["EPILOG", "command"]
 
 EPILOG = epilog(
     (
-        ("paper fig5 --out paper", "the critical pressure over the size, as in Fig. 5"),
+        ("paper fig5 --out paper", "the finite-element meshes of the two ureters, as in Fig. 5"),
         ("paper", "all figures, data and claims; takes long the first time"),
     ),
     "0 every claim that can be judged is reproduced; 1 some claim is not; 2 the request was "

@@ -90,9 +90,10 @@ def command(
 ) -> int:
     """Follow a held stone while the urine pressure rises from zero.
 
-    The table has the net force on the stone, the range of the contact and the contact pressure,
-    which it compares with that of the seated state, the approximation of the paper. Give a case
-    file; or --stone, --inner and --outer; or --xi and --eta.
+    The table has the net force on the stone, the range of the contact and the contact pressure. It
+    also has the deviation of the contact pressure from that of the seated state, which the paper
+    uses at every urine pressure. Give a case file; or --stone, --inner and --outer; or --xi and
+    --eta.
     """
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable
 

@@ -126,7 +126,7 @@ def remembered(seconds: float, elapsed: float) -> None:
     """
     if elapsed < seconds:
         saved = duration(seconds - elapsed)
-        note(f"remembered from an earlier run, which saved {saved}; --no-cache solves it again")
+        note(f"read from the cache, which saved {saved}; --no-cache solves it again")
 
 
 @contextmanager

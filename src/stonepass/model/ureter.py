@@ -45,11 +45,20 @@ class Ureter:
         A size is missing, has no unit or is out of bounds, two sizes contradict each other, or the
         material is unknown.
 
+    Notes
+    -----
+    Sizes that follow from the given ones are attributes too, so that `dataclasses.replace` passes
+    them on and they contradict a new size. Set them to None, as in the second example.
+
     Examples
     --------
     >>> import stonepass as sp
     >>> sp.Ureter("3.5 mm", wall_thickness="0.52 mm") == sp.Ureter("3.5 mm", "4.54 mm")
     True
+    >>> from dataclasses import replace
+    >>> ureter = sp.Ureter("3.5 mm", "4.54 mm")
+    >>> replace(ureter, outer_diameter="5 mm", wall_thickness=None, wall_ratio=None)
+    Ureter(inner_diameter='3.5 mm', outer_diameter='5 mm', material='ureter')
     """
 
     SECTION: ClassVar[str] = "ureter"

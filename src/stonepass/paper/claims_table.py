@@ -1,4 +1,4 @@
-"""Published claims beside ours, for a terminal."""
+"""Table of published claims and computed values for a terminal."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _MARKS = {True: "yes", False: "NO", None: "–"}
 
 
 def claims_table(claims: Sequence[Claim]) -> Table:
-    """One row for each claim, with the reason where it is not reproduced or not judged."""
+    """Return a table of claims, with the reason if one is not reproduced or not judged."""
     table = Table(box=box.SIMPLE_HEAD, title="Published claims", title_justify="left")
     for column in ("claim", "published", "ours", "reproduced"):
         table.add_column(column)

@@ -39,10 +39,10 @@ NO_ANSWER = "no answer: drive stays below resistance"
 
 
 class Fig6:
-    """Three tubes, in air and under 540 mm of water, with measured points where they are given."""
+    """Three tubes, in air and under 540 mm of water, with measured points if they are given."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """Curves, and the cases of the points."""
+        """Return the cases of the curves and of the points."""
         curves = [
             PressureJob(latex_case(eta, xi, load))
             for load in LOADS
@@ -53,7 +53,7 @@ class Fig6:
 
     @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Draw both panels, write the curves, compare with points."""
+        """Draw both panels, write the curves, and compare them with the points."""
         figure = new_figure(9.2, 4.6)
         add_heading(figure, f"Steel spheres in latex tubes · μ = {LATEX_FRICTION:g} · model: paper")
         air, water = (figure.add_subplot(1, 2, k) for k in (1, 2))
@@ -159,12 +159,14 @@ def _agreement(found: Results, points: Sequence[Point]) -> Claim:
         if pressure is not None and point.pressure > 0.0:
             errors.append(pressure / point.pressure - 1.0)
     if not errors:
-        return Claim(what, "agrees well", "no point has an answer", False, "none can be compared")
+        return Claim(
+            what, "agrees well", "no point has an answer", False, "no point can be compared"
+        )
     rms, bias = float(np.sqrt(np.mean(np.square(errors)))), float(np.mean(errors))
     return Claim(
         what,
         "agrees well",
         f"bias {bias:+.1%}, root mean square {rms:.1%} over {len(errors)} points",
         rms <= 0.2,
-        "20 % root mean square is what we call agreement of a model without fitted constants",
+        "agreement means a root mean square of at most 20 %, since no constant is fitted",
     )

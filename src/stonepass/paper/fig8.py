@@ -37,9 +37,9 @@ WALLS = tuple(float(x) for x in np.round(np.geomspace(1.3, 3.4, 13), 4))
 LOADS = tuple(Load(Pressure(1e3 * p)) for p in (0.0, 2.0, 4.0, 6.0, 8.0))  # dead, Eqs 10 and 12
 SHADES = {1.30: "blue", 3.40: "orange"}
 MARKS = {1.30: "o", 3.40: "s"}
-HIGHEST = 2.1  # size ratio that the line's figure shows
+HIGHEST = 2.1  # largest size ratio in the figure of the line
 LUMEN, LUMEN_SD = 3.40, 0.61  # mm, unaffected ureter on CT (Song 2010)
-# Width in mm and share passed within 20 weeks (Jendeberg 2017, as quoted by secondary sources).
+# Width in mm and fraction that passed in 20 weeks (Jendeberg 2017, quoted by secondary sources).
 PASSED = ((4.0, 0.81), (5.0, 0.65), (6.0, 0.33))
 SOURCES = (
     "Sizes that passed: Jendeberg et al. 2017, doi 10.1007/s00330-017-4852-6 (by secondary "
@@ -50,10 +50,10 @@ Line = dict[float, tuple[Outcome, float | None]]  # η: ξ_cr at the limit
 
 
 class Fig8:
-    """P_ucr(ξ) of both walls, its surface over η, and what confining pressure does."""
+    """P_ucr(ξ) of both walls, its surface over η, and the effect of confining pressure."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """Curves with and without confining pressure, the surface, critical sizes."""
+        """Return the cases of curves and surface, and the critical sizes."""
         loads = (Load(), *(Load(p) for p in CONFINING))
         curves = [ureter_case(e, x, load) for e in PUBLISHED for load in loads for x in SIZES]
         stones = [ureter_case(e, x, load) for e, x in PUBLISHED.items() for load in loads]
@@ -66,7 +66,7 @@ class Fig8:
 
     @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Draw the panels, write their data, judge the claims."""
+        """Draw the panels, write their data, and judge the claims."""
         line = {eta: _size_of(found, eta, asked.limit) for eta in WALLS}
         figure = new_figure(9.6, 8.4)
         add_heading(figure, HEADING)
@@ -108,7 +108,7 @@ class Fig8:
 
 
 def _tables(found: Results, limit: Pressure, line: Line) -> list[Table]:
-    """The data of the panels."""
+    """Return the data of the panels."""
     rest = ("size_ratio", "outcome", "critical_pressure_kPa", "critical_pressure_error_kPa",
             "stability_margin")  # fmt: skip
     confined = [
@@ -140,7 +140,7 @@ def _surface_pressure(found: Results, eta: float, xi: float) -> float | None:
 
 
 def _size_of(found: Results, eta: float, limit: Pressure) -> tuple[Outcome, float | None]:
-    """ξ_cr of one wall from its row of the surface, or why the row does not reach the limit."""
+    """Return ξ_cr of one wall from its row of the surface, or why the row has none."""
     row = [(x, _surface_pressure(found, eta, x)) for x in SIZES]
     sizes, pressures = np.array([(x, p) for x, p in row if p is not None]).reshape(-1, 2).T
     if len(sizes) < 2 or np.any(np.diff(pressures) <= 0.0):
@@ -183,7 +183,7 @@ def _frame(axes: Axes, name: str) -> None:
 
 
 def _known(line: Line) -> tuple[list[float], list[float]]:
-    """Wall ratios and critical sizes of the walls that have one."""
+    """Return wall ratios and critical sizes of the walls that have a critical size."""
     known = [(eta, size) for eta, (_, size) in line.items() if size is not None]
     return [eta for eta, _ in known], [size for _, size in known]
 
@@ -232,7 +232,7 @@ def _size_row(size: SizeAnswer) -> list[object]:
 def _sizes_under_load(
     axes: Axes, found: Results, limit: Pressure
 ) -> dict[float, tuple[float, float] | None]:
-    """Draw ξ_cr(P_out) with its straight line; slope per kPa and R² of each wall."""
+    """Draw ξ_cr(P_out) with a fitted line; return slope per kPa and R² for each wall."""
     fits: dict[float, tuple[float, float] | None] = {}
     for eta in SHADES:
         known = [
@@ -301,7 +301,7 @@ def _sizes(found: Results, limit: Pressure) -> list[Claim]:
 
 
 def _diameters(found: Results, limit: Pressure) -> list[Claim]:
-    """The published pairs of narrowest ureter with thickest wall, widest with thinnest."""
+    """Return claims for the narrowest ureter (thickest wall) and the widest (thinnest wall)."""
     if limit != LIMIT:
         return []
     claims = []
@@ -357,7 +357,7 @@ def _added(found: Results) -> list[Claim]:
 
 
 def _beyond(found: Results, eta: float, xi: float) -> str:
-    """A remark where the loaded wall is no longer stable."""
+    """Return a remark if the loaded wall is not stable."""
     margins = []
     for pressure in CONFINING:
         seated = found.answer(ureter_case(eta, xi, Load(pressure))).contact

@@ -1,4 +1,4 @@
-"""Fig. 9: the thin wall as a beam, against finite elements, and over stiffness and friction."""
+"""Fig. 9: the beam model of the thin wall, compared with finite elements and over its inputs."""
 
 from __future__ import annotations
 
@@ -33,22 +33,22 @@ from stonepass.units import Pressure
 __all__ = ["Fig9"]
 
 WALL = 1.30
-SECANT = 1.297  # stretch whose secant is the published E₁
+SECANT = 1.297  # stretch at which the secant modulus is the published E₁
 SIZES = tuple(float(x) for x in np.round(np.linspace(1.0, 1.3, 13), 10))
 FACTORS = tuple(float(x) for x in np.round(np.geomspace(0.5, 8.0, 17), 4))
 FRICTIONS = tuple(float(x) for x in np.round(np.linspace(0.1, 1.5, 15), 10))
 
 
 class Fig9:
-    """P_ucr by beam and by finite elements; ξ_cr by the beam over its inputs."""
+    """P_ucr of the beam and of finite elements; ξ_cr of the beam over its inputs."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """The finite-element curve; the beam costs nothing."""
+        """Return the cases of the finite-element curve; the beam model needs no jobs."""
         return [PressureJob(ureter_case(WALL, xi)) for xi in SIZES]
 
     @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Draw both panels, judge the claims."""
+        """Draw both panels, and judge the claims."""
         answers = [
             [found.answer(ureter_case(WALL, xi)) for xi in SIZES],
             [solve(ureter_case(WALL, xi, model=BEAM)) for xi in SIZES],
@@ -115,7 +115,7 @@ class Fig9:
 
 
 def _pressures(answers: Sequence[Answer]) -> Float[np.ndarray, " sizes"]:
-    """Critical pressures in kPa; NaN where there is none."""
+    """Return critical pressures in kPa; NaN without an answer."""
     return np.array([np.nan if a.pressure is None else a.pressure / 1e3 for a in answers])
 
 
@@ -137,14 +137,14 @@ def _scaled(factor: float) -> ElasticFoundation:
 
 
 def _size(limit: Pressure, model: ElasticFoundation, friction: float) -> SizeAnswer:
-    """Critical size by the beam."""
+    """Return the critical size of the beam model."""
     case = ureter_case(WALL, 1.1, model=model)
     case = replace(case, stone=Stone(size_ratio=1.1, friction=friction))
     return critical_size(case.ureter, limit, friction, model=model)
 
 
 def _ratios(sizes: Sequence[SizeAnswer]) -> Float[np.ndarray, " sizes"]:
-    """ξ_cr; NaN where there is none."""
+    """Return values of ξ_cr; NaN without an answer."""
     return np.array([np.nan if s.size_ratio is None else s.size_ratio for s in sizes])
 
 
@@ -162,9 +162,9 @@ def _headline(limit: Pressure) -> list[Claim]:
             f"{BEAM_SIZE:g}",
             "none" if ours is None else f"{ours:.4g}",
             None,
-            "differs: ours are the printed equations, with the fourth root in Eq. 24, and the "
-            "printed moduli; the secants that the paper solved with are in its unpublished "
-            "Supporting Information, so which of the two is at fault cannot be told",
+            "the values differ: ours follows from the printed equations, with the fourth root in "
+            "Eq. 24, and from the printed moduli; the secant moduli that the paper used are in its "
+            "unpublished Supporting Information, so that the cause cannot be determined",
             None if ours is None else ours - BEAM_SIZE,
         )
     ]
@@ -181,10 +181,10 @@ def _agree(elements: Float[np.ndarray, " n"], beam: Float[np.ndarray, " n"]) -> 
         "the beam agrees with finite elements, η = 1.30, ξ to 1.3 (Fig. 9c)",
         "agrees well",
         f"within {np.abs(off).max():.0%} of the highest pressure; {apart.min():+.0%} to "
-        f"{apart.max():+.0%} of its own",
+        f"{apart.max():+.0%} of the pressure itself",
         bool(abs(worst) <= 0.15 and kept.sum() >= 10),
-        "judged as the figure shows it, 15 % of the highest pressure drawn; the load is no point "
-        "load (aβ = 4.6), E₂ could not be recovered, and small stones deviate most",
+        "the tolerance is 15 % of the highest pressure in the figure; the load is not a point load "
+        "(aβ = 4.6), E₂ could not be derived, and small stones deviate most",
         worst,
         0.15,
     )
@@ -195,7 +195,7 @@ def _trends(
     friction: Float[np.ndarray, " frictions"],
     limit: Pressure,
 ) -> list[Claim]:
-    """Both fall, ever less; and doubling stiffness matters more than doubling friction."""
+    """Return the claims on the slopes, and on the effect of doubling stiffness and friction."""
     if limit != LIMIT:
         return []
     falls = []
@@ -210,9 +210,9 @@ def _trends(
     drops = softer[0] - softer[1], rougher[0] - rougher[1]
     return [
         Claim("ξ_cr falls with stiffness and with friction, and levels off (Fig. 9d)", "yes",
-              "both fall, with slopes that flatten" if all(falls) else "not throughout",
-              all(falls), "every slope below zero and above the one before"),
+              "both fall, with decreasing slopes" if all(falls) else "not throughout",
+              all(falls), "every slope is negative, and flatter than the one before"),
         Claim("stiffness matters more than friction (Fig. 9d)", "yes",
-              f"doubled, they take {drops[0]:.3f} and {drops[1]:.3f} off ξ_cr",
+              f"doubling them reduces ξ_cr by {drops[0]:.3f} and {drops[1]:.3f}",
               bool(drops[0] > drops[1] > 0.0), "compared at twice the published values"),
     ]  # fmt: skip

@@ -14,14 +14,14 @@ __all__ = ["Eq18"]
 
 
 class Eq18:
-    """The published slopes by Eq. 18."""
+    """The friction coefficient of the published slopes."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """Nothing to solve."""
+        """Return no jobs, since nothing has to be solved."""
         return []
 
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Only a claim."""
+        """Return a section that has only a claim."""
         claim = Claim.number(
             "friction coefficient from slopes 0.38 and 0.12 (Eq. 18)",
             0.5,

@@ -1,4 +1,4 @@
-"""The page over a reproduction: claims beside ours, then every figure with its data."""
+"""The page of a reproduction: table of claims, then every figure with its data."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _section(section: Section) -> list[str]:
     if section.warnings:
         told = "".join(f"<li>{escape(each)}</li>" for each in section.warnings)
         parts.append(
-            f"<details><summary>What the answers behind it warn of ({len(section.warnings)})"
+            f"<details><summary>Warnings of the computed answers ({len(section.warnings)})"
             f"</summary><ul>{told}</ul></details>"
         )
     links = ", ".join(f'<a href="{name}">{escape(name)}</a>' for name in section.files)

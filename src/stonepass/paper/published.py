@@ -1,4 +1,4 @@
-"""How a published critical size is drawn beside the computed one."""
+"""Marks of published and computed critical sizes in figures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from stonepass.report.style import COLOURS
 
 __all__ = ["PUBLISHED_MARK", "draw_critical_size"]
 
-# A star so large and hollow that the computed size is seen inside it.
+# A large hollow star, so that the mark of the computed size is visible inside it.
 PUBLISHED_MARK: dict[str, Any] = {
     "marker": "*",
     "markersize": 14,

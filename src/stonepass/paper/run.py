@@ -1,4 +1,4 @@
-"""The whole paper: jobs of the parts, solved once; every part written; one page over all."""
+"""Reproduction of the paper: the jobs of all parts, their sections, and the page of all."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ __all__ = ["PARTS", "Part", "PartStudy", "chosen", "reproduce"]
 
 @runtime_checkable
 class Part(Protocol):
-    """A part of the paper; see `PartStudy`, which makes a study of it."""
+    """A part of the paper; `PartStudy` makes a study of it."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """Return what must be solved for it."""
+        """Return the jobs of the part."""
 
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Write pictures and data into a folder and return what the page says of them."""
+        """Write pictures and data into a folder and return the section of the page."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ WITH_CLAIMS = ("fig6", "fig7", "fig8", "fig9", "friction")
 
 
 def chosen(names: Sequence[str]) -> list[str]:
-    """The parts meant by names: none or ``all`` is every one, ``claims`` those that have any."""
+    """Return the names of parts; none or ``all`` mean all, ``claims`` means those with claims."""
     known = [*PARTS, "claims", "all"]
     for name in names:
         if name not in known:
@@ -87,20 +87,20 @@ def reproduce(
     cache_folder: Path | None = None,
     progress: Progress | None = None,
 ) -> list[Section]:
-    """Solve what the parts need, write them into `folder`, and ``index.html`` over them.
+    """Solve the jobs of the parts, and write the parts and ``index.html`` into `folder`.
 
     Parameters
     ----------
     names : sequence of str
         Parts (see `chosen`).
     folder : Path
-        Made on demand.
+        Folder, which is made if necessary.
     asked : Asked
         Limit and measured points.
     executor : concurrent.futures.Executor, optional
         By default the work runs in this process.
     cache_folder : Path, optional
-        Folder of the solution cache; without one everything is solved.
+        Folder of the solution cache; by default there is no cache.
     progress : callable, optional
         Is called with (done, all) after each job.
 
@@ -119,7 +119,7 @@ def reproduce(
 
 
 def _warnings(found: Results) -> tuple[str, ...]:
-    """What the answers behind a part warn of, each kind once; errors are left out on purpose."""
+    """Return the warnings of a part, each kind once; missing error estimates are intended."""
     sizes = [size.at_size for size in found.sizes.values() if size.at_size is not None]
     answers = [*found.pressures.values(), *sizes]
     return tuple(grouped_warnings(answers, left_out=("error_not_estimated",)))

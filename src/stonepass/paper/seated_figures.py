@@ -35,23 +35,23 @@ from stonepass.studies.jobs import Job, PressureJob, Results
 __all__ = ["Fig4", "Fig5", "Fig7"]
 
 LATEX_SIZE = 1.2
-SIZES = (1.1, 1.15, 1.2, 1.25, 1.3)  # of the profiles beside Fig. 7
-STEP = 0.25  # degrees, of the profiles' data
-ASIDE = 0.05  # of half the contact, of the highest pressure from the equator
-RIPPLE = 0.02  # of the peak, of the increments of the pressing
-EXTENT = 3.6  # inner radii shown of the meshes, to each side
-SECTION_WIDTH = 4.4  # inches of the sections of Figs 4 and 7
+SIZES = (1.1, 1.15, 1.2, 1.25, 1.3)  # size ratios of the additional profiles of Fig. 7
+STEP = 0.25  # step of the data of the profiles in degrees
+ASIDE = 0.05  # largest distance of the peak from the equator over half the contact
+RIPPLE = 0.02  # largest oscillation due to the increments, as a fraction of the peak
+EXTENT = 3.6  # half-length of the meshes that is drawn, in inner radii
+SECTION_WIDTH = 4.4  # width of the sections of Figs 4 and 7 in inches
 
 
 class Fig4:
     """Latex tubes: section and contact pressure of three walls."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """One state with its wall for each tube."""
+        """Return a job for each tube; its state keeps the stress field."""
         return [PressureJob(case, wall=True) for case in _latex()]
 
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Draw, write the profiles, and turn the middle tube round its axis."""
+        """Draw the sections, write the profiles, and draw the middle tube in three dimensions."""
         states = [_state(found, case) for case in _latex()]
         return _sections(
             "Fig. 4: latex tubes over steel spheres",
@@ -64,10 +64,10 @@ class Fig4:
 
 
 class Fig5:
-    """The two ureters before and after the stone is in its place."""
+    """The two ureters without the stone and with the stone in its place."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """One state with its wall for each."""
+        """Return a job for each ureter; its state keeps the stress field."""
         return [PressureJob(case, wall=True) for case in _ureters()]
 
     @in_style
@@ -80,10 +80,10 @@ class Fig5:
         for k, state in enumerate(states):
             _meshes(figure.add_subplot(grid[k]), state, "ab"[k])
         caption = (
-            "The finite elements after the stone is pressed in (blue, above the axis) and before "
-            "(grey, below it, with the outline of the stone where it first touches the lumen), at "
-            "the published critical sizes. Elements are of order "
-            "4, graded towards the edge of the contact, which is a grid line."
+            "The finite-element mesh with the stone pressed in (blue, above the axis) and without "
+            "the stone (grey, below the axis, with the outline of the stone where it first touches "
+            "the lumen), at the published critical sizes. The elements have order 4 and become "
+            "smaller towards the edge of the contact, which is a grid line."
         )
         rows = [
             [
@@ -110,7 +110,7 @@ class Fig7:
     """The two ureters: section and contact pressure, and its profile over the size of the stone."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """Two states with their walls, and profiles of other sizes."""
+        """Return jobs for the two walls, with stress fields, and for stones of other sizes."""
         return [
             *(PressureJob(case, wall=True) for case in _ureters()),
             *(PressureJob(ureter_case(eta, xi)) for eta in PUBLISHED for xi in SIZES),
@@ -118,7 +118,7 @@ class Fig7:
 
     @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Draw, write the profiles, judge their form."""
+        """Draw the sections, write the profiles, and judge their form."""
         states = [_state(found, case) for case in _ureters()]
         section = _sections(
             "Fig. 7: contact pressure in the human ureter",
@@ -137,7 +137,7 @@ class Fig7:
             "",
             "",
             folder,
-            [Illustration("fig7_sizes", figure, "Contact pressure over the size of the stone.")],
+            [Illustration("fig7_sizes", figure, "Contact pressure for several sizes.")],
             [_profiles("fig7_sizes", [state for row in others.values() for state in row])],
         )
         return Section(
@@ -151,7 +151,7 @@ class Fig7:
 
 @in_style
 def _by_size(rows: dict[float, list[SeatedState]]) -> Figure:
-    """Contact pressure of stones of several sizes, a panel for each wall."""
+    """Draw the contact pressure of stones of several sizes, a panel for each wall."""
     figure = new_figure(8.4, 4.2)
     add_heading(figure, f"Human ureter · μ = {FRICTION:g} · model: paper")
     panels = figure.subplots(1, len(rows), sharey=True)
@@ -187,7 +187,7 @@ def _state(found: Results, case: Case, *, wall: bool = True) -> SeatedState:
 
 
 def _single_peak(states: Sequence[SeatedState]) -> Claim:
-    """One hump, highest near the equator."""
+    """Return the claim that every profile has a single maximum near the equator."""
     humps, aside = [], []
     for state in states:
         theta, top = state.theta, state.peak_contact_pressure
@@ -197,13 +197,13 @@ def _single_peak(states: Sequence[SeatedState]) -> Claim:
         highest = theta[np.argmax(state.contact_pressure)]
         aside.append(abs(highest - np.pi / 2) / (np.pi / 2 - state.contact_angle))
     return Claim(
-        "form of the contact pressure over θ (Fig. 7)",
-        "one hump about the equator",
-        f"one in {sum(humps)} of {len(humps)} states; highest within {max(aside):.1%} of half the "
-        "contact from it",
+        "shape of the contact pressure over θ (Fig. 7)",
+        "one maximum near the equator",
+        f"one maximum in {sum(humps)} of {len(humps)} states, at most {max(aside):.1%} of half the "
+        "contact away from the equator",
         all(humps) and max(aside) < ASIDE,
-        "the figure's values are not published; about is read as 5 % of half the contact, and "
-        "ripples of the pressing's increments below 2 % of the peak are not counted as humps",
+        "the values of the figure are not published; near means within 5 % of half the contact, "
+        "and oscillations below 2 % of the peak, which come from the increments, do not count",
     )
 
 
@@ -241,8 +241,8 @@ def _sections(
     solid = revolved_figure(middle.wall, middle.case, middle.peak_contact_pressure)
     write_vtu(folder / f"{name}.vtu", middle.wall, mirrored=True)
     revolved = (
-        f"The same turned round its axis, a quarter cut away (η = {middle.case.wall_ratio:g}); "
-        f"{name}.vtu has the whole with its stresses."
+        f"The section revolved about its axis, with a quarter cut away (η = "
+        f"{middle.case.wall_ratio:g}); the file {name}.vtu has the whole tube with its stresses."
     )
     return Section.written(
         title,
@@ -263,12 +263,12 @@ def _profile(axes: Axes, state: SeatedState) -> None:
 
 
 def _extent(state: SeatedState) -> float:
-    """Half the length that `draw_section` shows."""
+    """Return half the length that `draw_section` shows."""
     return 2.2 * state.case.size_ratio * state.case.stone.shape.reach + 0.6
 
 
 def _heights(states: Sequence[SeatedState]) -> list[float]:
-    """Heights of panels over their common width, so that all have one scale."""
+    """Return heights of panels over their common width, so that all have the same scale."""
     half = min(_extent(state) for state in states)
     return [section_height([state.wall]) / half for state in states if state.wall is not None]
 
@@ -284,7 +284,7 @@ def _profiles(name: str, states: Sequence[SeatedState]) -> Table:
 
 
 def _meshes(axes: Axes, state: SeatedState, panel: str) -> None:
-    """Deformed mesh above the axis in blue, reference mesh below it in grey."""
+    """Draw the deformed mesh above the axis in blue, and the undeformed one below it in grey."""
     wall, xi = state.wall, state.case.size_ratio
     assert wall is not None
     for half in (1.0, -1.0):
@@ -320,7 +320,7 @@ def _lines(
     half: float,
     colour: str,
 ) -> None:
-    """Outlines of the elements."""
+    """Draw the outlines of the elements."""
     path = element_rim(wall.r.shape[1])
     gap = np.full((len(r), 1), np.nan)
     x, y = (np.concatenate([values[:, path], gap], axis=1).ravel() for values in (z, r))

@@ -1,4 +1,4 @@
-"""What a part of the paper comes to: figures, their data, and claims beside the published ones."""
+"""Results of a part of the paper: figures, their data, and published claims beside ours."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LIMITS = (1e2, 1e5)  # Pa
 
 @dataclass(frozen=True)
 class Asked:
-    """What the reader chose: the pressure limit, and measured points where there are any."""
+    """Inputs of a reproduction: the pressure limit, and measured points if there are any."""
 
     limit: Pressure
     points: tuple[Point, ...] = ()
@@ -42,15 +42,15 @@ class Claim:
     Attributes
     ----------
     what, published, ours : str
-        The statement, what the paper says, what we find.
+        The statement, the published value, and our value.
     deviation : float or None
-        Ours less the published number, in its unit; None where the statement is no number.
+        Our number minus the published one, in its unit; None if there is no number.
     tolerance : float or None
-        How large it may be for the claim to count as reproduced.
+        Largest deviation with which the claim counts as reproduced.
     holds : bool or None
-        Whether it is; None where it cannot be judged, for the reason given.
+        Whether the claim is reproduced; None if it cannot be judged.
     reason : str
-        Why that tolerance; where the claim is not reproduced or cannot be judged, why.
+        Reason for the tolerance, or why the claim is not reproduced or cannot be judged.
     """
 
     what: str
@@ -65,7 +65,7 @@ class Claim:
     def number(
         cls, what: str, published: float, ours: float | None, tolerance: float, reason: str
     ) -> Claim:
-        """A number, to within a tolerance."""
+        """Return the claim of a number that must agree within a tolerance."""
         if ours is None:
             return cls(what, f"{published:g}", "none", False, reason, None, tolerance)
         off = ours - published
@@ -83,7 +83,7 @@ class Table:
 
 
 def answers_table(name: str, header: Sequence[str], answers: Sequence[Answer]) -> Table:
-    """Make a table of answers; columns are names of `report.record`, or the load's."""
+    """Return a table of answers; columns are keys of `answer_record`, or of the load."""
     rows = []
     for answer in answers:
         confining = answer.case.load.confining_pressure
@@ -101,13 +101,13 @@ def answers_table(name: str, header: Sequence[str], answers: Sequence[Answer]) -
     return Table(name, header, rows)
 
 
-# Numbers of one model alone that the tables have a column for.
+# Numbers that only one model has, and for which the tables have a column.
 DETAILS = ("closure_end_pressure_kPa", "leak_pressure_kPa")
 
 
 @dataclass(frozen=True)
 class Illustration:
-    """A picture: file name without ending, the figure, and what it shows."""
+    """A picture: file name without ending, the figure, and its caption."""
 
     name: str
     figure: Figure
@@ -116,7 +116,7 @@ class Illustration:
 
 @dataclass(frozen=True)
 class Section:
-    """One part, written: names of files in the order of the page, captions, claims."""
+    """A part that was written: names of files in the order of the page, captions, claims."""
 
     title: str
     text: str
@@ -139,7 +139,7 @@ class Section:
         """Write pictures (SVG and PNG) and tables (CSV) into a folder."""
         for picture in pictures:
             save(picture.figure, folder / f"{picture.name}.svg")
-            picture.figure.set_layout_engine("none")  # laid out for the first, it is for both
+            picture.figure.set_layout_engine("none")  # both files have the layout of the first
             save(picture.figure, folder / f"{picture.name}.png")
         for table in tables:
             write_csv(folder / f"{table.name}.csv", table.header, table.rows)

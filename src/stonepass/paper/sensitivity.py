@@ -1,4 +1,4 @@
-"""What the critical size owes to everything that had to be chosen."""
+"""Sensitivity of the critical size to the choices that the paper leaves open."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from stonepass.units import Pressure
 __all__ = ["Sensitivity"]
 
 OUTSIDE = Pressure(4e3)
-GROUND = (5e3, 8e3, 14e3)  # Pa, beside the default of 12 kPa
+GROUND = (5e3, 8e3, 14e3)  # Pa, in addition to the default of 12 kPa
 LENGTHS = (8.0, 20.0)
 SHADES = {1.30: "blue", 3.40: "orange"}
 MARKS = {1.30: "o", 3.40: "s"}
@@ -37,7 +37,7 @@ MARKS = {1.30: "o", 3.40: "s"}
 
 @dataclass(frozen=True)
 class Choice:
-    """One thing chosen otherwise: what, how, and the case it makes of a wall."""
+    """An alternative: its subject, its description, and the inputs of its cases."""
 
     about: str
     what: str
@@ -47,17 +47,17 @@ class Choice:
     load: Load
 
     def case(self, wall_ratio: float) -> Case:
-        """The case, its size left open."""
+        """Return the case of a wall; the size of its stone is not used."""
         stone = Stone(size_ratio=1.1, friction=FRICTION)
         ureter = Ureter(None, None, self.material, wall_ratio)
         return Case(stone, ureter, self.load, self.model, self.numerics)
 
 
 class Sensitivity:
-    """ξ_cr of both walls under each choice."""
+    """ξ_cr of both walls for each alternative."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
-        """A critical size for each choice whose law is one of a solid."""
+        """Return a critical size for each wall and alternative, unless the law is refused."""
         return [
             SizeJob(choice.case(eta), asked.limit)
             for choice in choices()
@@ -67,7 +67,7 @@ class Sensitivity:
 
     @in_style
     def write(self, found: Results, asked: Asked, folder: Path) -> Section:
-        """Draw and tell."""
+        """Draw the figure and return the section."""
         names, rows = [], []
         figure = new_figure(8.0, 6.8)
         add_heading(figure, f"Human ureter · μ = {FRICTION:g} · dotted lines: the defaults")
@@ -113,13 +113,14 @@ class Sensitivity:
         figure.legend(loc="outside lower center", ncols=3)
         tidy(axes)
         caption = (
-            "What each choice changes from our defaults (dotted), one at a time, where the paper "
-            "is silent or contradicts itself; and the other models beside it."
+            "Change of the critical size from our defaults (dotted lines) if one choice is changed "
+            "at a time, where the paper gives no value or contradicts itself. The other models are "
+            "shown too."
         )
         header = ("about", "choice", "wall_ratio", "outcome", "critical_size_ratio",
                   "critical_size_ratio_error", "change")  # fmt: skip
         return Section.written(
-            "Sensitivity to what had to be chosen",
+            "Sensitivity to the choices that the paper leaves open",
             "",
             folder,
             [Illustration("sensitivity", figure, caption)],
@@ -128,7 +129,7 @@ class Sensitivity:
 
 
 def choices() -> Iterator[Choice]:
-    """The defaults first, then one thing changed at a time."""
+    """Yield the defaults, and then alternatives that change one choice each."""
     default = Choice("defaults", "as the paper, errata corrected", material("ureter"),
                      SeatedBalance(), Numerics(), Load())  # fmt: skip
     yield default
@@ -163,7 +164,7 @@ def _by(choice: Choice, about: str, what: str, model: Model) -> Choice:
 
 
 def _refusal(entry: Material) -> str | None:
-    """Why a law is none of a solid; None where it is."""
+    """Return why a law describes no stable solid; None if it does."""
     try:
         check(entry)
     except UnstableLaw as problem:

@@ -22,6 +22,7 @@ from stonepass.records.invitro import InVitroRecord
 from stonepass.records.rising import RisingRecord
 from stonepass.records.sensitivity import SensitivityRecord
 from stonepass.records.size import SizeRecord
+from stonepass.records.sweep import SweepRecord
 
 __all__ = ["RECORDS", "parts", "reference"]
 
@@ -38,6 +39,7 @@ RECORDS: dict[str, type[BaseModel]] = {
     "assess": AssessRecord,
     "sensitivity": SensitivityRecord,
     "compare": CompareRecord,
+    "results": SweepRecord,
 }
 LISTS = ("curve",)
 PREFACE = """# Keys of JSON records and of case files

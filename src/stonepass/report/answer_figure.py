@@ -1,4 +1,4 @@
-"""The picture of an answer, by the kind of contact that its model gives."""
+"""The picture of an answer, which depends on the type of its contact."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def answer_figure(answer: Answer) -> Figure:
 
 @singledispatch
 def draw(contact: object, answer: Answer) -> Figure:
-    """Draw the answer of a model with this kind of contact; a new model registers its picture.
+    """Draw an answer whose contact has this type; a new model registers its picture here.
 
     A contact without a picture of its own is drawn as its pressure over the angle.
     """

@@ -181,8 +181,8 @@ def _curves(found: Assessment) -> list[str]:
         return []
     parts = [
         '<div class="pair"><div>',
-        "<h2>Fractions over every pressure</h2>",
-        "<p>The solid curve shows in which part of the simulated input combinations (samples) the "
+        "<h2>Fractions at every urine pressure</h2>",
+        "<p>The solid curve is the fraction of the simulated input combinations (samples) whose "
         "critical pressure is below a urine pressure.</p>",
         inline_svg(pressures_figure(found), "Fraction of samples over urine pressure"),
         "</div>",
@@ -200,7 +200,11 @@ def _curves(found: Assessment) -> list[str]:
 def _cohorts(found: Assessment) -> list[str]:
     relevant = [row.cohort.name for row in found.cohorts]
     others = [cohort.name for cohort in COHORTS if cohort.name not in relevant]
-    none = f"<p>No class of such stones: {escape(', '.join(others))}.</p>" if others else ""
+    none = (
+        f"<p>Cohorts without a class of such stones: {escape(', '.join(others))}.</p>"
+        if others
+        else ""
+    )
     body = "".join(_cohort(found, name) for name in dict.fromkeys(relevant))
     head = "<tr><th>cohort, stones</th><th>passed</th><th>model</th></tr>"
     return [
@@ -212,10 +216,10 @@ def _cohorts(found: Assessment) -> list[str]:
         '<div class="pair"><div>',
         inline_svg(cohorts_figure(found), "Fractions that passed in cohorts, and the model's"),
         "</div><div>",
-        "<p>The same for other sizes of the stone: the curve is the model's fraction, and every "
-        "grey line is a size class of a cohort. What counts as the lumen changes the model's "
-        "fraction more than any other input: excised and empty ureters are much narrower than "
-        "ureters in contrast CT.</p>",
+        "<p>The second figure compares other sizes of the stone. The curve is the model's "
+        "fraction, and every grey line is a size class of a cohort. The definition of the lumen "
+        "changes the model's fraction more than any other input: excised and empty ureters are "
+        "much narrower than ureters in contrast CT.</p>",
         inline_svg(sizes_figure(found), "The model's fraction and the cohorts' over stone size"),
         "</div></div>",
         f"<table><thead>{head}</thead><tbody>{body}</tbody></table>{none}",
@@ -223,7 +227,7 @@ def _cohorts(found: Assessment) -> list[str]:
 
 
 def _cohort(found: Assessment, name: str) -> str:
-    """Return the rows of a cohort in the table, the first with what the cohort is."""
+    """Return the rows of a cohort in the table; the first row describes the cohort."""
     rows = [row for row in found.cohorts if row.cohort.name == name]
     about = f"<b>{escape(name)}</b> {escape(rows[0].cohort.about)}"
     return f'<tr class="group"><td colspan="3">{about}</td></tr>' + "".join(
@@ -267,11 +271,11 @@ def _how(found: Assessment) -> str:
     if found.samples is None:
         return f"{found.solves} cases were solved."
     return (
-        f"How it was computed: {len(found.samples.critical)} samples (seed {patient.seed}) of a "
+        f"Computation: {len(found.samples.critical)} samples (seed {patient.seed}) of a "
         f"response surface through {found.solves} solved cases. The error of the surface is at "
         f"most {100.0 * found.surface_error:.1f} % in 95 % of the cases, as measured by leaving "
         f"out one case at a time. {100.0 * found.possible:.0f} % of the random draws describe a "
-        f"possible wall. Standard error by the number of samples: {noise_in_words(found)}."
+        f"possible wall. Standard error due to the number of samples: {noise_in_words(found)}."
     )
 
 

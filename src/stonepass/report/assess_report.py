@@ -1,4 +1,4 @@
-"""An assessment as tables for a terminal, and its parts in words for the page too."""
+"""Tables of an assessment for a terminal, and texts that the page uses too."""
 
 from __future__ import annotations
 
@@ -37,20 +37,20 @@ UNITS = {"kPa": "kPa", "mmHg": "mmHg", "cmH2O": "cmH₂O"}
 FAR = {MORE: "↑", FEWER: "↓"}
 ARROWS = "↑ more, ↓ fewer stones passed than the model's fraction"
 SENSITIVITY = (
-    "Sobol' total index of every uncertain input: the part of the variance of the critical "
-    "pressure (of its rank) in which the input takes part, alone or together with others. The "
-    "indices may therefore sum to more than 100 %."
+    "Sobol' total index of every uncertain input: the fraction of the variance of the rank of the "
+    "critical pressure to which the input contributes, alone or together with others. The indices "
+    "may therefore sum to more than 100 %."
 )
 
 
 def assess_summary(found: Assessment) -> list[Table]:
-    """Return what contradicts, what the measurements cannot decide, and what they decide."""
+    """Return lists of contradictions and of questions that are undecided and decided."""
     asked = decisions(found)
     lists = {
         "Contradictions": contradictions(found),
         "These measurements cannot decide": [each.sentence for each in asked if not each.decided],
         "Within the model, they decide": [each.sentence for each in asked if each.decided],
-        "What would narrow the result": [next_measurement(found)] if found.sensitivity else [],
+        "Largest source of uncertainty": [next_measurement(found)] if found.sensitivity else [],
     }
     return [_list(title, sentences) for title, sentences in lists.items() if sentences]
 
@@ -130,7 +130,7 @@ def describe_passed(row: Row) -> str:
 
 
 def describe_beside(found: Assessment, row: Row) -> str:
-    """Return the model's fraction for the stones of a row, with an arrow if the two differ much."""
+    """Return the model's fraction for a row, with an arrow if it differs much from the cohort's."""
     fraction = found.beside(row)
     if row.passed is None or fraction is None:
         return ""
@@ -173,8 +173,8 @@ def _pressures(found: Assessment) -> Table:
 
 def _fractions(found: Assessment) -> Table:
     table = Table(box=box.SIMPLE_HEAD)
-    table.add_column("in which part of the simulated input combinations")
-    table.add_column("fraction")
+    table.add_column("condition")
+    table.add_column("fraction of the simulated input combinations")
     limit = f"{found.patient.limit / 1e3:.4g} kPa"
     rows = (
         ("present pressure above the critical pressure", found.below_present),
@@ -187,7 +187,7 @@ def _fractions(found: Assessment) -> Table:
     if found.critical is not None:
         loose = Fraction(found.loose, found.loose)
         table.add_row("stone no larger than the lumen, not held", _words(loose))
-    table.add_row("standard error of these numbers by the number of samples", noise_in_words(found))
+    table.add_row("standard error due to the number of samples", noise_in_words(found))
     return table
 
 

@@ -47,7 +47,7 @@ def beam_figure(answer: Answer) -> Figure:
 
 
 def _wall(axes: Axes, beam: BeamState) -> None:
-    """Sphere, and the beam as a point load deflects it: δ e^(−βz) (cos βz + sin βz)."""
+    """Draw the sphere and the deflection under a point load, δ e^(−βz) (cos βz + sin βz)."""
     xi, h = beam.case.size_ratio, beam.case.wall_ratio - 1.0
     scale = length_unit(beam.case)[0]
     extent = EXTENT * xi * scale

@@ -47,7 +47,7 @@ def case_figure(answer: Answer) -> Figure:
 
 
 def _wall(axes: Axes, seated: SeatedState, wall: Field) -> None:
-    """The meridian section, upstream left, coloured by the radial compression of the wall."""
+    """Draw the meridian section, upstream left, coloured by the radial compression."""
     case, alpha = seated.case, seated.contact_angle
     sides = (-1.0, 1.0) if case.stone.shape.symmetric else (1.0,)
     add_colour_bar(axes, draw_section(axes, wall, case, seated.peak_contact_pressure, sides))

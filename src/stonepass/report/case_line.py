@@ -13,22 +13,22 @@ __all__ = ["case_line", "length_unit"]
 def length_unit(case: Problem) -> tuple[float, str]:
     """Return the length of one inner radius on the axes of a figure, and the unit of the axes.
 
-    The unit is mm where the ureter has an inner diameter, and else the inner radius itself.
+    The unit is mm if the ureter has an inner diameter, otherwise the inner radius itself.
     """
     inner = case.ureter.inner_diameter
     return (1.0, "inner radii") if inner is None else (0.5e3 * inner, "mm")
 
 
 def case_line(case: Problem, model: Any = None, *, with_stone: bool = True) -> str:
-    """Return stone, ureter, wall, friction and load, and the model where one is given.
+    """Return stone, ureter, wall, friction and load, and the model if one is given.
 
     Parameters
     ----------
     case : Problem
     model : Model, optional
-        Its name ends the line.
+        The line ends with its name.
     with_stone : bool
-        Whether the size of the stone belongs to the case; it does not where a figure varies it.
+        False if the figure varies the size of the stone, so that the line leaves it out.
     """
     stone, ureter = case.stone, case.ureter
     parts = [_sizes(case, with_stone=with_stone), ureter.material.name, f"μ = {stone.friction:g}"]

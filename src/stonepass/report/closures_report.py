@@ -48,7 +48,7 @@ def closures_table(found: ClosureComparison) -> Table:
 
 @in_style
 def closures_figure(found: ClosureComparison) -> Figure:
-    """How wide the tube is when the wall has opened to α: direct states, series, Eq. 15."""
+    """Draw the radius of the tube over the opening angle: direct states, series and Eq. 15."""
     figure = new_figure(6.4, 4.4)
     add_heading(figure, case_line(found.case))
     axes = figure.add_subplot()
@@ -82,7 +82,7 @@ def closures_figure(found: ClosureComparison) -> Figure:
 
 @in_style
 def map_figure(found: Sequence[ClosureComparison]) -> Figure:
-    """Error of each closure against direct over ξ, a panel for each η, friction by shade."""
+    """Draw the error of each closure over ξ: a panel for each η, a shade for each friction."""
     walls = sorted({each.case.wall_ratio for each in found})
     names = [name for name in CLOSURES if name != "direct"]
     figure = new_figure(3.1 * len(walls) + 0.6, 2.2 * len(names) + 1.2)
@@ -113,7 +113,7 @@ def _draw_errors(
     name: str,
     everything: Sequence[ClosureComparison],
 ) -> None:
-    """Errors of one closure for one wall, a line for each friction."""
+    """Draw the errors of one closure for one wall, a line for each friction."""
     frictions = sorted({each.case.stone.friction for each in everything})
     axes.axhline(0.0, color=COLOURS["grey"], linewidth=0.8)
     for k, (mu, colour) in enumerate(zip(frictions, ordered_colours(len(frictions)), strict=True)):

@@ -1,4 +1,4 @@
-"""Results of CalculiX and of stonepass for the same case: table and figure."""
+"""Table and figure that compare CalculiX and stonepass for one case."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def curve_figure(answers: Sequence[Answer]) -> Figure:
 
 
 def draw_curve(axes: Axes, answers: Sequence[Answer], k: int, label: str) -> None:
-    """Add curve number `k`: answers with bars of their error, crosses where there is none."""
+    """Add curve number `k`: answers with error bars, and crosses at sizes without an answer."""
     sizes = [answer.case.size_ratio for answer in answers]
     pressures = [np.nan if a.pressure is None else a.pressure / 1e3 for a in answers]
     axes.plot(sizes, pressures, **series(k), markersize=3, label=label)

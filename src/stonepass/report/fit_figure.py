@@ -1,4 +1,4 @@
-"""The picture of a fit: what was measured with the law through it, and the residuals."""
+"""The picture of a fit: measured points, fitted law and residuals."""
 
 from __future__ import annotations
 

@@ -22,11 +22,13 @@ from stonepass.report.style import (
 )
 from stonepass.surface.friction_result import SurfaceFriction
 
-__all__ = ["friction_figure"]
+__all__ = ["draw_baseline", "friction_figure"]
 
 MICRO = 1e6
-SHOWN = 1200  # pixels along the longer side, of the picture as drawn
-TANGENT, NEAR = 0.08, 1e-4  # of the profile's length: drawn of the steepest tangent, to find it
+ALONG, HEIGHT = "distance along the path (µm)", "height (µm)"
+SHOWN = 1200  # largest number of drawn pixels along the longer side
+# Length of the drawn tangent, and step of its difference quotient, over the profile's length.
+TANGENT, NEAR = 0.08, 1e-4
 
 
 @in_style
@@ -49,12 +51,12 @@ def friction_figure(found: SurfaceFriction) -> Figure:
     profiles.plot(x, found.mean * MICRO, color=COLOURS["ink"], linewidth=1.8, label="mean")
     profiles.set_title("Profiles along the paths")
     mean, rest = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
-    _baseline(mean, found, found.mean, 0)
-    _baseline(rest, found, found.deviation, 1)
+    draw_baseline(mean, found, 0)
+    draw_baseline(rest, found, 1)
     mean.set_title(f"Mean profile: k₀ = {found.k0:.3f}")
     rest.set_title(f"Deviation: k₁ = {found.k1:.3f}, so μ = {found.friction:.3f}")
+    profiles.set(xlabel=ALONG, ylabel=HEIGHT)
     for axes in (profiles, mean, rest):
-        axes.set(xlabel="distance along the path (µm)", ylabel="height (µm)")
         axes.margins(x=0.0)
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.3 * (high - low))  # the legend stands above the curves
@@ -95,8 +97,9 @@ def _picture(axes: Axes, found: SurfaceFriction, shades: Sequence[Any]) -> None:
     axes.set_title("Surface and paths")
 
 
-def _baseline(axes: Axes, found: SurfaceFriction, heights: np.ndarray, which: int) -> None:
-    """A profile, its baseline, and the tangent where that is steepest."""
+def draw_baseline(axes: Axes, found: SurfaceFriction, which: int) -> None:
+    """Draw the mean profile (0) or the deviation (1), its baseline and the steepest tangent."""
+    heights = (found.mean, found.deviation)[which]
     baseline = (found.baseline, found.deviation_baseline)[which]
     fitted = baseline.at(found.distance)
     x = found.distance * MICRO
@@ -116,3 +119,4 @@ def _baseline(axes: Axes, found: SurfaceFriction, heights: np.ndarray, which: in
         axes.axvspan(*(edge * MICRO for edge in edges), color=COLOURS["grey"], alpha=0.15, lw=0,
                      label=label)  # fmt: skip
         label = None
+    axes.set(xlabel=ALONG, ylabel=HEIGHT)

@@ -66,7 +66,7 @@ def _rows(found: SurfaceFriction) -> list[tuple[str, str, str]]:
 
 
 def _levelled(found: SurfaceFriction) -> str:
-    """Say whether the surface was levelled, and how that changes the friction coefficient."""
+    """Return whether the surface was levelled, and the friction coefficient with levelling."""
     if found.levelled:
         return "the least-squares plane is subtracted"
     if found.friction_levelled is None:

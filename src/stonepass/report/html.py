@@ -29,7 +29,7 @@ th { border-bottom: 2px solid #9ca3af; }
 
 
 def write_html(path: Path, title: str, style: str, body: str) -> None:
-    """Write a page; `body` is HTML, and `style` is CSS in addition to that of all pages."""
+    """Write a page; `body` is HTML, and `style` is CSS that is added to that of all pages."""
     text = (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'

@@ -1,4 +1,4 @@
-"""The picture of a series: curves and points, and what it tells of friction and stiffness."""
+"""The picture of a series: points and curves, and the fitted friction and stiffness."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from stonepass.report.style import (
 __all__ = ["invitro_figure"]
 
 COARSE, FINE = 241, 301  # points along a side of the grids on which the region is found and drawn
-AROUND = 1.12  # the joint region's picture reaches that far beyond it
+AROUND = 1.12  # factor by which the axes extend beyond the joint region
 
 
 @in_style
 def invitro_figure(found: InVitro, curves: Sequence[SizeCurve]) -> Figure:
-    """Draw points and curves on the left; on the right the joint 95 % region where there is one."""
+    """Draw points and curves on the left, and the joint 95 % region, if any, on the right."""
     joint = found.joint
     figure = new_figure(9.6 if joint else 5.4, 4.4)
     setting = found.setting
@@ -43,7 +43,7 @@ def invitro_figure(found: InVitro, curves: Sequence[SizeCurve]) -> Figure:
 
 
 def _draw_series(axes: Axes, found: InVitro, curves: Sequence[SizeCurve]) -> None:
-    """Points with their standard deviation, and the model's curve through each series."""
+    """Draw the points with their standard deviation, and the model's curve of each series."""
     points = found.comparison.points
     walls = sorted({point.wall_ratio for point in points})
     loads = sorted({float(point.confining_pressure) for point in points})
@@ -81,7 +81,7 @@ def _draw_series(axes: Axes, found: InVitro, curves: Sequence[SizeCurve]) -> Non
 
 
 def _draw_region(axes: Axes, found: InVitro, joint: JointFit) -> None:
-    """The joint 95 % region of friction and stiffness, and the interval of friction alone."""
+    """Draw the joint 95 % region of friction and stiffness, and the interval of friction."""
     limits = _limits(found, joint)
     friction, stiffness = (np.linspace(*ends, FINE) for ends in limits)
     misfit = np.asarray(joint.misfit(friction[None, :], stiffness[:, None]))
@@ -95,7 +95,7 @@ def _draw_region(axes: Axes, found: InVitro, joint: JointFit) -> None:
               label="both fitted, with their joint 95 % region")  # fmt: skip
     axes.axhline(1.0, color=COLOURS["grey"], linewidth=0.8, linestyle=":")
     axes.set(xlim=limits[0], ylim=limits[1])
-    # An end that the series does not bound runs out of the picture.
+    # An interval that is open on one side is drawn up to the edge of the axes.
     low = limits[0][0] if found.friction.low is None else found.friction.low
     high = limits[0][1] if found.friction.high is None else found.friction.high
     axes.plot([low, high], [1.0, 1.0], color=COLOURS["orange"], linewidth=1.8)
@@ -108,7 +108,7 @@ def _draw_region(axes: Axes, found: InVitro, joint: JointFit) -> None:
 
 
 def _limits(found: InVitro, joint: JointFit) -> list[tuple[float, float]]:
-    """Ranges of friction and stiffness that hold the region and both estimates."""
+    """Return ranges of friction and stiffness that contain the region and both estimates."""
     friction = np.geomspace(SMALLEST, LARGEST, COARSE)
     stiffness = np.geomspace(*STIFFNESS, COARSE)
     inside = np.asarray(joint.misfit(friction[None, :], stiffness[:, None])) <= joint.level

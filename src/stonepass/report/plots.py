@@ -15,6 +15,7 @@ from stonepass.report.case_line import case_line
 from stonepass.report.contact_figure import draw_contact
 from stonepass.report.curve_figure import draw_curve, frame_curve
 from stonepass.report.fit_figure import draw_fit
+from stonepass.report.friction_figure import draw_baseline
 from stonepass.report.sensitivity_figure import draw_tornado, explain_tornado
 from stonepass.report.style import COLOURS, tidy
 from stonepass.studies.closures import CLOSURES, ClosureComparison
@@ -36,12 +37,11 @@ __all__ = [
     "plot_size",
 ]
 
-POINTS = 400  # of a drawn line
-MICRO = 1e6
+POINTS = 400  # points of a drawn line
 
 
 def plot_answer(answer: Answer, axes: Axes) -> None:
-    """Draw the contact pressure over the angle on the stone, and how far the wall opens."""
+    """Draw the contact pressure over the angle on the stone, and the critical angle."""
     if answer.contact is None:
         raise BadInput("plot", answer.outcome.name, "asked for where there is a contact to draw")
     draw_contact(axes, answer)
@@ -64,7 +64,7 @@ def plot_size(answer: SizeAnswer, axes: Axes) -> None:
 
 
 def plot_curve(curve: CriticalCurve, axes: Axes) -> None:
-    """Draw the critical pressure over the size ratio; unanswered sizes are crosses at zero."""
+    """Draw the critical pressure over the size ratio; crosses mark sizes without an answer."""
     draw_curve(axes, curve, 0, f"model {curve[0].model.NAME}")
     frame_curve(axes)
     axes.set_title(case_line(curve[0].case, with_stone=False), loc="left", fontsize="medium")
@@ -133,12 +133,8 @@ def plot_series(found: InVitro, axes: Axes) -> None:
 
 
 def plot_friction(found: SurfaceFriction, axes: Axes) -> None:
-    """Draw the mean profile of the surface with its baseline."""
-    x = found.distance * MICRO
-    axes.plot(x, found.mean * MICRO, color=COLOURS["ink"], linewidth=0.8, label="mean profile")
-    axes.plot(x, found.baseline.at(found.distance) * MICRO, color=COLOURS["orange"],
-              linestyle="--", label=f"baseline, order {found.baseline.order}")  # fmt: skip
-    axes.set(xlabel="distance along the path (µm)", ylabel="height (µm)")
+    """Draw the mean profile of the surface with its baseline and the steepest tangent."""
+    draw_baseline(axes, found, 0)
     axes.set_title(found.summary().partition(",")[0], loc="left", fontsize="medium")
     axes.legend()
     tidy(axes)

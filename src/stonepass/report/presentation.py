@@ -1,4 +1,4 @@
-"""How each result is shown: its record, its rows, its tables, its graph and its picture.
+"""The presentation of each result: its record, its rows, its tables, its graph and its picture.
 
 `SHOWN` has one entry for each type of result. The package names this module as the presentation of
 `stonepass.result`, so that ``answer.plot()`` ends here.
@@ -15,6 +15,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from stonepass.bench.comparison import point_curves
 from stonepass.bench.invitro import InVitro
 from stonepass.bench.law_fit import FittedLaw
 from stonepass.clinic.assessment import Assessment
@@ -34,6 +35,7 @@ from stonepass.records.invitro import invitro_record
 from stonepass.records.rising import rising_record
 from stonepass.records.sensitivity import sensitivity_record, sensitivity_rows
 from stonepass.records.size import size_record
+from stonepass.records.sweep import sweep_record
 from stonepass.report import plots
 from stonepass.report.answer_figure import answer_figure
 from stonepass.report.assess_figure import pressures_figure
@@ -46,12 +48,15 @@ from stonepass.report.friction_figure import friction_figure
 from stonepass.report.friction_report import friction_table
 from stonepass.report.invitro_figure import invitro_figure
 from stonepass.report.invitro_report import invitro_table
+from stonepass.report.notebook_figure import displayed
 from stonepass.report.printing import Part, as_html, as_text
 from stonepass.report.rising_report import rising_figure, rising_table
 from stonepass.report.sensitivity_figure import sensitivity_figure
 from stonepass.report.sensitivity_report import sensitivity_parts
 from stonepass.report.style import FORMATS
 from stonepass.report.style import save as save_figure
+from stonepass.report.sweep_figure import plot_sweep, sweep_figure
+from stonepass.report.sweep_report import sweep_sentences, sweep_tables, sweep_warnings
 from stonepass.report.table import (
     curve_table,
     grouped_warnings,
@@ -63,6 +68,7 @@ from stonepass.studies.closures import CLOSURES, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
+from stonepass.studies.sweeps.results import SweepResults
 from stonepass.surface.friction_result import SurfaceFriction
 
 __all__ = ["SHOWN", "Shown", "figure", "html", "plot", "record", "rows", "save", "text"]
@@ -72,7 +78,7 @@ Row = dict[str, Any]
 
 @dataclass(frozen=True)
 class Shown:
-    """How one type of result is shown.
+    """The presentation of one type of result.
 
     Attributes
     ----------
@@ -125,8 +131,8 @@ def plot(result: Any, axes: Axes) -> None:
 
 
 def figure(result: Any) -> Figure:
-    """Return the whole picture."""
-    return _of(result).figure(result)
+    """Return the whole picture, which a notebook displays."""
+    return displayed(_of(result).figure(result))
 
 
 def save(result: Any, path: Path) -> None:
@@ -154,7 +160,7 @@ def _of(result: Any) -> Shown:
 def _scalars(document: Row) -> Row:
     """Return the entries of a record that are single values; warnings become their codes.
 
-    What every record says of itself (version, disclaimer) is left out.
+    Entries that every record has (version, disclaimer) are left out.
     """
     found = {
         name: value
@@ -195,7 +201,7 @@ def _closure_rows(found: ClosureComparison) -> list[Row]:
 
 
 def _fit(found: FittedLaw) -> Row:
-    """The record without what only the command line knows: the file, and the sizes at rest."""
+    """Return the record without the inputs of the command line: file and sizes at rest."""
     document = fit_record(found, {"file": "", "relative": False}).to_dict()
     return document | {"data": document.pop("inputs")["data"]}
 
@@ -225,8 +231,19 @@ def _size_figure(found: SizeAnswer) -> Figure:
     return answer_figure(found.at_size)
 
 
+def _sweep_rows(found: SweepResults) -> list[Row]:
+    return [
+        {name: _joined(value) for name, value in row.items()} for row in found.table().to_pylist()
+    ]
+
+
+def _joined(value: Any) -> Any:
+    """Return a list of numbers as text, any other value as it is."""
+    return "; ".join(map(repr, value)) if isinstance(value, list) else value
+
+
 def _series_figure(found: InVitro) -> Figure:
-    return invitro_figure(found, [])
+    return invitro_figure(found, point_curves(found.comparison))
 
 
 SHOWN: dict[type, Shown] = {
@@ -309,5 +326,13 @@ SHOWN: dict[type, Shown] = {
         plot=plots.plot_sensitivity,
         figure=sensitivity_figure,
         rows=sensitivity_rows,
+    ),
+    SweepResults: Shown(
+        record=lambda found: sweep_record(found).to_dict(),
+        parts=lambda found: [*sweep_tables(found), *sweep_sentences(found)],
+        warnings=sweep_warnings,
+        plot=plot_sweep,
+        figure=sweep_figure,
+        rows=_sweep_rows,
     ),
 }

@@ -18,9 +18,9 @@ from stonepass.report.style import COLOURS, add_heading, angle_label, in_style, 
 
 __all__ = ["draw_pressure", "draw_wall", "push_figure"]
 
-ARROWS = 7  # along the wall upstream
-ARROW, LEAST_ROOM = 0.28, 0.1  # length of an arrow, and room that one needs, in inner radii
-SHORTEST = 0.05  # of the full length; shorter arrows are not drawn
+ARROWS = 7  # number of arrows along the wall upstream
+ARROW, LEAST_ROOM = 0.28, 0.1  # length of an arrow and smallest room for one, in inner radii
+SHORTEST = 0.05  # fraction of the full length; shorter arrows are not drawn
 URINE = COLOURS["green"]
 
 
@@ -58,11 +58,11 @@ def draw_wall(
     ----------
     axes : Axes
     pushed : PushedState
-        With its wall.
+        A state that keeps its stress field.
     top : float
-        Radial compression in Pa that ends the colours.
+        Radial compression in Pa at the end of the colour scale.
     full : float, optional
-        Urine pressure in Pa whose arrows have their full length; by default that of the state.
+        Urine pressure in Pa at which arrows have their full length; by default that of the state.
     height : float, optional
         Half the height of the axes in inner radii; by default that of the wall.
 

@@ -1,4 +1,4 @@
-"""A picture of the wall turned round its axis, with a quarter cut away."""
+"""A picture of the wall revolved about its axis, with a quarter cut away."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ from stonepass.report.style import COLOURS, add_heading, in_style, new_figure
 
 __all__ = ["revolved_figure"]
 
-CUT = 0.75  # of a turn that the picture shows
+CUT = 0.75  # fraction of a revolution that is drawn
 LIGHT = np.array([-0.45, 0.9, 0.25])
 STONE_RINGS = 40
-ENDS = (np.pi, np.pi + 2.0 * np.pi * CUT)  # the gap is towards the eye, above
-FINER, SMOOTH = 4, 0.01  # divisions of an element's grid where the colour varies by more than that
+ENDS = (np.pi, np.pi + 2.0 * np.pi * CUT)  # the gap is above, on the side of the viewer
+# An element in which the colour varies by more than SMOOTH is divided FINER times along each side.
+FINER, SMOOTH = 4, 0.01
 
 Faces = Float[np.ndarray, "faces 4 3"]
 Shades = Float[np.ndarray, "faces 4"]
@@ -59,7 +60,7 @@ def revolved_figure(wall: Field, case: Problem, top: float, extent: float = 3.0)
 def _cuts(
     wall: Field, scale: ScalarMappable, reach: float, *, mirrored: bool
 ) -> list[tuple[Faces, Shades]]:
-    """The two faces of the cut, finer where the compression varies."""
+    """Return the two faces of the cut, with a finer grid where the compression varies."""
     sides = (1.0, -1.0) if mirrored else (1.0,)
     values = np.stack([wall.r, wall.z, wall.Z, -wall.stress_rr / 1e3])
     count = round(np.sqrt(values.shape[2]))
@@ -77,7 +78,7 @@ def _cuts(
 
 
 def _refined(grid: Float[np.ndarray, "elements n n"], times: int) -> Float[np.ndarray, "e m m"]:
-    """Values between those of each element's grid, by linear interpolation."""
+    """Return values on a finer grid of each element, by linear interpolation."""
     count = grid.shape[1]
     at = np.linspace(0.0, count - 1.0, (count - 1) * times + 1)
     low = np.minimum(at.astype(int), count - 2)
@@ -87,7 +88,7 @@ def _refined(grid: Float[np.ndarray, "elements n n"], times: int) -> Float[np.nd
 
 
 def _quads(grid: Float[np.ndarray, "elements m m"]) -> Float[np.ndarray, "quads 4"]:
-    """Values at the corners of the quadrilaterals of each element's grid."""
+    """Return values at the corners of the quadrilaterals of each element's grid."""
     corners = (grid[:, :-1, :-1], grid[:, 1:, :-1], grid[:, 1:, 1:], grid[:, :-1, 1:])
     return np.stack([each.ravel() for each in corners], axis=1)
 
@@ -95,7 +96,7 @@ def _quads(grid: Float[np.ndarray, "elements m m"]) -> Float[np.ndarray, "quads 
 def _surfaces(
     wall: Field, scale: ScalarMappable, reach: float, *, mirrored: bool
 ) -> list[tuple[Faces, Shades]]:
-    """Inner and outer surface and both ends of the tube, a quarter left out."""
+    """Return inner and outer surface and both ends of the tube, without a quarter."""
     angles = np.linspace(*ENDS, round(SEGMENTS * CUT) * 2 + 1)
     within = np.abs(wall.Z) <= reach + 1e-9
     ends = (reach,) if mirrored else (float(wall.Z[within].min()), float(wall.Z[within].max()))
@@ -118,7 +119,7 @@ def _surfaces(
 
 
 def _edges(line: Float[np.ndarray, " n"]) -> Float[np.ndarray, "edges 2"]:
-    """Neighbouring values of a line of points."""
+    """Return pairs of neighbouring values of a line of points."""
     return np.stack([line[:-1], line[1:]], axis=1)
 
 
@@ -142,7 +143,7 @@ def _revolved(
     z: Float[np.ndarray, "edges 2"],
     angles: Float[np.ndarray, " n"],
 ) -> tuple[Float[np.ndarray, "faces 4 3"], Float[np.ndarray, " faces"]]:
-    """Edges turned through the angles: faces, and how brightly each is lit."""
+    """Return the faces that edges sweep through the angles, and the brightness of each."""
     low, high = angles[:-1], angles[1:]
     t = np.stack([low, high, high, low], axis=1)
     order = [0, 0, 1, 1]

@@ -37,12 +37,12 @@ from stonepass.studies.rising import Rising
 
 __all__ = ["animation_frames", "rising_figure", "rising_table", "save_animation"]
 
-NO_FORCE = 1e-2  # Pa; less than the solver tells from none
-CURVES = 5  # contact pressures drawn
-FRAME, LAST_FRAME = 500, 2500  # milliseconds
+NO_FORCE = 1e-2  # Pa; smaller forces are rounding errors and are shown as 0
+CURVES = 5  # number of contact pressures that are drawn
+FRAME, LAST_FRAME = 500, 2500  # durations in milliseconds
 RESOLUTION = 90  # dots per inch
-SHADES, OF_COMPRESSION = 256, 96  # in the palette of the animation
-NEARLY_WHITE = 248  # of 255; the ground of the figure stays white
+SHADES, OF_COMPRESSION = 256, 96  # colours of the palette, and those of the compression
+NEARLY_WHITE = 248  # lighter colours become white, the background of the figure
 
 
 def rising_table(rising: Rising) -> Table:
@@ -73,7 +73,7 @@ def rising_table(rising: Rising) -> Table:
 
 @in_style
 def rising_figure(rising: Rising) -> Figure:
-    """Net force, opening, contact pressure against the seated one, and how far it deviates."""
+    """Draw net force, opening, contact pressure, and its deviation from the seated state."""
     figure = new_figure(8.4, 6.8)
     add_heading(figure, case_line(rising.critical.case, rising.critical.model))
     grid = figure.subplots(2, 2)
@@ -90,7 +90,7 @@ def rising_figure(rising: Rising) -> Figure:
 
 
 def save_animation(rising: Rising, path: Path) -> None:
-    """Write the states one after the other as a GIF that stays on the last.
+    """Write the states one after the other as a GIF that pauses at the last state.
 
     All frames have the same axes, the same scale of colours and the same palette.
     """
@@ -130,7 +130,7 @@ def animation_frames(rising: Rising) -> list[Image.Image]:
         image = draw_wall(wall, state, top, full, height)
         wall.set_title("A held stone: radial compression in the loaded wall")
         draw_pressure(pressure, state, None, top)
-        if not frames:  # laid out once, so that nothing moves but what the pressure moves
+        if not frames:  # the layout is made once, so that axes and labels do not move
             add_colour_bar(wall, image)
             figure.draw_without_rendering()
             figure.set_layout_engine("none")
@@ -141,7 +141,7 @@ def animation_frames(rising: Rising) -> list[Image.Image]:
 
 
 def _palette(frames: list[Image.Image]) -> Image.Image:
-    """White, the colours of the compression, and the shades of three frames together."""
+    """Return a palette of white, the colours of the compression, and those of three frames."""
     chosen = [frames[0], frames[len(frames) // 2], frames[-1]]
     width, height = frames[0].size
     together = Image.new("RGB", (width, len(chosen) * height))

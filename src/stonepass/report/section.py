@@ -27,7 +27,7 @@ __all__ = [
     "wall_surface",
 ]
 
-COLOUR_MAP = "magma_r"  # of the compression: monotonic in lightness
+COLOUR_MAP = "magma_r"  # colours of the compression; their lightness is monotonic
 MARGIN = 1.06  # height of the axes over that of the wall
 
 
@@ -46,13 +46,13 @@ def draw_section(
     axes : Axes
     wall : Field
     case : Problem
-        Its lengths give the unit of the axes (`length_unit`).
+        The case, whose lengths determine the unit of the axes (`length_unit`).
     top : float
-        Compression in Pa that ends the colours; they begin at 0.
+        Compression in Pa at the end of the colour scale, which begins at 0.
     sides : sequence of float
         The wall is drawn once for each; -1 mirrors a half tube at the stone's equator.
     height : float, optional
-        Half the height of the axes in inner radii; by default as `section_height` has it.
+        Half the height of the axes in inner radii; by default that of `section_height`.
 
     Returns
     -------
@@ -68,8 +68,8 @@ def draw_section(
     y = scale * np.concatenate([half * r for _, half in images])
     triangles, rim = _triangles(x.shape[1]), element_rim(x.shape[1])
     corners = (np.arange(len(x))[:, None, None] * x.shape[1] + triangles).reshape(-1, 3)
-    # One mesh of all elements, since each artist costs; neighbours share no corner, so that a
-    # jump of the stress between them stays one.
+    # All elements are drawn as one mesh, which is faster. Neighbours share no corner, so that a
+    # jump of the stress between them is not smoothed.
     image = axes.tripcolor(
         Triangulation(x.ravel(), y.ravel(), corners),
         np.tile(compression, (len(images), 1)).ravel(),
@@ -90,12 +90,12 @@ def draw_section(
 
 
 def section_height(walls: Sequence[Field]) -> float:
-    """Half the height in inner radii that shows every one of the walls."""
+    """Return half the height of axes, in inner radii, that show all walls."""
     return MARGIN * max(float(wall.r.max()) for wall in walls)
 
 
 def add_colour_bar(axes: Any, image: ScalarMappable, shrink: float = 0.85) -> None:
-    """Put the scale of the compression to the right of axes, or of an array of them."""
+    """Draw the colour scale of the compression to the right of axes, or of an array of axes."""
     figure = np.ravel(axes)[0].figure
     bar = figure.colorbar(image, ax=axes, shrink=shrink, pad=0.01)
     bar.set_label(r"radial compression $-\sigma_{rr}$ (kPa)")
@@ -105,20 +105,20 @@ def add_colour_bar(axes: Any, image: ScalarMappable, shrink: float = 0.85) -> No
 def wall_surface(
     wall: Field, radius: float
 ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
-    """Deformed z and r of the surface of reference radius `radius`, sorted along the tube."""
+    """Return deformed z and r of the surface with reference radius `radius`, along the tube."""
     on_it = np.isclose(wall.R, radius)
     _, order = np.unique(wall.Z[on_it], return_index=True)
     return wall.z[on_it][order], wall.r[on_it][order]
 
 
 def element_rim(points: int) -> Int[np.ndarray, " rim"]:
-    """Which of an element's points lie on its rim, in order and closed."""
+    """Return the indices of the points on the rim of an element, as a closed loop."""
     grid = _grid(points)
     return np.r_[grid[0], grid[1:, -1], grid[-1, -2::-1], grid[-2::-1, 0]]
 
 
 def _outline(axes: Axes, wall: Field, scale: float, images: Sequence[tuple[float, float]]) -> None:
-    """The inner and the outer surface of the wall."""
+    """Draw the inner and the outer surface of the wall."""
     for radius in (wall.R.min(), wall.R.max()):
         z, r = wall_surface(wall, radius)
         for side, half in images:
@@ -126,12 +126,12 @@ def _outline(axes: Axes, wall: Field, scale: float, images: Sequence[tuple[float
 
 
 def _triangles(points: int) -> Int[np.ndarray, "triangles 3"]:
-    """Triangles between an element's points."""
+    """Return triangles between the points of an element."""
     grid = _grid(points)
     a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
     return np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))])
 
 
 def _grid(points: int) -> Int[np.ndarray, "n n"]:
-    """Numbers of an element's points, in their square."""
+    """Return the indices of the points of an element as a square array."""
     return np.arange(points).reshape(round(np.sqrt(points)), -1)

@@ -15,7 +15,7 @@ from stonepass.report.style import COLOURS
 
 __all__ = ["draw_radii", "draw_stone", "frame_section", "mark_angle", "polar_angle"]
 
-ARC = 0.42  # radius of the arc of an angle, of the stone's radius or half its length
+ARC = 0.42  # radius of the arc of an angle over the stone's radius or half its length
 
 
 def draw_stone(axes: Axes, case: Problem) -> None:
@@ -28,13 +28,13 @@ def draw_stone(axes: Axes, case: Problem) -> None:
             facecolor=COLOURS["stone"],
             edgecolor=COLOURS["ink"],
             lw=0.8,
-            zorder=1.5,  # above what fills the lumen, below lines
+            zorder=1.5,  # above the colour of the urine, below lines
         )
     )
 
 
 def draw_radii(axes: Axes, case: Problem, angles: Sequence[float]) -> None:
-    """Draw dashed lines from the stone's centre to where the contact begins and ends, θ in rad."""
+    """Draw dashed lines from the stone's centre to the ends of the contact, angles θ in rad."""
     radius = case.size_ratio * length_unit(case)[0]
     rho, along = case.stone.shape.meridian(np.array(angles))
     for r, z in zip(radius * rho, radius * along, strict=True):
@@ -54,7 +54,7 @@ def polar_angle(case: Problem, theta: float) -> float:
 
 
 def mark_angle(axes: Axes, case: Problem, theta: float, name: str) -> None:
-    """Draw the arc from the upstream axis to θ in rad, with the angle that the arc shows."""
+    """Draw the arc from the upstream axis to θ in rad, and write the angle."""
     shape, radius = case.stone.shape, case.size_ratio * length_unit(case)[0]
     pole = -float(shape.meridian(np.array(0.0))[1])
     size = ARC * radius * min(1.0, pole)
@@ -70,7 +70,7 @@ def mark_angle(axes: Axes, case: Problem, theta: float, name: str) -> None:
 
 
 def frame_section(axes: Axes, case: Problem, extent: float, height: float) -> None:
-    """Set limits, half of each range in the unit of `length_unit`, and label a section's axes."""
+    """Set the limits of a section's axes, given as half ranges in their unit, and label them."""
     unit = length_unit(case)[1]
     axes.set(xlim=(-extent, extent), ylim=(-height, height), aspect="equal")
     axes.set(xlabel=f"axial position z ({unit}), urine from the left", ylabel=f"radius r ({unit})")

@@ -1,4 +1,4 @@
-"""How every figure looks: fonts, colours, line styles, axes, saving."""
+"""The style of all figures: fonts, colours, line styles, axes, saving."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ __all__ = [
 P = ParamSpec("P")
 R = TypeVar("R")
 
-# After Okabe and Ito. A test measures how far apart they are with deuteranopia and protanopia.
+# Colours after Okabe and Ito. A test measures their distances for deuteranopia and protanopia.
 COLOURS = {
     "blue": "#0072B2",
     "orange": "#D55E00",
@@ -47,7 +47,7 @@ COLOURS = {
     "ink": "#1F2937",
     "stone": "#D6CFC4",
 }
-# Colour, line style and marker of each curve of a figure, so that no curve is told by colour alone.
+# Colour, line style and marker of each curve of a figure; curves differ in more than their colour.
 SERIES: tuple[tuple[str, Any, str], ...] = (
     ("blue", "-", "o"),
     ("orange", "--", "s"),
@@ -56,7 +56,7 @@ SERIES: tuple[tuple[str, Any, str], ...] = (
     ("pink", (0, (6, 1, 1, 1, 1, 1)), "v"),
 )
 FORMATS = ("svg", "png", "pdf")
-LETTERS_PER_INCH = 12.5  # of the heading's font, somewhat more than are needed
+LETTERS_PER_INCH = 12.5  # characters of the heading per inch of the figure
 
 _STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -78,7 +78,7 @@ _STYLE: Any = {
 
 
 def in_style(function: Callable[P, R]) -> Callable[P, R]:
-    """Let a function that makes or draws figures do so in this style.
+    """Return the function so that it makes or draws figures in this style.
 
     The user's own settings of matplotlib are neither used nor changed.
     """
@@ -97,7 +97,7 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def tidy(axes: Axes) -> None:
-    """Leave only the left and bottom frame, and a light grid."""
+    """Remove the top and right frame, and draw a light grid."""
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(alpha=0.25, linewidth=0.6)
     axes.set_axisbelow(True)
@@ -116,13 +116,13 @@ def ordered_colours(count: int) -> list[Any]:
 
 
 def add_heading(figure: Figure, text: str) -> None:
-    """Write above all panels, from the left, which case the figure shows; long text is wrapped."""
+    """Write the case that the figure shows above all panels; long text is wrapped."""
     lines = textwrap.fill(text, round(LETTERS_PER_INCH * figure.get_figwidth()))
     figure.suptitle(lines, x=0.01, ha="left")
 
 
 def add_mmhg_axis(axes: Axes) -> None:
-    """Put a second axis of pressure, in mmHg, on the right of axes in kPa."""
+    """Add an axis in mmHg on the right of axes whose vertical axis is in kPa."""
     factor = PASCAL_PER["kPa"] / PASCAL_PER["mmHg"]
 
     def to_mmhg(kilopascals: Any) -> Any:
@@ -136,13 +136,13 @@ def add_mmhg_axis(axes: Axes) -> None:
 
 
 def mark_unanswered(axes: Axes, at: Sequence[float], why: str, colour: str) -> None:
-    """Mark abscissas without an answer by crosses at the top of the axes, where no value is read.
+    """Mark abscissas without an answer by crosses at the top of the axes.
 
     Parameters
     ----------
     axes : Axes
     at : sequence of float
-        Abscissas; none draws nothing.
+        Abscissas; nothing is drawn for an empty sequence.
     why : str
         Entry of the legend.
     colour : str
@@ -155,19 +155,19 @@ def mark_unanswered(axes: Axes, at: Sequence[float], why: str, colour: str) -> N
 
 
 def angle_label(*, sphere: bool, name: str = "θ") -> str:
-    """Label of an axis of θ, which is parametric for a stone that is no sphere."""
+    """Return the label of an axis of θ, which is a parameter if the stone is not a sphere."""
     kind = "angle" if sphere else "parametric angle"
     return f"{kind} {name} from the upstream axis (°)"
 
 
 def signed(value: float, digits: int) -> str:
-    """Return a number with its sign, of which a minus is that of print and no hyphen."""
+    """Return a number with its sign, with a minus sign instead of a hyphen."""
     return f"{value:+.{digits}f}".replace("-", "−")
 
 
 @in_style
 def save(figure: Figure, path: Path) -> None:
-    """Write the figure; the ending of `path` says which format, the same bytes every time."""
+    """Write the figure in the format of the ending of `path`; the bytes are reproducible."""
     ending = path.suffix.lower().lstrip(".")
     if ending not in FORMATS:
         raise BadInput("figure", str(path), "a file name ending in ." + ", .".join(FORMATS))

@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 
-SYMMETRIC = 1e-9  # rad; a contact that ends so near its mirror image is symmetric
+SYMMETRIC = 1e-9  # rad; tolerance within which a contact is symmetric about the equator
 ERROR = "discretisation error"  # header of the column
 _PASCALS = {"kPa": 1e3, "Pa": 1.0}
 
@@ -67,7 +67,7 @@ def size_tables(answer: SizeAnswer) -> list[Table]:
 
 
 def size_message(answer: SizeAnswer) -> str:
-    """Return the message of a critical size, in millimetres where the ureter has lengths."""
+    """Return the message of a critical size, in millimetres if the ureter has lengths."""
     if answer.diameter is None or answer.size_ratio is None:
         return answer.message
     return (
@@ -137,7 +137,7 @@ def _pressures(title: str) -> Table:
 
 
 def _others() -> Table:
-    """Return the empty table of quantities that are no pressures."""
+    """Return an empty table for quantities that are not pressures."""
     table = Table(box=box.SIMPLE_HEAD)
     table.add_column("other quantities")
     for column in ("value", ERROR):
@@ -171,7 +171,7 @@ def _up(error: float, least: float) -> str:
 
 
 def _state_rows(pressures: Table, others: Table, answer: Answer) -> None:
-    """Add what is known of the contact, and what only the model of the answer knows."""
+    """Add rows of the contact and of the quantities that only this model has."""
     contact = answer.contact
     quantities = [] if answer.detail is None else answer.detail.quantities()
     if contact is not None:
@@ -194,7 +194,7 @@ def _state_rows(pressures: Table, others: Table, answer: Answer) -> None:
 
 
 def _quantity_row(pressures: Table, others: Table, quantity: Quantity) -> None:
-    """Add a quantity that only one model knows, if it has a title."""
+    """Add a quantity that only one model has, if it has a title."""
     value = quantity.value
     if not quantity.title or not isinstance(value, float):
         return
@@ -207,7 +207,7 @@ def _quantity_row(pressures: Table, others: Table, quantity: Quantity) -> None:
 
 
 def case_title(case: Problem, *, with_stone: bool = True) -> str:
-    """Return the case in one line, as figures name it; text that looks like markup is escaped."""
+    """Return the line of the case that figures have too; markup in it is escaped."""
     line = escape(case_line(case, with_stone=with_stone))
     printed = getattr(getattr(case, "model", None), "as_printed", False)
     return f"{line} · Eq. 5 as printed" if printed else line

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from stonepass.array_types import Bool, Float
 
-__all__ = ["first_crossing"]
+__all__ = ["ALL", "Excess", "Rows", "first_crossing", "refined_guess"]
 
 SCAN = 9  # number of points of the scan
 REFINEMENTS = 3  # number of steps of Ridders' method, each with two evaluations
 
-Excess = Callable[[Float[np.ndarray, " m"], np.ndarray], Float[np.ndarray, " m"]]
+Rows = Any  # an array of row numbers, or the slice of all rows
+Excess = Callable[[Float[np.ndarray, " m"], Rows], Float[np.ndarray, " m"]]
+ALL = slice(None)
+STEP = 0.02  # distance of the second point of the secant method from the guess
+CLOSE = 2e-4  # largest last step of a secant method that has converged
 
 
 def first_crossing(
@@ -56,6 +61,48 @@ def first_crossing(
         found[there] = True
         rows, before = rows[~crossed], after[~crossed]
     return x, found
+
+
+def refined_guess(
+    excess: Excess, guess: Float[np.ndarray, " n"]
+) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
+    """Improve guesses of zeros by three evaluations of the secant method.
+
+    Parameters
+    ----------
+    excess : callable
+        As for `first_crossing`; it is called for all functions.
+    guess : array (n)
+        Guesses between 0 and 1.
+
+    Returns
+    -------
+    x : array (n)
+        Improved places between 0 and 1.
+    sure : array (n) of bool
+        True if the method has converged inside the interval.
+    """
+    before = excess(guess, ALL)
+    x = guess - np.where((guess > STEP) & ((before > 0.0) | (guess > 1.0 - STEP)), STEP, -STEP)
+    value = excess(x, ALL)
+    second = _secant(guess, before, x, value)
+    inside = (second > 0.0) & (second < 1.0)
+    second = np.clip(second, 0.0, 1.0)
+    last = _secant(x, value, second, excess(second, ALL))
+    sure = inside & (np.abs(last - second) < CLOSE) & (last > 0.0) & (last < 1.0)
+    return np.where(sure, last, 0.0), sure
+
+
+def _secant(
+    one: Float[np.ndarray, " n"],
+    at_one: Float[np.ndarray, " n"],
+    other: Float[np.ndarray, " n"],
+    at_other: Float[np.ndarray, " n"],
+) -> Float[np.ndarray, " n"]:
+    """Return the zeros of the straight lines through two points each."""
+    change = at_other - at_one
+    step = np.divide(other - one, change, out=np.zeros_like(change), where=change != 0.0)
+    return other - at_other * step
 
 
 def _refined(

@@ -54,14 +54,18 @@ def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
     def count(number: int) -> int:
         return max(8, round(effort * number))
 
-    many = 256 if case.load.confining_pressure == 0.0 else 768
+    loaded = case.load.confining_pressure > 0.0
+    many = 512 if loaded else 256
+    last = 1 if loaded else 0  # the fourth coordinate does not vary without a load
     levels = []
     if isinstance(case.model, SeatedBalance) and case.model.seating != "frictionless":
         smooth = replace(case.model, seating="frictionless", seating_friction=None)
-        levels.append(Level(replace(quick, model=smooth), count(many), (12, 10, 0, 8), 12))
-        levels.append(Level(quick, count(many), (8, 6, 6, 5), 8))
+        levels.append(
+            Level(replace(quick, model=smooth), count(4 * many), (20, 16, 0, 8 * last), 20)
+        )
+        levels.append(Level(quick, count(many), (8, 6, 6, 5 * last), 8))
     else:
-        levels.append(Level(quick, count(many), (10, 8, 8, 6), 10))
+        levels.append(Level(quick, count(many), (10, 8, 8, 6 * last), 10))
     if case.numerics.accuracy != "fast":
-        levels.append(Level(case, count(40), (2, 2, 2, 1), 2))
+        levels.append(Level(case, count(40), (2, 2, 2, last), 2))
     return levels

@@ -41,7 +41,8 @@ class SparsePolynomial:
 
     def __call__(self, points: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "n functions"]:
         """Return the values of all functions at n points, each coordinate between 0 and 1."""
-        return chebyshev_products(points, self.degrees).T @ self.coefficients
+        # In this order the values of a function are contiguous in memory.
+        return (self.coefficients.T @ chebyshev_products(points, self.degrees)).T
 
 
 def chebyshev_products(

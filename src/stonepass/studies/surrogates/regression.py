@@ -2,7 +2,7 @@
 
 The method is orthogonal matching pursuit: in each step the term that reduces the residual most,
 with a preference for low degrees, joins the fit. The number of terms is the one with the smallest
-leave-one-out error. See "How a surrogate is fitted" in docs/surrogates.md.
+leave-one-out error. See "How a surrogate is built" in docs/surrogates.md.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
 from stonepass.array_dataclass import array_dataclass
-from stonepass.array_types import Float
+from stonepass.array_types import Bool, Float
 from stonepass.materials.protocol import Law
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -32,7 +32,7 @@ from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.model.monotone import monotone_integral
 from stonepass.model.states.seated_state import Contact, SeatedState
 from stonepass.studies.surrogates.box import Setting, opening_pressure
-from stonepass.studies.surrogates.crossing import first_crossing
+from stonepass.studies.surrogates.crossing import ALL, Excess, Rows, first_crossing, refined_guess
 from stonepass.studies.surrogates.solved import BEYOND_CLOSURE, MOVES, Solved
 
 __all__ = ["SeatedContact"]
@@ -50,9 +50,10 @@ _TO_COEFFICIENTS = np.linalg.inv(chebval(2.0 * _X - 1.0, np.eye(POINTS)).T)
 class SeatedContact:
     """The shapes of the seated contact, and the balance that gives the critical pressure.
 
-    The learnt functions are ln(w/root), ln(S/P_s), ln(B/(w S)) and the amplitudes of the modes of
-    both shapes. `root` is the coordinate of the size, and P_s is the pressure that opens the tube
-    to the width of the stone; with these scales the functions are bounded for small stones.
+    The learnt functions are ln(w/root), ln(S/P_s), ln(B/(w S)), the amplitudes of the modes of both
+    shapes, and a first guess of the place x at which the stone moves. `root` is the coordinate of
+    the size, and P_s is the pressure that opens the tube to the width of the stone; with these
+    scales the functions are bounded for small stones.
 
     Attributes
     ----------
@@ -85,14 +86,19 @@ class SeatedContact:
         answers : sequence of Answer or None
             The n answers.
         """
-        found = np.full((len(answers), 1 + 2 * len(self.shear)), np.nan)
+        found = np.full((len(answers), 2 + 2 * len(self.shear)), np.nan)
         scale = opening_pressure(case, at)
-        for k, contact in enumerate(map(_contact, answers)):
+        for k, answer in enumerate(answers):
+            contact = _contact(answer)
             if contact is not None:
                 each = _integrals(contact)
                 sizes = (each.width / at.root[k], each.S / scale[k], each.B / (each.width * each.S))
-                found[k] = [*np.log(sizes), *_amplitudes(self.shear, each.s),
-                            *_amplitudes(self.axial, each.b)]  # fmt: skip
+                found[k] = [
+                    *np.log(sizes),
+                    *_amplitudes(self.shear, each.s),
+                    *_amplitudes(self.axial, each.b),
+                    _place(answer, each.width),
+                ]
         return found
 
     def solve(self, case: Case, at: Setting, learnt: Float[np.ndarray, "n functions"]) -> Solved:
@@ -107,13 +113,11 @@ class SeatedContact:
             Values of the learnt functions.
         """
         balance = _Balance.of(self, case, at, learnt)
-        x, found = first_crossing(balance.excess, len(at.root))
-        rows = np.arange(len(x))
-        pressure = balance.pressure(x, rows)
+        x, found = _crossing(balance.excess, learnt[:, -1])
+        pressure = balance.pressure(x, ALL)
         # The stone starts to move at the contact angle: there the whole contact resists.
-        at_edge = found & (x == 1.0)
-        whole = np.maximum(2.0 * balance.friction, 0.0) / balance.first**2
-        pressure = np.where(at_edge, np.minimum(whole, pressure), pressure)
+        whole = 2.0 * balance.friction / balance.first**2
+        pressure = np.where(x == 1.0, np.minimum(whole, pressure), pressure)
         pressure = np.where(at.conditions.friction == 0.0, 0.0, pressure)
         return Solved(
             np.where(found, MOVES, BEYOND_CLOSURE),
@@ -139,6 +143,31 @@ def _contact(answer: Answer | None) -> Contact | None:
     """Return the seated contact of an answer, if it has one."""
     contact = None if answer is None else answer.contact
     return contact if isinstance(contact, SeatedState) else None
+
+
+def _place(answer: Answer | None, width: float) -> float:
+    """Return x at which the stone moves; NaN if it does not."""
+    angle = None if answer is None else answer.critical_angle
+    if angle is None:
+        return np.nan
+    return float(2.0 / np.pi * np.arcsin(np.clip((np.pi / 2 - angle) / width, 0.0, 1.0)))
+
+
+def _crossing(
+    excess: Excess, guess: Float[np.ndarray, " n"]
+) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
+    """Return x of the first balance and whether it exists, see `first_crossing`.
+
+    The learnt place is refined by the secant method. A full search is made where that fails, and
+    where the forces do not balance at the end of the closure.
+    """
+    ended = excess(np.zeros(len(guess)), ALL) > 0.0
+    x, sure = refined_guess(excess, np.clip(guess, 0.0, 1.0))
+    rest = np.flatnonzero(ended | ~sure)
+    found = np.ones(len(guess), dtype=bool)
+    if len(rest):
+        x[rest], found[rest] = first_crossing(lambda at, rows: excess(at, rest[rows]), len(rest))
+    return x, found
 
 
 def _integrals(contact: Contact) -> _Integrals:
@@ -182,9 +211,8 @@ class _Balance:
     first: Float[np.ndarray, " n"]
     start: Float[np.ndarray, " n"]
     friction: Float[np.ndarray, " n"]
-    wall: Float[np.ndarray, " n"]
-    shear: Float[np.ndarray, "points n"]
-    axial: Float[np.ndarray, "points n"]
+    whole: Float[np.ndarray, " n"]
+    series: Float[np.ndarray, "points n"]
 
     @classmethod
     def of(
@@ -195,16 +223,19 @@ class _Balance:
         S = opening_pressure(case, at) * np.exp(learnt[:, 1])
         B = width * S * np.exp(learnt[:, 2])
         printed = isinstance(case.model, SeatedBalance) and case.model.as_printed
-        sign = -1.0 if printed else 1.0
+        friction, wall = 2.0 * asked.friction * S, -B if printed else B
         shear = contact.shear[0] + learnt[:, 3 : 3 + count] @ contact.shear[1:]
-        axial = contact.axial[0] + learnt[:, 3 + count :] @ contact.axial[1:]
+        axial = contact.axial[0] + learnt[:, 3 + count : 3 + 2 * count] @ contact.axial[1:]
+        # Resistance F_f + F_σ = whole + the series in x.
+        series = friction[:, None] * shear - wall[:, None] * axial
         first = np.asarray(case.stone.shape.width(np.pi / 2 - width))
         law = far_field_law(case, ground=case.model.far_field_ground)
-        return cls(case, at, law, width, first, np.minimum(1.0, asked.size_ratio),
-                   2.0 * asked.friction * S, sign * B, shear.T, axial.T)  # fmt: skip
+        start = np.minimum(1.0, asked.size_ratio)
+        return cls(case, at, law, width, first, start, friction, friction + wall,
+                   np.ascontiguousarray(series.T))  # fmt: skip
 
     def pressure(
-        self, x: Float[np.ndarray, " m"], rows: np.ndarray, widths: np.ndarray | None = None
+        self, x: Float[np.ndarray, " m"], rows: Rows, widths: np.ndarray | None = None
     ) -> Float[np.ndarray, " m"]:
         """Return the urine pressure of the closure in Pa (Eqs 15 and 16)."""
         at, load = self.at.conditions, self.case.load
@@ -217,14 +248,12 @@ class _Balance:
             return across
         return across + at.load_factor[rows] * np.asarray(confining_traction(radius, wall, load))
 
-    def excess(self, x: Float[np.ndarray, " m"], rows: np.ndarray) -> Float[np.ndarray, " m"]:
+    def excess(self, x: Float[np.ndarray, " m"], rows: Rows) -> Float[np.ndarray, " m"]:
         """Return resistance minus drive in Pa, divided by π R_s²."""
-        width, argument = self._widths(x, rows), 2.0 * x - 1.0
-        s = chebval(argument, self.shear[:, rows], tensor=False)
-        b = chebval(argument, self.axial[:, rows], tensor=False)
-        resistance = self.friction[rows] * (1.0 + s) + self.wall[rows] * (1.0 - b)
+        width = self._widths(x, rows)
+        resistance = self.whole[rows] + chebval(2.0 * x - 1.0, self.series[:, rows], tensor=False)
         return resistance - self.pressure(x, rows, width) * width**2
 
-    def _widths(self, x: Float[np.ndarray, " m"], rows: np.ndarray) -> Float[np.ndarray, " m"]:
+    def _widths(self, x: Float[np.ndarray, " m"], rows: Rows) -> Float[np.ndarray, " m"]:
         alpha = np.pi / 2 - self.width[rows] * np.sin(np.pi / 2 * x)
         return np.asarray(self.case.stone.shape.width(alpha))

@@ -15,6 +15,7 @@ from stonepass.about import DISCLAIMER
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import BadInput
+from stonepass.fe.core.threads import one_thread
 from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions
 from stonepass.studies.surrogates.answers import SurrogateAnswers
@@ -156,21 +157,18 @@ class Surrogate:
         held = self.box.clipped(asked)
         lumen = self._lumen(held)
         loose = asked.size_ratio <= lumen
-        at = self.box.setting(self.case, held, lumen, self.narrowest)
-        found = self.physics.solve(self.case, at, self.learnt(at.unit))
-        outcome = np.where(loose, LOOSE, found.outcome)
-        outcome = np.where(inside, outcome, NO_SOLUTION)
         stuck = inside & ~loose
+        at = self.box.setting(self.case, held, lumen, self.narrowest).where(stuck)
+        found = self.physics.solve(self.case, at, self.learnt(at.unit))
         claim = found.pressure * np.exp(self.error(at.unit)[:, 0]) + self.floor
-        quantities = {
-            name: np.where(stuck, each, np.nan) for name, each in found.quantities.items()
-        }
+        missing = np.where(inside, 0.0, np.nan)  # P_ucr of a loose stone is 0
         return Solved(
-            outcome,
-            np.where(stuck, found.pressure, np.where(inside, 0.0, np.nan)),
-            np.where(stuck, found.lower_bound, 0.0),
-            quantities | {"error": np.where(stuck, claim, np.where(inside, 0.0, np.nan))},
-        )
+            _filled(np.where(inside, LOOSE, NO_SOLUTION), stuck, found.outcome),
+            _filled(missing, stuck, found.pressure),
+            _filled(np.zeros(len(stuck)), stuck, found.lower_bound),
+            {name: _filled(np.full(len(stuck), np.nan), stuck, each) for name, each in
+             found.quantities.items()} | {"error": _filled(missing, stuck, claim)},
+        )  # fmt: skip
 
     def to_dict(self) -> dict[str, Any]:
         """Return box, origin and measured errors as a JSON-ready dictionary."""
@@ -229,6 +227,13 @@ def _checked(given: Mapping[str, Given]) -> list[Float[np.ndarray, " n"]]:
     return [np.ascontiguousarray(each).ravel() for each in together]
 
 
+def _filled(values: np.ndarray, chosen: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Return a copy of `values` with `others` in the chosen rows."""
+    found = values.copy()
+    found[chosen] = others
+    return found
+
+
 def _part(asked: Conditions, piece: slice) -> Conditions:
     return Conditions(
         asked.size_ratio[piece],
@@ -243,5 +248,6 @@ def _in_threads(work: Callable[[slice], Solved], pieces: list[slice]) -> list[So
     cores = os.cpu_count() or 1
     if len(pieces) < 2 * cores or cores == 1:
         return [work(each) for each in pieces]
-    with ThreadPoolExecutor(cores) as pool:
+    # Matrix products would otherwise start threads of their own in each of these threads.
+    with one_thread(), ThreadPoolExecutor(cores) as pool:
         return list(pool.map(work, pieces))

@@ -1,0 +1,315 @@
+"""Surrogates: polynomials, their fit, the balance that they share with the model, files, doors."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.stats import qmc
+
+import stonepass as sp
+from stonepass.cli import main as command_line
+from stonepass.errors import BadInput
+from stonepass.studies.conditions import Conditions, lumen_ratios
+from stonepass.studies.surrogates.box import Box, case_at, fit_lumen, narrowest_lumen
+from stonepass.studies.surrogates.build import build_surrogate
+from stonepass.studies.surrogates.check import check_surrogate
+from stonepass.studies.surrogates.crossing import first_crossing, refined_guess
+from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
+from stonepass.studies.surrogates.regression import fit_polynomial, joined
+from stonepass.studies.surrogates.seated_contact import SeatedContact
+from stonepass.studies.surrogates.store import load_surrogate, save_surrogate, shipped_surrogates
+
+
+def points(count, dimensions, seed=1):
+    return qmc.Sobol(dimensions, seed=seed).random(count)
+
+
+def test_products_are_those_of_cosines():
+    u = points(16, 2)
+    degrees = np.array([[0, 0], [3, 1], [0, 5]])
+    angle = np.arccos(2.0 * u - 1.0)
+    expected = [np.cos(i * angle[:, 0]) * np.cos(j * angle[:, 1]) for i, j in degrees]
+    assert np.allclose(chebyshev_products(u, degrees), expected, atol=1e-13)
+
+
+def test_a_polynomial_is_recovered_with_its_terms():
+    u = points(64, 3)
+    degrees = np.array([[0, 0, 0], [2, 0, 1], [0, 3, 0]])
+    true = SparsePolynomial(degrees, np.array([[1.0], [0.5], [-2.0]]))
+    found = fit_polynomial(u, true(u)[:, 0], (4, 4, 4), 6)
+    other = points(32, 3, seed=2)
+    assert np.abs(found.polynomial(other) - true(other)).max() < 1e-10
+    assert {tuple(each) for each in degrees} <= {tuple(k) for k in found.polynomial.degrees}
+
+
+def test_leave_one_out_errors_are_those_of_fits_without_the_point():
+    u = points(32, 2)
+    y = np.exp(u[:, 0]) * np.sqrt(1.0 + u[:, 1])
+    found = fit_polynomial(u, y, (3, 3), 3)
+    matrix = chebyshev_products(u, found.polynomial.degrees).T
+    for k in (0, 7, 31):
+        others = np.arange(32) != k
+        refit = np.linalg.lstsq(matrix[others], y[others], rcond=None)[0]
+        assert found.left_out[k] == pytest.approx(matrix[k] @ refit - y[k], abs=1e-10)
+
+
+def test_twice_the_points_leave_less_than_half_the_error():
+    def function(u):
+        return np.exp(u[:, 0] - 0.5 * u[:, 1]) / (1.0 + u[:, 2] * u[:, 0])
+
+    other = points(256, 3, seed=5)
+    worst = []
+    for count in (32, 64, 128):
+        u = points(count, 3)
+        found = fit_polynomial(u, function(u), (8, 8, 8), 8)
+        worst.append(np.abs(found.polynomial(other)[:, 0] - function(other)).max())
+    assert worst[1] < 0.4 * worst[0]
+    assert worst[2] < 0.4 * worst[1]
+
+
+def test_joined_polynomials_keep_their_values():
+    one = SparsePolynomial(np.array([[0], [2]]), np.array([[1.0], [3.0]]))
+    other = SparsePolynomial(np.array([[2], [1]]), np.array([[4.0], [5.0]]))
+    u = points(8, 1)
+    both = joined([one, other])
+    assert len(both.degrees) == 3
+    assert np.allclose(both(u), np.hstack([one(u), other(u)]))
+
+
+def test_the_first_of_several_crossings_is_found():
+    # x = 1 comes first: the roots of these functions are 0.7 and 0.2; 0.35; none; 1.
+    def excess(x, rows):
+        values = np.array([(x - 0.7) * (x - 0.2), x - 0.35, 1.0 + x, x - 2.0])
+        return values[rows, np.arange(len(x))]
+
+    x, found = first_crossing(excess, 4)
+    assert x == pytest.approx([0.7, 0.35, 0.0, 1.0], abs=1e-9)
+    assert found.tolist() == [True, True, False, True]
+
+
+def test_a_guess_is_refined_or_given_up():
+    def excess(x, rows):
+        return np.tanh(3.0 * (x - np.array([0.4, 0.9, 0.5]))) + np.array([0.0, 0.0, 2.0])
+
+    x, sure = refined_guess(excess, np.array([0.43, 0.88, 0.5]))
+    assert sure.tolist() == [True, True, False]
+    assert x[:2] == pytest.approx([0.4, 0.9], abs=1e-5)
+
+
+def test_the_box_is_sampled_inside_and_the_same_every_time():
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5), sp.Load("4 kPa"))
+    box = Box(friction=(0.1, 0.8))
+    whole = box.sample(case, 64)
+    assert box.contains(whole).all()
+    later = box.sample(case, 16, first=48)
+    assert np.array_equal(later.size_ratio, whole.size_ratio[48:])
+    assert 0.1 < np.mean(whole.load_factor == 0.0) < 0.4
+    lumen = lumen_ratios(case, whole.wall_ratio, whole.load_factor)
+    assert (whole.size_ratio > lumen).all()
+    at = box.setting(case, whole, lumen, narrowest_lumen(case, box))
+    assert at.unit.min() >= 0.0
+    assert at.unit.max() <= 1.0
+
+
+def test_the_lumen_is_that_of_the_far_field():
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"),
+                   sp.Load("8 kPa"))  # fmt: skip
+    box = Box()
+    asked = box.sample(case, 64)
+    polynomial = fit_lumen(case, box)
+    u = np.stack([box.wall_coordinate(asked), asked.load_factor], axis=1)
+    lumen = lumen_ratios(case, asked.wall_ratio, asked.load_factor)
+    assert np.abs(polynomial(u)[:, 0] - lumen).max() < 1e-9
+
+
+@pytest.mark.parametrize("load", ["0 kPa", "3 kPa"])
+def test_the_learnt_contact_gives_the_pressure_of_the_model(shared_solutions, load):
+    """The balance of the surrogate is that of the model, if what is learnt is exact."""
+    case = sp.Case(
+        sp.Stone(size_ratio=1.15, friction=0.4),
+        sp.Ureter(wall_ratio=1.4),
+        sp.Load(load),
+        sp.SeatedBalance(seating="frictionless"),
+        sp.Numerics("fast"),
+    )
+    box = Box()
+    frictions = (0.02, 0.3, 0.9)
+    asked = Conditions(
+        np.full(3, 1.15),
+        np.full(3, 1.4),
+        np.array(frictions),
+        np.full(3, 1.0 if load[0] != "0" else 0.0),
+    )
+    answers = [sp.solve(case_at(case, asked, k), case.numerics.resolution) for k in range(3)]
+    lumen = lumen_ratios(case, asked.wall_ratio, asked.load_factor)
+    at = box.setting(case, asked, lumen, narrowest_lumen(case, box))
+    physics = SeatedContact.fitted_to(answers)
+    solved = physics.solve(case, at, physics.learnt(case, at, answers))
+    assert solved.pressure == pytest.approx([each.pressure for each in answers], rel=3e-4)
+    angles = [each.contact.contact_angle for each in answers]
+    assert solved.quantities["contact_angle"] == pytest.approx(angles, abs=1e-12)
+
+
+def main(arguments):
+    """Return the exit code of a command."""
+    with pytest.raises(SystemExit) as ended:
+        command_line(arguments)
+    return ended.value.code
+
+
+@pytest.fixture(scope="module")
+def shipped():
+    return load_surrogate("ureter")
+
+
+def test_every_shipped_surrogate_is_checked_and_holds_its_errors():
+    listed = shipped_surrogates()
+    assert len(listed) >= 2
+    for material, model in listed:
+        measured = load_surrogate(material, model).about["check"]
+        assert measured["compared"] >= 200
+        assert measured["largest"] <= 0.005
+        assert measured["within"] >= 0.98
+
+
+def test_a_shipped_surrogate_agrees_with_a_solved_case(shipped, shared_solutions):
+    answer = sp.critical_pressure(sp.Stone(size_ratio=1.15), sp.Ureter(wall_ratio=1.3))
+    found = shipped.evaluate(size_ratio=1.15, wall_ratio=1.3, friction=0.5)
+    assert found.pressure[0] == pytest.approx(answer.pressure, rel=2e-3)
+
+
+def test_special_conditions_have_their_outcome(shipped):
+    found = shipped.evaluate(
+        size_ratio=[0.99, 1.0, 1.2, 1.2, 1.7, 1.2, 1.3, 1.2],
+        wall_ratio=[1.3, 1.3, 1.3, 1.3, 1.3, 1.05, 1.3, 1.3],
+        friction=[0.5, 0.5, 0.0, 0.5, 0.5, 0.5, 1.0, 0.5],
+        confining_pressure=[0, 0, 0, 0, 0, 0, 0, 1e3],
+    )
+    names = [each.name for each in found.outcomes]
+    assert names[:6] == ["LOOSE", "LOOSE", "MOVES", "MOVES", "NO_SOLUTION", "NO_SOLUTION"]
+    assert names[6] == "BEYOND_CLOSURE"
+    assert found.outside.tolist() == [False] * 4 + [True, True, False, True]
+    assert found.pressure[:3].tolist() == [0.0, 0.0, 0.0]
+    assert found.pressure.mask.tolist() == [False] * 4 + [True] * 4
+    assert found.lower_bound[6] > 0.0
+    assert found.answered.tolist() == [True] * 4 + [False] * 4
+
+
+def test_pressure_scales_with_the_stiffness_and_grows_with_the_stone(shipped):
+    at = {"wall_ratio": 1.5, "friction": 0.4}
+    sizes = np.linspace(1.001, 1.5, 400)
+    soft = shipped.evaluate(size_ratio=sizes, **at)
+    stiff = shipped.evaluate(size_ratio=sizes, stiffness=2.5, **at)
+    assert np.allclose(stiff.pressure, 2.5 * soft.pressure, rtol=1e-12)
+    assert (np.diff(soft.pressure.compressed()) > 0.0).all()
+
+
+@pytest.mark.parametrize("given", [{"size_ratio": np.nan}, {"friction": -0.1}, {"wall_ratio": "x"},
+                                   {"friction": [0.1, 0.2], "size_ratio": [1.1, 1.2, 1.3]}])  # fmt: skip
+def test_impossible_inputs_are_refused(shipped, given):
+    with pytest.raises(BadInput):
+        shipped.evaluate(**{"size_ratio": 1.2, "wall_ratio": 1.3, "friction": 0.5} | given)
+
+
+def test_many_conditions_are_evaluated_as_one_by_one(shipped):
+    rng = np.random.default_rng(3)
+    size, wall, friction = rng.uniform([0.98, 1.1, 0.0], [1.6, 4.0, 1.0], (20_000, 3)).T
+    many = shipped.evaluate(size_ratio=size, wall_ratio=wall, friction=friction)
+    for k in range(0, 20_000, 997):
+        one = shipped.evaluate(size_ratio=size[k], wall_ratio=wall[k], friction=friction[k])
+        assert one.outcome[0] == many.outcome[k]
+        assert np.ma.allclose(one.pressure[:1], many.pressure[k : k + 1], rtol=1e-9)
+
+
+def test_the_fast_search_finds_the_first_balance(shipped, monkeypatch):
+    """The refined guess and the full search give the same pressures and outcomes."""
+    from stonepass.studies.surrogates import seated_contact
+
+    rng = np.random.default_rng(4)
+    size, wall, friction = rng.uniform([1.001, 1.1, 0.0], [1.6, 4.0, 1.0], (5000, 3)).T
+    at = {"size_ratio": size, "wall_ratio": wall, "friction": friction}
+    quick = shipped.evaluate(**at)
+    monkeypatch.setattr(
+        seated_contact, "refined_guess", lambda excess, guess: (guess, np.zeros(len(guess), bool))
+    )
+    full = shipped.evaluate(**at)
+    assert (quick.outcome == full.outcome).all()
+    # Both searches stop at a difference that matters only where the pressure is below 1 kPa.
+    assert np.ma.allclose(quick.pressure, full.pressure, rtol=1e-4, atol=1.0)
+
+
+def test_files_hold_the_whole_surrogate(shipped, tmp_path):
+    path = tmp_path / "own.json"
+    save_surrogate(shipped, path)
+    assert load_surrogate(path) == shipped
+    assert b"pickle" not in path.with_suffix(".npz").read_bytes()
+
+
+def test_damaged_files_and_changed_materials_are_refused(shipped, tmp_path):
+    path = tmp_path / "own.json"
+    save_surrogate(shipped, path)
+    document = json.loads(path.read_text())
+    packed = path.with_suffix(".npz").read_bytes()
+    path.with_suffix(".npz").write_bytes(packed[:-1])
+    with pytest.raises(BadInput, match="build it again"):
+        load_surrogate(path)
+    path.with_suffix(".npz").write_bytes(packed)
+    for change in ({"format": 99}, {"material_digest": "0"}):
+        path.write_text(json.dumps(document | change))
+        with pytest.raises(BadInput, match="build it again"):
+            load_surrogate(path)
+    path.write_text("{")
+    with pytest.raises(BadInput, match="build it again"):
+        load_surrogate(path)
+    with pytest.raises(BadInput, match="one of 'latex'"):
+        load_surrogate("steel")
+
+
+@pytest.mark.slow
+def test_a_surrogate_of_your_own_is_built_and_checked(tmp_path):
+    """A small box of a soft rubber; the measured error is within the claim."""
+    case = sp.Case(
+        sp.Stone(size_ratio=1.2),
+        sp.Ureter(wall_ratio=1.5, material="latex"),
+        model=sp.SeatedBalance(seating="frictionless"),
+        numerics=sp.Numerics("fast"),
+    )
+    box = Box(size_ratio=1.3, wall_ratio=(1.4, 2.0), friction=(0.2, 0.6))
+    built = build_surrogate(case, box, sp.JobSolver(), effort=0.2)
+    found = check_surrogate(built, sp.JobSolver(), 24)
+    assert found.same_outcome == 24
+    assert found.largest < 0.005
+    assert found.within > 0.9
+
+
+def test_models_and_options_without_a_surrogate_are_refused():
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5))
+    for model in (
+        sp.ElasticFoundation(secant_stretch=1.2),
+        sp.SeatedBalance(closure="series"),
+    ):
+        with pytest.raises(BadInput):
+            build_surrogate(replace(case, model=model))
+
+
+def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
+    assert main(["surrogate", "list"]) == 0
+    assert "latex" in capsys.readouterr().out
+    assert main(["surrogate", "show", "ureter", "--json"]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert shown["box"]["wall_ratio"] == [1.1, 4.0]
+    assert main(["surrogate", "evaluate", "ureter", "--xi", "1.2", "--eta", "1.3", "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)
+    assert row["outcome"] == "MOVES"
+    assert row["critical_pressure_error_kPa"] < 0.01 * row["critical_pressure_kPa"]
+    table = tmp_path / "points.csv"
+    table.write_text("size_ratio,wall_ratio,friction\n1.1,1.3,0.5\n1.7,1.3,0.5\n")
+    out = tmp_path / "answers.csv"
+    command = ["surrogate", "evaluate", "latex", "--points", str(table), "--out", str(out)]
+    assert main(command) == 1
+    lines = out.read_text().splitlines()
+    assert lines[0].startswith("outcome,critical_pressure_kPa")
+    assert lines[2].startswith("NO_SOLUTION,,")
+    assert main(["surrogate", "evaluate", "ureter", "--eta", "1.3"]) == 2
+    assert "--xi" in capsys.readouterr().err

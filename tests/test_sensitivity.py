@@ -414,6 +414,41 @@ def test_a_size_beyond_the_surrogate_has_a_lower_bound():
     assert ends.high.value == pytest.approx(3.5 * (1.0 + 0.009 / 0.0955 / 0.3), rel=1e-6)
 
 
+def test_a_study_file_may_name_a_surrogate(tmp_path, monkeypatch, capsys):
+    asked = []
+    monkeypatch.setattr(
+        "stonepass.studies.sensitivity.sensitivity.load_surrogate",
+        lambda name, model: asked.append((name, model)) or Linear(),
+    )
+    text = """
+        [ureter]
+        wall_ratio = 1.3
+        [uncertain]
+        stone.friction = "0.1 to 0.5"
+        stone.size_ratio = "1.05 to 1.2"
+        [sensitivity]
+        samples = 64
+    """
+    path = study_file(tmp_path, text)
+    assert read_sensitivity(path).method == "morris"
+    assert run(["sensitivity", str(path), "--surrogate", "ureter", "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert asked == [("ureter", "paper")]
+    assert record["method"] == "sobol"
+    assert record["source"] == "surrogate 'ureter' of the model 'paper'"
+    assert record["evaluated"] == 64 * 6
+    path = study_file(tmp_path, text + 'surrogate = "mine.json"')
+    assert read_sensitivity(path).surrogate == str(tmp_path / "mine.json")
+
+
+def test_an_unknown_surrogate_is_refused(tmp_path, capsys):
+    path = study_file(
+        tmp_path, "[ureter]\nwall_ratio = 1.3\n[uncertain]\nstone.size_ratio = '1 to 1.2'"
+    )
+    assert run(["sensitivity", str(path), "--surrogate", "rubber"]) == 2
+    assert "--surrogate is 'rubber' with the model 'paper'" in capsys.readouterr().err
+
+
 def test_a_surrogate_of_another_case_is_refused():
     with pytest.raises(BadInput, match=r"uncertain input is load\.prestretch"):
         surrogate_study({"load.prestretch": "1 to 1.1"})

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from stonepass.cli.help import OUTPUT, QUESTION, epilog
+from stonepass.cli.help import OUTPUT, QUESTION, SOLVER, epilog
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
 from stonepass.errors import BadInput
 
@@ -80,6 +80,15 @@ def command(
             rich_help_panel=QUESTION,
         ),
     ] = None,
+    surrogate: Annotated[
+        str | None,
+        typer.Option(
+            "--surrogate",
+            metavar="NAME|S.json",
+            help="Take the critical pressures from a surrogate: a material or a file.",
+            rich_help_panel=SOLVER,
+        ),
+    ] = None,
     json: Json = False,
     csv: Annotated[
         Path | None,
@@ -113,7 +122,13 @@ def command(
 
     writable(csv, (".csv",))
     writable(figure, FIGURES)
-    given = {"method": method, "limit": limit, "samples": samples, "seed": seed}
+    given = {
+        "method": method,
+        "limit": limit,
+        "samples": samples,
+        "seed": seed,
+        "surrogate": surrogate,
+    }
     study = _study(study_file, given)
     from stonepass.report.presentation import save
     from stonepass.studies.executor import CORES, process_pool
@@ -123,7 +138,12 @@ def command(
     count = workers or min(CORES, _processes(study))
     _announce(study, count, remembers=folder is not None)
     with process_pool(count) as pool, counting("evaluating the cases") as progress:
-        found = sensitivity(study, executor=pool, cache_folder=folder, progress=progress)
+        try:
+            found = sensitivity(study, executor=pool, cache_folder=folder, progress=progress)
+        except BadInput as problem:
+            if problem.argument != "surrogate":
+                raise
+            raise problem.named("--surrogate") from problem
     if json:
         print_json(found.to_dict())
     else:
@@ -153,7 +173,9 @@ def _study(path: Path, given: Mapping[str, object]) -> SensitivityStudy:
 
 def _processes(study: SensitivityStudy) -> int:
     """Return how many processes are worth their start."""
-    return max(1, study.cases // 6) if study.needs_elements else max(1, study.cases // 4000)
+    if study.surrogate is not None:
+        return 1
+    return max(1, study.cases // (6 if study.needs_elements else 4000))
 
 
 def _announce(study: SensitivityStudy, workers: int, *, remembers: bool) -> None:

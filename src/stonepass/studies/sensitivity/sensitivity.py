@@ -27,7 +27,9 @@ from stonepass.studies.sensitivity.sobol import saltelli_design, sobol_sensitivi
 from stonepass.studies.sensitivity.solved_cases import SolvedCases
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.study_file import read_sensitivity
+from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
 from stonepass.studies.sensitivity.tornado import Tornado, pressure_tornado, size_tornado
+from stonepass.studies.surrogates.store import load_surrogate
 from stonepass.units import Pressure
 
 __all__ = ["Sensitivity", "sensitivity"]
@@ -126,7 +128,8 @@ def sensitivity(
     study : SensitivityStudy, str or Path
         The study, or the TOML file of a study.
     evaluator : Evaluator, optional
-        Function that evaluates many cases, such as a surrogate; by default every case is solved.
+        Function that evaluates many cases; by default the surrogate of the study, and without one
+        every case is solved.
     executor : concurrent.futures.Executor, optional
         Where cases are solved, e.g. the executor of `process_pool`; by default in this process.
     cache_folder : Path, optional
@@ -142,7 +145,8 @@ def sensitivity(
     Raises
     ------
     BadInput
-        The file is refused, or SALib is not installed.
+        The file is refused, SALib is not installed, or the surrogate is unknown or does not
+        describe the case.
 
     References
     ----------
@@ -160,7 +164,7 @@ def sensitivity(
     """
     if isinstance(study, str | Path):
         study = read_sensitivity(study)
-    evaluate = evaluator or SolvedCases(study.uncertain, executor, cache_folder, progress)
+    evaluate = evaluator or _evaluator(study, executor, cache_folder, progress)
     quantities, samples = study.uncertain.quantities, cast("int", study.samples)
     limit = cast("Pressure | None", study.limit)
     design_of, sensitivities_of = {
@@ -184,6 +188,19 @@ def sensitivity(
         error=found.error,
         warnings=tuple(_warnings(found, each_response)),
     )
+
+
+def _evaluator(
+    study: SensitivityStudy,
+    executor: Executor | None,
+    cache_folder: Path | None,
+    progress: bool | Progress,
+) -> Evaluator:
+    uncertain = study.uncertain
+    if study.surrogate is None:
+        return SolvedCases(uncertain, executor, cache_folder, progress)
+    surrogate = load_surrogate(study.surrogate, uncertain.median_case.model.NAME)
+    return SurrogateCases(uncertain, surrogate, Path(study.surrogate).stem)
 
 
 def _warnings(found: Evaluations, each_response: tuple[Sensitivities, ...]) -> list[Caution]:

@@ -40,6 +40,9 @@ class SensitivityStudy:
         trajectories, 4 to 10000 (10 by default); each of them needs d + 1 cases.
     seed : int
         Seed of the samples, 0 to 2³² − 2.
+    surrogate : str, optional
+        Material of a surrogate of the package, e.g. ``"ureter"``, or the JSON file of a surrogate,
+        which then answers the cases in the place of the model.
 
     Raises
     ------
@@ -56,6 +59,7 @@ class SensitivityStudy:
     limit: str | Pressure | Quantity | None = None
     samples: int | None = None
     seed: int = 1
+    surrogate: str | None = None
 
     def __post_init__(self) -> None:
         require_kind("uncertain", self.uncertain, UncertainCase, "uncertain_case(case, {…})")
@@ -82,7 +86,7 @@ class SensitivityStudy:
     @property
     def needs_elements(self) -> bool:
         """True if every case must be solved with finite elements."""
-        return self.uncertain.median_case.model.NEEDS_ELEMENTS
+        return self.surrogate is None and self.uncertain.median_case.model.NEEDS_ELEMENTS
 
     @property
     def cases(self) -> int:

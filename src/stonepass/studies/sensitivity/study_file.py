@@ -31,6 +31,7 @@ class _Settings(FileSection):
     limit: str | None = None
     samples: int | None = None
     seed: int = 1
+    surrogate: str | None = None
 
 
 class _Own(FileSection):
@@ -81,6 +82,9 @@ def read_sensitivity(path: str | Path, **overrides: Any) -> SensitivityStudy:
                 raise BadInput(f"'{key}'", "fixed and uncertain", "one of the two")
         refuse_pairs({**fixed, **leaves}, {key: f"'{key}'" for key in all_inputs()})
         case = uncertain_values(fixed, leaves, path.parent)
+        named = settings["surrogate"]
+        if named is not None and Path(named).suffix == ".json":
+            settings["surrogate"] = str(path.parent / named)
         given = {name: value for name, value in overrides.items() if value is not None}
         return SensitivityStudy(case, **settings | given)
     except BadInput as problem:

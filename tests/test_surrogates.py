@@ -16,6 +16,7 @@ from stonepass.studies.surrogates.build import build_surrogate
 from stonepass.studies.surrogates.check import check_surrogate
 from stonepass.studies.surrogates.crossing import first_crossing, refined_guess
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
+from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.store import load_surrogate, save_surrogate, shipped_surrogates
@@ -312,3 +313,16 @@ def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
     assert "NO_SOLUTION" in lines[2]
     assert main(["surrogate", "evaluate", "ureter", "--eta", "1.3"]) == 2
     assert "--xi" in capsys.readouterr().err
+
+
+def test_further_cases_are_where_two_fits_differ_and_apart_from_each_other():
+    u = points(256, 2)
+    true = 1e4 * (1.0 + u[:, 0])
+    wrong = true * (1.0 + 0.3 * np.exp(-((u - 0.8) ** 2).sum(axis=1) / 0.02))
+    wrong[u[:, 0] < 0.1] = np.nan
+    chosen = least_certain(lambda part: true if part.start == 0 else wrong, u, 6)
+    assert len(chosen) == 6
+    assert np.linalg.norm(u[chosen] - 0.8, axis=1).max() < 0.4
+    apart = np.linalg.norm(u[chosen][:, None] - u[chosen], axis=2)[~np.eye(6, dtype=bool)]
+    assert apart.min() > 0.08
+    assert len(least_certain(lambda part: true, u, 6)) == 0

@@ -193,6 +193,22 @@ class Setting:
             self.unit[chosen],
         )
 
+    def joined(self, other: Setting) -> Setting:
+        """Return the rows of this setting, followed by those of another one."""
+        mine, theirs = self.conditions, other.conditions
+        return Setting(
+            Conditions(
+                np.concatenate([mine.size_ratio, theirs.size_ratio]),
+                np.concatenate([mine.wall_ratio, theirs.wall_ratio]),
+                np.concatenate([mine.friction, theirs.friction]),
+                np.concatenate([mine.load_factor, theirs.load_factor]),
+            ),
+            np.concatenate([self.confining, other.confining]),
+            np.concatenate([self.lumen, other.lumen]),
+            np.concatenate([self.root, other.root]),
+            np.concatenate([self.unit, other.unit]),
+        )
+
 
 def case_at(case: Case, at: Conditions, k: int) -> Case:
     """Return the k-th case of some conditions; material, load, model and numerics are kept."""

@@ -19,11 +19,12 @@ from stonepass.model.case import Case
 from stonepass.model.models.push_through import PushThrough
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.studies.case_solver import CaseSolver, JobSolver
-from stonepass.studies.conditions import lumen_ratios
+from stonepass.studies.conditions import Conditions, lumen_ratios
 from stonepass.studies.surrogates.box import Box, Setting, case_at, fit_lumen, narrowest_lumen
 from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.pushed_stone import PushedStone
+from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.surrogate import Surrogate
@@ -35,6 +36,8 @@ MARGIN = 2.0  # factor on the claimed relative error
 FLOOR = 5.0  # Pa, claimed absolute error
 ERROR_DEGREES, ERROR_TOTAL = (2, 2, 2, 2), 2  # degrees of the claimed relative error
 SMALLEST_ERROR = 1e-4  # smallest relative error in the fit of the claimed error
+# Candidates of the refinement, from the sequence of sampled cases after those of a check.
+POOL, CANDIDATES = 2048, 512
 FEWEST = 8  # smallest number of answers that a level is fitted to
 
 
@@ -68,10 +71,10 @@ def build_surrogate(
     box, solver = box or Box(), solver or JobSolver(progress=True)
     solved = [_solve(level, box, solver) for level in levels_for(case, effort)]
     kind = SeatedContact if isinstance(case.model, SeatedBalance) else PushedStone
-    everything = [each for level in solved for each in level.answers]
-    physics: Any = kind.fitted_to(everything)
+    physics: Any = kind.fitted_to([each for level in solved for each in level.answers])
     learnt, left_out = None, []
-    for level in solved:
+    for first in solved:
+        level = _refined(case, box, physics, learnt, first, solver)
         values = physics.learnt(case, level.at, level.answers)
         learnt, left = _corrected(learnt, level, values)
         left_out.append((level, values, left))
@@ -86,7 +89,7 @@ def build_surrogate(
         error,
         FLOOR,
         fit_lumen(case, box) if loaded else None,
-        _about(case, solved),
+        _about(case, [each for each, _, _ in left_out]),
     )
 
 
@@ -115,12 +118,52 @@ def _refuse(case: Case) -> None:
 
 
 def _solve(level: Level, box: Box, solver: CaseSolver) -> _Solved:
-    conditions = box.sample(level.case, level.count)
-    cases = [case_at(level.case, conditions, k) for k in range(len(conditions.friction))]
-    answers = solver.answers(cases, error=False)
-    lumen = lumen_ratios(level.case, conditions.wall_ratio, conditions.load_factor)
-    narrowest = narrowest_lumen(level.case, box)
-    return _Solved(level, box.setting(level.case, conditions, lumen, narrowest), answers)
+    return _solved_at(level, box, box.sample(level.case, level.count), solver)
+
+
+def _solved_at(level: Level, box: Box, at: Conditions, solver: CaseSolver) -> _Solved:
+    cases = [case_at(level.case, at, k) for k in range(len(at.friction))]
+    return _Solved(level, _setting(level.case, box, at), solver.answers(cases, error=False))
+
+
+def _setting(case: Case, box: Box, at: Conditions) -> Setting:
+    lumen = lumen_ratios(case, at.wall_ratio, at.load_factor)
+    return box.setting(case, at, lumen, narrowest_lumen(case, box))
+
+
+def _refined(
+    case: Case,
+    box: Box,
+    physics: Any,
+    before: SparsePolynomial | None,
+    level: _Solved,
+    solver: CaseSolver,
+) -> _Solved:
+    """Return a level with further cases where the surrogate is least certain."""
+    if level.level.refined == 0:
+        return level
+    candidates = box.sample(level.level.case, CANDIDATES, POOL)
+    there, values = (
+        _setting(case, box, candidates),
+        physics.learnt(case, level.at, level.answers),
+    )
+
+    def pressures(half: slice) -> Float[np.ndarray, " m"]:
+        part = _Solved(level.level, level.at.where(_chosen(level, half)), level.answers[half])
+        fitted, _ = _corrected(before, part, values[half])
+        found: Float[np.ndarray, " m"] = physics.solve(case, there, fitted(there.unit)).pressure
+        return found
+
+    chosen = np.zeros(len(candidates.friction), dtype=bool)
+    chosen[least_certain(pressures, there.unit, level.level.refined)] = True
+    more = _solved_at(level.level, box, candidates.where(chosen), solver)
+    return _Solved(level.level, level.at.joined(more.at), [*level.answers, *more.answers])
+
+
+def _chosen(level: _Solved, part: slice) -> Bool[np.ndarray, " n"]:
+    found = np.zeros(len(level.answers), dtype=bool)
+    found[part] = True
+    return found
 
 
 def _corrected(

@@ -31,12 +31,15 @@ class Level:
         Largest degree of the polynomial in each coordinate of the box.
     total : int
         Largest total degree of the polynomial.
+    refined : int
+        Number of further cases where the surrogate is least certain (see `refinement`).
     """
 
     case: Case
     count: int
     degrees: tuple[int, int, int, int]
     total: int
+    refined: int = 0
 
 
 def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
@@ -63,9 +66,9 @@ def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
         levels.append(
             Level(replace(quick, model=smooth), count(4 * many), (20, 16, 0, 8 * last), 20)
         )
-        levels.append(Level(quick, count(many), (8, 6, 6, 5 * last), 8))
+        levels.append(Level(quick, count(many), (8, 6, 6, 5 * last), 8, count(many // 4)))
     else:
-        levels.append(Level(quick, count(many), (10, 8, 8, 6 * last), 10))
+        levels.append(Level(quick, count(many), (10, 8, 8, 6 * last), 10, count(many // 4)))
     if case.numerics.accuracy != "fast":
         levels.append(Level(case, count(160), (5, 4, 4, last), 5))
     return levels

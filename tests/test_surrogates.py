@@ -165,12 +165,15 @@ def shipped():
 
 
 def test_every_shipped_surrogate_is_checked_and_holds_its_errors():
-    listed = shipped_surrogates()
-    assert len(listed) >= 2
-    for material, model in listed:
+    # The change of the latex contact by friction is steep where the contact of a thin wall widens
+    # from a line to a band (docs/surrogates.md, "Limits").
+    largest = {("ureter", "paper"): 0.005, ("latex", "paper"): 0.015}
+    assert set(shipped_surrogates()) == set(largest)
+    for material, model in shipped_surrogates():
         measured = load_surrogate(material, model).about["check"]
         assert measured["compared"] >= 200
-        assert measured["largest"] <= 0.005
+        assert measured["same_outcome"] == measured["cases"] >= 300
+        assert measured["largest"] <= largest[material, model]
         assert measured["within"] >= 0.98
 
 

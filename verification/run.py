@@ -34,6 +34,7 @@ ON_ALL_CORES = (
     "micrograph",
     "tables",
     "laboratory",
+    "surrogates",
     "calculix",
 )
 SECTIONS = (*SIDE_BY_SIDE, *ON_ALL_CORES)

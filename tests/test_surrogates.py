@@ -280,7 +280,7 @@ def test_a_surrogate_of_your_own_is_built_and_checked(tmp_path):
         numerics=sp.Numerics("fast"),
     )
     box = Box(size_ratio=1.3, wall_ratio=(1.4, 2.0), friction=(0.2, 0.6))
-    built = build_surrogate(case, box, sp.JobSolver(), effort=0.2)
+    built = build_surrogate(case, box, sp.JobSolver(), effort=0.06)
     found = check_surrogate(built, sp.JobSolver(), 24)
     assert found.same_outcome == 24
     assert found.largest < 0.005

@@ -133,7 +133,7 @@ app.command(
         "build --material latex --out latex.json",
         "a surrogate of the paper's model without a load; takes about ten minutes",
     ),
-)(takes_settings(*VARIED, models=("paper", "direct"), choose_model=True)(_build))
+)(takes_settings(*VARIED, models=("paper",))(_build))
 
 
 @app.command(

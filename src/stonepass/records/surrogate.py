@@ -26,17 +26,13 @@ class SurrogateAnswerRecord(PartRecord):
     )
     lower_bound_kPa: float = Field(
         description=(
-            "pressure that P_ucr exceeds: the end of the closure for BEYOND_CLOSURE, the leak "
-            "pressure for LEAKS; 0 for other outcomes"
+            "pressure that P_ucr exceeds: the end of the closure for BEYOND_CLOSURE; 0 for other "
+            "outcomes"
         )
     )
     contact_angle_deg: float | None = Field(description="angle at which the contact begins")
-    leak_pressure_kPa: float | None = Field(
-        description="P_u at which urine passes the held stone; null for the paper's model"
-    )
 
 
 def surrogate_records(answers: SurrogateAnswers) -> list[SurrogateAnswerRecord]:
-    """Make the records of the answers of a surrogate; a missing quantity is None."""
-    empty = {"leak_pressure_kPa": None}
-    return [SurrogateAnswerRecord.model_validate(empty | row) for row in answers.to_rows()]
+    """Make the records of the answers of a surrogate."""
+    return [SurrogateAnswerRecord.model_validate(row) for row in answers.to_rows()]

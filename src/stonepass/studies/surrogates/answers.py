@@ -15,7 +15,7 @@ from stonepass.array_types import Bool, Float, Int
 from stonepass.errors import Outcome, require
 from stonepass.io.csv_file import write_csv
 from stonepass.io.optional_imports import library
-from stonepass.studies.surrogates.solved import BEYOND_CLOSURE, LEAKS, OUTCOMES, Solved
+from stonepass.studies.surrogates.solved import BEYOND_CLOSURE, OUTCOMES, Solved
 
 __all__ = ["SurrogateAnswers"]
 
@@ -36,13 +36,12 @@ class SurrogateAnswers:
     error : masked array (n)
         Claimed error of P_ucr in Pa; masked where P_ucr is.
     lower_bound : array (n)
-        Pressure in Pa that P_ucr exceeds: the end of the closure for the outcome BEYOND_CLOSURE,
-        the leak pressure for LEAKS; 0 for the other outcomes.
+        Pressure in Pa that P_ucr exceeds: the end of the closure for the outcome BEYOND_CLOSURE, 0
+        for the other outcomes.
     outside : array (n) of bool
         True for a condition outside the box of the surrogate.
     quantities : mapping of str to masked array (n)
-        Further results by name, in SI units: ``contact_angle`` in rad, and with the direct model
-        ``leak_pressure`` in Pa.
+        Further results by name, in SI units: ``contact_angle`` in rad.
     """
 
     OUTCOMES: ClassVar[tuple[Outcome, ...]] = OUTCOMES
@@ -77,7 +76,7 @@ class SurrogateAnswers:
     @property
     def censored(self) -> Bool[np.ndarray, " n"]:
         """True where only a lower bound of P_ucr is known."""
-        return np.isin(self.outcome, (BEYOND_CLOSURE, LEAKS))
+        return np.asarray(self.outcome == BEYOND_CLOSURE)
 
     @property
     def answered(self) -> Bool[np.ndarray, " n"]:

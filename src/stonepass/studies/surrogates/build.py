@@ -16,14 +16,12 @@ from stonepass.errors import BadInput
 from stonepass.inputs.case_record import fingerprint
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.models.push_through import PushThrough
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.studies.conditions import Conditions, lumen_ratios
 from stonepass.studies.surrogates.box import Box, Setting, case_at, fit_lumen, narrowest_lumen
 from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
-from stonepass.studies.surrogates.pushed_stone import PushedStone
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
@@ -70,8 +68,9 @@ def build_surrogate(
     _refuse(case)
     box, solver = box or Box(), solver or JobSolver(progress=True)
     solved = [_solve(level, box, solver) for level in levels_for(case, effort)]
-    kind = SeatedContact if isinstance(case.model, SeatedBalance) else PushedStone
-    physics: Any = kind.fitted_to([each for level in solved for each in level.answers])
+    everything = [each for level in solved for each in level.answers]
+    _refuse_unsolved(everything)
+    physics = SeatedContact.fitted_to(everything)
     learnt, left_out = None, []
     for first in solved:
         level = _refined(case, box, physics, learnt, first, solver)
@@ -106,15 +105,23 @@ class _Solved:
 def _refuse(case: Case) -> None:
     """Raise BadInput if the model, one of its options, or the stone has no surrogate."""
     model = case.model
-    if not isinstance(model, SeatedBalance | PushThrough):
-        raise BadInput("model", model.NAME, "'paper' or 'direct'", "other models need no surrogate")
-    if isinstance(model, SeatedBalance) and (
-        model.closure != "linear" or model.closure_start != "inner-radius"
-    ):
+    if not isinstance(model, SeatedBalance):
+        raise BadInput("model", model.NAME, "'paper', the only model that has surrogates")
+    if model.closure != "linear" or model.closure_start != "inner-radius":
         raise BadInput("closure", f"{model.closure} from {model.closure_start}",
                        "linear from inner-radius, which is the default")  # fmt: skip
     if not case.stone.shape.symmetric:
         raise BadInput("shape", "not symmetric", "a stone whose halves are mirror images")
+
+
+def _refuse_unsolved(answers: Sequence[Answer]) -> None:
+    """Raise BadInput if some cases of the box have no seated state: there is nothing to learn."""
+    lost = [each.reason for each in answers if each.contact is None]
+    if lost:
+        raise BadInput(
+            "number of cases of the box without a seated state", f"{len(lost)} of {len(answers)}",
+            "0", f"make the box smaller; the first reason is: {lost[0]}",
+        )  # fmt: skip
 
 
 def _solve(level: Level, box: Box, solver: CaseSolver) -> _Solved:
@@ -134,7 +141,7 @@ def _setting(case: Case, box: Box, at: Conditions) -> Setting:
 def _refined(
     case: Case,
     box: Box,
-    physics: Any,
+    physics: SeatedContact,
     before: SparsePolynomial | None,
     level: _Solved,
     solver: CaseSolver,
@@ -213,7 +220,7 @@ def relative_errors(
 
 
 def _claimed(
-    case: Case, physics: Any, left_out: Sequence[tuple[_Solved, Any, Any]]
+    case: Case, physics: SeatedContact, left_out: Sequence[tuple[_Solved, Any, Any]]
 ) -> SparsePolynomial:
     """Return the logarithm of the claimed relative error of P_ucr, from leave-one-out errors.
 
@@ -223,9 +230,7 @@ def _claimed(
         (each for each in left_out if each[0].level.case.model == case.model),
         key=lambda each: each[0].level.count,
     )
-    whole = (
-        np.isfinite(values).all(axis=1) if isinstance(physics, SeatedContact) else _pushed(values)
-    )
+    whole = np.isfinite(values[:, :-1]).all(axis=1)
     at, true = level.at.where(whole), np.array([_number(a) for a in level.answers])[whole]
     shifted = np.where(np.isfinite(left), values + left, 0.0)[whole]
     off = relative_errors(physics.solve(case, at, shifted).pressure, true)
@@ -236,11 +241,6 @@ def _claimed(
     coefficients = fitted.coefficients.copy()
     coefficients[~fitted.degrees.any(axis=1), 0] += excess + np.log(MARGIN)
     return SparsePolynomial(fitted.degrees, coefficients)
-
-
-def _pushed(values: Float[np.ndarray, "n functions"]) -> Bool[np.ndarray, " n"]:
-    """Return which answers of the direct model have a critical pressure."""
-    return np.isfinite(values[:, 0])
 
 
 def _number(answer: Answer) -> float:

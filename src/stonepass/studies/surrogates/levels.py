@@ -63,12 +63,11 @@ def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
     levels = []
     if isinstance(case.model, SeatedBalance) and case.model.seating != "frictionless":
         smooth = replace(case.model, seating="frictionless", seating_friction=None)
-        levels.append(
-            Level(replace(quick, model=smooth), count(4 * many), (20, 16, 0, 8 * last), 20)
-        )
+        first = replace(quick, model=smooth)
+        levels.append(Level(first, count(4 * many), (20, 16, 0, 8 * last), 20))
         levels.append(Level(quick, count(many), (8, 6, 6, 5 * last), 8, count(many // 4)))
     else:
-        levels.append(Level(quick, count(many), (10, 8, 8, 6 * last), 10, count(many // 4)))
+        levels.append(Level(quick, count(4 * many), (20, 16, 0, 8 * last), 20))
     if case.numerics.accuracy != "fast":
         levels.append(Level(case, count(160), (5, 4, 4, last), 5))
     return levels

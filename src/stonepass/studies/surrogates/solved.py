@@ -11,17 +11,16 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float, Int
 from stonepass.errors import Outcome
 
-__all__ = ["BEYOND_CLOSURE", "LEAKS", "LOOSE", "MOVES", "NO_SOLUTION", "OUTCOMES", "Solved"]
+__all__ = ["BEYOND_CLOSURE", "LOOSE", "MOVES", "NO_SOLUTION", "OUTCOMES", "Solved"]
 
 # The outcomes of a surrogate; arrays of outcomes contain the places in this tuple.
 OUTCOMES = (
     Outcome.MOVES,
     Outcome.LOOSE,
     Outcome.BEYOND_CLOSURE,
-    Outcome.LEAKS,
     Outcome.NO_SOLUTION,
 )
-MOVES, LOOSE, BEYOND_CLOSURE, LEAKS, NO_SOLUTION = range(len(OUTCOMES))
+MOVES, LOOSE, BEYOND_CLOSURE, NO_SOLUTION = range(len(OUTCOMES))
 
 
 @array_dataclass

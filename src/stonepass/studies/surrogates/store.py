@@ -24,7 +24,6 @@ from stonepass.io.text_file import existing, replace_file
 from stonepass.model.case import Case
 from stonepass.studies.surrogates.box import Box
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
-from stonepass.studies.surrogates.pushed_stone import PushedStone
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.surrogate import Surrogate
 
@@ -92,9 +91,7 @@ def save_surrogate(surrogate: Surrogate, path: Path) -> None:
         if polynomial is not None:
             arrays[f"{part}_degrees"] = polynomial.degrees.astype(np.int8)
             arrays[f"{part}_coefficients"] = polynomial.coefficients
-    physics = surrogate.physics
-    if isinstance(physics, SeatedContact):
-        arrays |= {"shear": physics.shear, "axial": physics.axial}
+    arrays |= {"shear": surrogate.physics.shear, "axial": surrogate.physics.axial}
     packed = io.BytesIO()
     np.savez_compressed(packed, **arrays)
     case = surrogate.case
@@ -141,9 +138,7 @@ def _read(path: Path) -> Surrogate:
         for part in _POLYNOMIALS
         if f"{part}_degrees" in arrays
     }
-    physics = (
-        SeatedContact(arrays["shear"], arrays["axial"]) if "shear" in arrays else PushedStone()
-    )
+    physics = SeatedContact(arrays["shear"], arrays["axial"])
     limits = document["box"]
     box = Box(limits["size_ratio"], tuple(limits["wall_ratio"]), tuple(limits["friction"]))
     return Surrogate(built, box, physics, floor=document["floor_Pa"],

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 
@@ -19,22 +19,15 @@ from stonepass.fe.core.threads import one_thread
 from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions
 from stonepass.studies.surrogates.answers import SurrogateAnswers
-from stonepass.studies.surrogates.box import Box, Setting
+from stonepass.studies.surrogates.box import Box
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
+from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.solved import LOOSE, NO_SOLUTION, Solved
 
-__all__ = ["LearntPhysics", "Surrogate"]
+__all__ = ["Surrogate"]
 
 CHUNK = 4096  # number of conditions that are evaluated at a time; their arrays fit into the cache
 Given = Any  # a number or an array of numbers
-
-
-@runtime_checkable
-class LearntPhysics(Protocol):
-    """What a surrogate learns from answers of a model, and how an answer follows from it."""
-
-    def solve(self, case: Case, at: Setting, learnt: Float[np.ndarray, "n functions"]) -> Solved:
-        """Return the results of n cases for the values of the learnt functions."""
 
 
 @array_dataclass
@@ -49,7 +42,7 @@ class Surrogate:
         box; size, wall and friction of the case do not matter.
     box : Box
         The range of the inputs.
-    physics : LearntPhysics
+    physics : SeatedContact
         Gives the answer for values of the learnt functions.
     learnt : SparsePolynomial
         The learnt functions of the four coordinates of the box.
@@ -67,7 +60,7 @@ class Surrogate:
 
     case: Case
     box: Box
-    physics: LearntPhysics
+    physics: SeatedContact
     learnt: SparsePolynomial
     error: SparsePolynomial
     floor: float

@@ -10,7 +10,6 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
-import pyarrow
 import pytest
 
 import stonepass as sp
@@ -29,7 +28,6 @@ from stonepass.studies.sensitivity.solved_cases import SolvedCases
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.study_file import read_sensitivity
 from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
-from stonepass.studies.sensitivity.swept_cases import swept_cases
 from stonepass.studies.sensitivity.uncertain_case import uncertain_case
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 
@@ -524,58 +522,48 @@ def test_other_inputs_than_those_of_the_solved_cases_are_refused():
         dataclasses.replace(swept, solved=none)
 
 
-def swept(**changed):
-    """The rows of a small sweep of two models, as its store returns them."""
-    k = np.arange(40)
-    columns = {
-        "model": ["paper", "direct"] * 20,
-        "friction": (0.1 + 0.01 * k).tolist(),
-        "size_ratio": (1.1 + 0.02 * (k % 7)).tolist(),
-        "outcome": ["MOVES"] * 36 + ["BEYOND_CLOSURE", "PROGRAM_ERROR", "BAD_INPUT", "MOVES"],
-        "critical_pressure_kPa": [0.1 * n for n in range(36)] + [None, None, None, 9.0],
-        "closure_end_pressure_kPa": [8.0] * 37 + [None] * 3,
-    } | changed
-    plan = {
-        "inputs": [{"key": f"stone.{name}", "column": name, "type": "double"}
-                   for name in ("friction", "size_ratio")],
-        "models": [{"label": "paper"}, {"label": "direct"}],
-    }  # fmt: skip
-    return SimpleNamespace(
-        folder=Path("study"), ledger=SimpleNamespace(plan=plan), columns=columns,
-        table=lambda names: pyarrow.table({name: columns[name] for name in names}),
-    )  # fmt: skip
+SWEEP = {
+    "ureter": {"inner_diameter": "3.5 mm", "wall_thickness": "0.5 mm"},
+    "method": {"model": "beam", "longitudinal_modulus": "20 kPa"},
+    "vary": {
+        "stone.diameter": {"low": "3.6 mm", "high": "3.9 mm"},
+        "stone.friction": {"low": 0.1, "high": 0.5},
+        "method.circumferential_modulus": {"low": "0.3 MPa", "high": "0.5 MPa"},
+    },
+    "samples": {"count": 128},
+}
+ITS_STUDY = """
+[ureter]
+inner_diameter = "3.5 mm"
+wall_thickness = "0.5 mm"
+[method]
+model = "beam"
+longitudinal_modulus = "20 kPa"
+[uncertain]
+stone.diameter = "3.6 mm to 3.9 mm"
+stone.friction = "0.1 to 0.5"
+method.circumferential_modulus = "0.3 MPa to 0.5 MPa"
+[sensitivity]
+samples = 64
+sweep = "swept"
+"""
 
 
-PAPER = uncertain_case(
-    sp.Case(sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3)),
-    {"stone.friction": "0.1 to 0.5", "stone.size_ratio": "1.1 to 1.2"},
-)
-
-
-def test_rows_of_a_sweep_become_solved_cases():
-    results = swept(model=["paper"] * 40)
-    found = swept_cases(PAPER, results)
-    assert found.name == "sweep 'study'"
-    assert len(found.points["stone.friction"]) == 39  # without the fault of the program
-    assert found.solved.value[:2].tolist() == [0.0, 100.0]
-    assert found.solved.value[-1] == 9000.0
-    ends = [outcome_name(code) for code in found.solved.outcome[-3:].tolist()]
-    assert ends == ["BEYOND_CLOSURE", "BAD_INPUT", "MOVES"]
-    assert found.solved.value.mask[-3:].tolist() == [True, True, False]
-    assert found.solved.lower_bound[-3:].tolist() == [8000.0, None, None]
-    assert found.solved.lower_bound.mask[:36].all()
-
-
-def test_a_sweep_of_other_models_or_words_is_refused():
-    few = swept()
-    with pytest.raises(BadInput, match="number of critical pressures in the sweep 'study' is 18"):
-        swept_cases(PAPER, few)
-    beam = uncertain_case(CASE, {"stone.friction": "0.1 to 0.5"})
-    with pytest.raises(BadInput, match="model is beam, but must be one of the models of the sweep"):
-        swept_cases(beam, swept())
-    few.ledger.plan["inputs"].append({"key": "method.model", "column": "model", "type": "string"})
-    with pytest.raises(BadInput, match=r"'method\.model' is varied in the sweep 'study'"):
-        swept_cases(PAPER, few)
+def test_the_results_of_a_sweep_answer_a_study(tmp_path, capsys):
+    sp.sweep(SWEEP, tmp_path / "swept", workers=1, progress=False)
+    path = study_file(tmp_path, ITS_STUDY)
+    assert run(["sensitivity", str(path), "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert (record["source"], record["evaluated"]) == ("interpolation of the sweep 'swept'", 512)
+    median = sp.Case(sp.Stone("3.75 mm", 0.3), sp.Ureter("3.5 mm", "4.5 mm"), model=BEAM)
+    exact = sp.solve(median).pressure_kPa
+    assert record["tornado_pressure"]["centre"]["value"] == pytest.approx(exact, rel=0.02)
+    assert 0.0 < record["largest_error_kPa"] < 0.2 * exact
+    # The same sweep does not answer a study of another wall.
+    other = study_file(tmp_path, ITS_STUDY.replace("20 kPa", "30 kPa"))
+    assert run(["sensitivity", str(other)]) == 2
+    assert "fixed inputs of the study" in capsys.readouterr().err
+    assert run(["sensitivity", str(path), "--sweep", str(tmp_path / "none")]) == 2
 
 
 # --- the study file and its errors

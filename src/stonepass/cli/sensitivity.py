@@ -89,6 +89,15 @@ def command(
             rich_help_panel=SOLVER,
         ),
     ] = None,
+    sweep: Annotated[
+        Path | None,
+        typer.Option(
+            "--sweep",
+            metavar="DIR",
+            help="Interpolate the results of a sweep over the uncertain inputs.",
+            rich_help_panel=SOLVER,
+        ),
+    ] = None,
     json: Json = False,
     csv: Annotated[
         Path | None,
@@ -128,6 +137,7 @@ def command(
         "samples": samples,
         "seed": seed,
         "surrogate": surrogate,
+        "sweep": None if sweep is None else str(sweep),
     }
     study = _study(study_file, given)
     from stonepass.report.presentation import save
@@ -173,7 +183,7 @@ def _study(path: Path, given: Mapping[str, object]) -> SensitivityStudy:
 
 def _processes(study: SensitivityStudy) -> int:
     """Return how many processes are worth their start."""
-    if study.surrogate is not None:
+    if study.surrogate is not None or study.sweep is not None:
         return 1
     return max(1, study.cases // (6 if study.needs_elements else 4000))
 

@@ -28,8 +28,10 @@ from stonepass.studies.sensitivity.solved_cases import SolvedCases
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.study_file import read_sensitivity
 from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
+from stonepass.studies.sensitivity.swept_cases import swept_cases
 from stonepass.studies.sensitivity.tornado import Tornado, pressure_tornado, size_tornado
 from stonepass.studies.surrogates.store import load_surrogate
+from stonepass.studies.sweeps.results import read_results
 from stonepass.units import Pressure
 
 __all__ = ["Sensitivity", "sensitivity"]
@@ -128,8 +130,8 @@ def sensitivity(
     study : SensitivityStudy, str or Path
         The study, or the TOML file of a study.
     evaluator : Evaluator, optional
-        Function that evaluates many cases; by default the surrogate of the study, and without one
-        every case is solved.
+        Function that evaluates many cases; by default the surrogate or the sweep of the study, and
+        without both every case is solved.
     executor : concurrent.futures.Executor, optional
         Where cases are solved, e.g. the executor of `process_pool`; by default in this process.
     cache_folder : Path, optional
@@ -145,8 +147,8 @@ def sensitivity(
     Raises
     ------
     BadInput
-        The file is refused, SALib is not installed, or the surrogate is unknown or does not
-        describe the case.
+        The file is refused, SALib is not installed, or the surrogate or the sweep is unknown or
+        does not describe the case.
 
     References
     ----------
@@ -197,6 +199,8 @@ def _evaluator(
     progress: bool | Progress,
 ) -> Evaluator:
     uncertain = study.uncertain
+    if study.sweep is not None:
+        return swept_cases(uncertain, read_results(study.sweep))
     if study.surrogate is None:
         return SolvedCases(uncertain, executor, cache_folder, progress)
     surrogate = load_surrogate(study.surrogate, uncertain.median_case.model.NAME)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from stonepass.errors import refuse_unknown, require
+from stonepass.errors import Misplaced, refuse_unknown, require
 from stonepass.model.problem import require_kind
 from stonepass.studies.sensitivity.uncertain_case import UncertainCase
 from stonepass.units import Pressure, Quantity, pressure
@@ -43,11 +43,13 @@ class SensitivityStudy:
     surrogate : str, optional
         Material of a surrogate of the package, e.g. ``"ureter"``, or the JSON file of a surrogate,
         which then answers the cases in the place of the model.
+    sweep : str, optional
+        Folder of the results of a sweep over the uncertain inputs, which are interpolated.
 
     Raises
     ------
     BadInput
-        A value is of the wrong kind or out of bounds.
+        A value is of the wrong kind or out of bounds, or both a surrogate and a sweep are given.
 
     References
     ----------
@@ -60,9 +62,12 @@ class SensitivityStudy:
     samples: int | None = None
     seed: int = 1
     surrogate: str | None = None
+    sweep: str | None = None
 
     def __post_init__(self) -> None:
         require_kind("uncertain", self.uncertain, UncertainCase, "uncertain_case(case, {…})")
+        if self.surrogate is not None and self.sweep is not None:
+            raise Misplaced("surrogate", "a sweep", "", "give one of the two")
         method = self.method or self._default_method()
         if method not in METHODS:
             refuse_unknown("method", str(method), list(METHODS))
@@ -86,7 +91,9 @@ class SensitivityStudy:
     @property
     def needs_elements(self) -> bool:
         """True if every case must be solved with finite elements."""
-        return self.surrogate is None and self.uncertain.median_case.model.NEEDS_ELEMENTS
+        if self.surrogate is not None or self.sweep is not None:
+            return False
+        return self.uncertain.median_case.model.NEEDS_ELEMENTS
 
     @property
     def cases(self) -> int:

@@ -32,6 +32,7 @@ class _Settings(FileSection):
     samples: int | None = None
     seed: int = 1
     surrogate: str | None = None
+    sweep: str | None = None
 
 
 class _Own(FileSection):
@@ -85,6 +86,8 @@ def read_sensitivity(path: str | Path, **overrides: Any) -> SensitivityStudy:
         named = settings["surrogate"]
         if named is not None and Path(named).suffix == ".json":
             settings["surrogate"] = str(path.parent / named)
+        if settings["sweep"] is not None:
+            settings["sweep"] = str(path.parent / settings["sweep"])
         given = {name: value for name, value in overrides.items() if value is not None}
         return SensitivityStudy(case, **settings | given)
     except BadInput as problem:

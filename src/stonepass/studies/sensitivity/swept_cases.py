@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -12,9 +11,12 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput, Outcome
 from stonepass.studies.sensitivity.evaluator import BAD_INPUT, OUTCOMES, Evaluations
 from stonepass.studies.sensitivity.interpolated_cases import InterpolatedCases
-from stonepass.studies.sensitivity.uncertain_case import UncertainCase
+from stonepass.studies.sensitivity.uncertain_case import Inputs, UncertainCase
+from stonepass.studies.sweeps.case_rows import fingerprint_of
+from stonepass.studies.sweeps.plan import CaseInputs
+from stonepass.studies.sweeps.results import SweepResults
 
-__all__ = ["SweptResults", "swept_cases"]
+__all__ = ["swept_cases"]
 
 # The column of the lower bound in kPa, by the outcome without a critical pressure.
 BOUNDS = {
@@ -24,31 +26,7 @@ BOUNDS = {
 PRESSURE = "critical_pressure_kPa"
 
 
-@runtime_checkable
-class SweptResults(Protocol):
-    """What a sensitivity study needs of the results of a sweep.
-
-    Attributes
-    ----------
-    folder : Path
-        Folder of the results.
-    ledger : object
-        Its ``plan`` has the varied inputs, each with its key and its column, and the models with
-        their labels.
-    """
-
-    folder: Path
-    ledger: Any
-
-    @property
-    def columns(self) -> Mapping[str, str]:
-        """Types of the columns by name."""
-
-    def table(self, columns: Iterable[str]) -> Any:
-        """Return the rows as a ``pyarrow.Table``, with null where there is no number."""
-
-
-def swept_cases(uncertain: UncertainCase, results: SweptResults) -> InterpolatedCases:
+def swept_cases(uncertain: UncertainCase, results: SweepResults) -> InterpolatedCases:
     """Make an evaluator that interpolates the results of a sweep.
 
     Rows of cases in which the program failed are left out.
@@ -57,14 +35,14 @@ def swept_cases(uncertain: UncertainCase, results: SweptResults) -> Interpolated
     ----------
     uncertain : UncertainCase
         The case with its uncertain inputs, which must be the varied inputs of the sweep.
-    results : SweptResults
+    results : SweepResults
         The results. If the sweep has several models, those of the model of the case are used.
 
     Raises
     ------
     BadInput
         The model of the case is not in the sweep, an input of the sweep is no number, or the
-        uncertain inputs are not those of the sweep (see `InterpolatedCases`).
+        uncertain or the fixed inputs are not those of the sweep (see `InterpolatedCases`).
 
     References
     ----------
@@ -76,7 +54,7 @@ def swept_cases(uncertain: UncertainCase, results: SweptResults) -> Interpolated
         if each["type"] != "double":
             raise BadInput(f"'{each['key']}'", f"varied in the {name}", "a real number")
     bounds = {outcome: column for outcome, column in BOUNDS.items() if column in results.columns}
-    asked = ["model", "outcome", PRESSURE, *inputs.values(), *bounds.values()]
+    asked = ["model", "outcome", "fingerprint", PRESSURE, *inputs.values(), *bounds.values()]
     table = results.table([each for each in dict.fromkeys(asked) if each in results.columns])
     words = np.array(table["outcome"].to_pylist(), dtype=object)
     rows = np.isin(words, [*Outcome.__members__, "BAD_INPUT"]) & _of_model(uncertain, plan, table)
@@ -84,7 +62,21 @@ def swept_cases(uncertain: UncertainCase, results: SweptResults) -> Interpolated
     solved = _evaluations(
         words[rows], {key: table[key] for key in table.column_names}, bounds, rows
     )
-    return InterpolatedCases(uncertain, points, solved, name)
+    found = InterpolatedCases(uncertain, points, solved, name)
+    _check_fixed(uncertain, points, np.array(table["fingerprint"].to_pylist())[rows], solved, name)
+    return found
+
+
+def _check_fixed(
+    uncertain: UncertainCase, points: Inputs, fingerprints: Any, solved: Evaluations, name: str
+) -> None:
+    """Refuse a sweep whose fixed inputs are not those of the study, by the first solved case."""
+    row = int(np.flatnonzero(solved.outcome != BAD_INPUT)[0])
+    case = uncertain.case({key: float(values[row]) for key, values in points.items()})
+    inputs = CaseInputs(row, case.model.NAME, {}, {})
+    if fingerprint_of(inputs, case) != fingerprints[row]:
+        raise BadInput("fixed inputs of the study", "others than those of the " + name,
+                       "the same, including model, material and accuracy")  # fmt: skip
 
 
 def _of_model(uncertain: UncertainCase, plan: Mapping[str, Any], table: Any) -> Any:

@@ -7,7 +7,7 @@ has the key ``ureter.material.NAME``, e.g. ``ureter.material.G``.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ from stonepass.inputs.material_file import find_material
 from stonepass.inputs.overlay import overlay, refuse_pairs
 from stonepass.materials.constants import ConstantDeclaration, constants_of, read_constant
 from stonepass.model.case import Case
+from stonepass.studies.sweeps.varied_input import with_constants
 from stonepass.studies.uncertain_quantity import (
     UncertainQuantity,
     measured_angle,
@@ -157,8 +158,7 @@ def _with_values(
             raw[key] = _KINDS[all_inputs()[key].declaration.kind](value)
     if constants:
         wall = find_material(raw.get(MATERIAL, "ureter"), folder)
-        law: Any = wall.law
-        raw[MATERIAL] = replace(wall, law=replace(law, **constants), reference="")
+        raw[MATERIAL] = with_constants(wall, constants)
     return raw
 
 

@@ -42,6 +42,8 @@ def main() -> None:
     held = sp.critical_pressure(sp.Stone(size_ratio=1.2), latex, model=model, numerics=numerics)
     assert held.pressure is not None
     assert 40e3 < held.pressure < 43e3, held.pressure
+    quick = sp.load_surrogate("latex").evaluate(size_ratio=1.2, wall_ratio=1.5, friction=0.5)
+    assert quick.answered.all()
     print(f"The installed wheel has {found} modules and answers.")
 
 

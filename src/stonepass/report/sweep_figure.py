@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
 from stonepass.errors import BadInput
 from stonepass.io.column_names import unit_of
@@ -38,6 +39,7 @@ PRESSURE = "critical pressure (kPa)"
 SHOWN_UNITS = {"Pa": ("kPa", 1e-3), "m": ("mm", 1e3), "rad": ("°", 180.0 / np.pi)}
 
 
+@array_dataclass
 @dataclass(frozen=True)
 class _Input:
     """The values of an input in all rows; names of categories have their indices as values."""

@@ -200,6 +200,7 @@ def _amplitudes(
     return (shape - values[0]) @ values[1:].T
 
 
+@array_dataclass
 @dataclass(frozen=True)
 class _Balance:
     """The force balance of n cases as a function of x: 1 at the contact angle, 0 at π/2."""

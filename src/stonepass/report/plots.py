@@ -162,4 +162,4 @@ def plot_assessment(found: Assessment, axes: Axes) -> None:
 def plot_sensitivity(found: Sensitivity, axes: Axes) -> None:
     """Draw the tornado of the critical pressure."""
     draw_tornado(axes, found, found.pressures)
-    explain_tornado(axes, len(found.pressures.bars))
+    explain_tornado(axes)

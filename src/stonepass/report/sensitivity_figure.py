@@ -23,8 +23,8 @@ from stonepass.studies.sensitivity.tornado import Bar, Tornado
 __all__ = ["draw_indices", "draw_tornado", "explain_tornado", "sensitivity_figure"]
 
 WIDTH = 6.6  # inches
-ROW, MARGIN = 0.34, 0.95  # inches of one input, and of title and axis of a panel
-LEGEND = 0.4  # inches from the axes to their legend
+ROW, MARGIN = 0.34, 1.05  # inches of one input, and of title and axis of a panel
+LEGEND = 22.0  # points between the axes and their title, in which there is room for a legend
 HEADING = 0.5  # inches
 GAP = 0.06  # between the panels, as a fraction of their height
 THICK, SHADE = 0.62, 0.85  # thickness of a bar in rows, and its opacity
@@ -48,7 +48,7 @@ def sensitivity_figure(found: Sensitivity) -> Figure:
         draw_indices(panels[0], found)
     for axes, tornado in zip(panels[-len(tornados) :], tornados, strict=True):
         draw_tornado(axes, found, tornado)
-    explain_tornado(panels[-1], rows[-1])
+    explain_tornado(panels[-len(tornados)])
     return figure
 
 
@@ -74,8 +74,8 @@ def draw_indices(axes: Axes, found: Sensitivity) -> None:
         axes.set_xlabel(f"effect on {_short(main.response.title)}{unit}, 95 % intervals")
     axes.axvline(0.0, color=COLOURS["grey"], linewidth=0.8)
     _name_rows(axes, [found.title(each.key) for each in inputs])
-    axes.set_title(f"Sensitivity of {main.response.title}")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -_below(len(inputs))), ncols=2)
+    axes.set_title(f"Sensitivity of {main.response.title}", pad=LEGEND)
+    _add_legend(axes)
 
 
 def _draw_estimates(
@@ -125,20 +125,27 @@ def draw_tornado(axes: Axes, found: Sensitivity, tornado: Tornado) -> None:
         _draw_bar(axes, found, bar, place, centre)
 
 
-def _below(rows: int) -> float:
-    """Return how far below the axes their legend begins, as a fraction of their height."""
-    return LEGEND / (ROW * rows)
+def explain_tornado(axes: Axes) -> None:
+    """Explain the colours of all tornado panels, between the title and the first one."""
+    axes.set_title(axes.get_title(loc="left") or axes.get_title(), pad=LEGEND)
+    _add_legend(
+        axes,
+        handles=[
+            Line2D(
+                [], [], color=COLOURS["ink"], linewidth=1.0, label="all inputs at their medians"
+            ),
+            Patch(color=LOW, alpha=SHADE, label="at the 5 % quantile"),
+            Patch(color=HIGH, alpha=SHADE, label="at the 95 % quantile"),
+        ],
+    )
 
 
-def explain_tornado(axes: Axes, rows: int) -> None:
-    """Explain the colours of all tornado panels below the last one."""
-    handles = [
-        Line2D([], [], color=COLOURS["ink"], linewidth=1.0, label="all inputs at their medians"),
-        Patch(color=LOW, alpha=SHADE, label="at the 5 % quantile"),
-        Patch(color=HIGH, alpha=SHADE, label="at the 95 % quantile"),
-    ]
-    place = (0.35, -_below(rows))
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=place, ncols=3)
+def _add_legend(axes: Axes, **options: Any) -> None:
+    """Add a legend in one line above the axes, to the left and below the title."""
+    axes.legend(
+        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.2, borderpad=0.2,
+        columnspacing=1.4, handlelength=1.6, **options,
+    )  # fmt: skip
 
 
 def _draw_bar(axes: Axes, found: Sensitivity, bar: Bar, place: int, centre: float | None) -> None:

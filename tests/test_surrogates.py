@@ -209,6 +209,17 @@ def test_pressure_scales_with_the_stiffness_and_grows_with_the_stone(shipped):
     assert (np.diff(soft.pressure.compressed()) > 0.0).all()
 
 
+def test_pressures_may_have_a_unit_and_few_conditions_are_no_special_case(shipped):
+    at = {"wall_ratio": 1.3, "friction": 0.5}
+    loaded = shipped.evaluate(size_ratio=1.2, confining_pressure="2 kPa", **at)
+    assert loaded.inputs["confining_pressure"].tolist() == [2000.0]
+    assert repr(loaded) == "<SurrogateAnswers: 1 condition; NO_SOLUTION 1>"
+    none = shipped.evaluate(size_ratio=[], **at)
+    assert (len(none), none.to_rows()) == (0, [])
+    loose = shipped.evaluate(size_ratio=[0.8, 0.9], **at)
+    assert (loose.pressure == 0.0).all()
+
+
 @pytest.mark.parametrize("given", [{"size_ratio": np.nan}, {"friction": -0.1}, {"wall_ratio": "x"},
                                    {"friction": [0.1, 0.2], "size_ratio": [1.1, 1.2, 1.3]}])  # fmt: skip
 def test_impossible_inputs_are_refused(shipped, given):

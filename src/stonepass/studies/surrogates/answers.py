@@ -143,7 +143,8 @@ class SurrogateAnswers:
     def __repr__(self) -> str:
         counts = Counter(self.outcome.tolist())
         parts = [f"{OUTCOMES[k].name} {counts[k]:,}" for k in sorted(counts)]
-        return f"<SurrogateAnswers: {len(self):,} conditions; {', '.join(parts)}>"
+        what = "1 condition" if len(self) == 1 else f"{len(self):,} conditions"
+        return f"<SurrogateAnswers: {'; '.join([what, ', '.join(parts)]) if parts else what}>"
 
 
 def _plain(values: Any, factor: float) -> list[float | None]:

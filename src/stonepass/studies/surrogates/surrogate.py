@@ -23,6 +23,7 @@ from stonepass.studies.surrogates.box import Box
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.solved import LOOSE, NO_SOLUTION, Solved
+from stonepass.units import pressure
 
 __all__ = ["Surrogate"]
 
@@ -84,8 +85,8 @@ class Surrogate:
         ----------
         size_ratio, wall_ratio, friction : float or array
             Size ratio ξ, wall ratio η and friction coefficient μ_f.
-        confining_pressure : float or array
-            Confining pressure P_out in Pa.
+        confining_pressure : str, float or array
+            Confining pressure P_out: text with a unit such as ``"2 kPa"``, or numbers in Pa.
         stiffness : float or array
             Stiffness of the wall relative to the material, above 0. P_ucr of a wall that is s times
             as stiff is s times P_ucr of the material under the confining pressure P_out/s.
@@ -110,6 +111,8 @@ class Surrogate:
         """
         given = {"size_ratio": size_ratio, "wall_ratio": wall_ratio, "friction": friction,
                  "confining_pressure": confining_pressure, "stiffness": stiffness}  # fmt: skip
+        if isinstance(confining_pressure, str):
+            given["confining_pressure"] = float(pressure(confining_pressure, "confining_pressure"))
         inputs = _checked(given)
         size, wall, mu, confining, stiff = inputs.values()
         most = self.case.load.confining_pressure
@@ -118,12 +121,12 @@ class Surrogate:
         factor = relative / most if most > 0.0 else np.where(relative > 0.0, np.inf, 0.0)
         asked = Conditions(size, wall, mu, factor)
         found = self.solve(asked)
-        pressure, bound = stiff * found.pressure, stiff * found.lower_bound
+        critical, bound = stiff * found.pressure, stiff * found.lower_bound
         quantities = {
             name: stiff * values if name.endswith("pressure") or name == "error" else values
             for name, values in found.quantities.items()
         }
-        scaled = Solved(found.outcome, pressure, bound, quantities)
+        scaled = Solved(found.outcome, critical, bound, quantities)
         return SurrogateAnswers.of(inputs, scaled, ~self.box.contains(asked))
 
     def solve(self, asked: Conditions) -> Solved:

@@ -165,14 +165,13 @@ def shipped():
 
 
 def test_every_shipped_surrogate_is_checked_and_holds_its_errors():
-    # The change of the latex contact by friction is steep where the contact of a thin wall widens
-    # from a line to a band (docs/surrogates.md, "Limits").
-    largest = {("ureter", "paper"): 0.005, ("latex", "paper"): 0.015}
+    # Latex does not reach the 0.5 % that are aimed at, see docs/surrogates.md, "Limits".
+    largest = {("ureter", "paper"): 0.005, ("latex", "paper"): 0.01}
     assert set(shipped_surrogates()) == set(largest)
     for material, model in shipped_surrogates():
         measured = load_surrogate(material, model).about["check"]
         assert measured["compared"] >= 200
-        assert measured["same_outcome"] == measured["cases"] >= 300
+        assert measured["same_outcome"] >= 0.99 * measured["cases"] >= 0.99 * 300
         assert measured["largest"] <= largest[material, model]
         assert measured["within"] >= 0.98
 

@@ -27,7 +27,7 @@ def surrogate_table(surrogate: Surrogate) -> Table:
         "wall ratio η": _span(limits.wall_ratio),
         "friction": _span(limits.friction),
         "confining pressure": f"0 to {case.load.confining_pressure / 1e3:g} kPa",
-        "terms": f"{len(surrogate.learnt.degrees)}",
+        "terms": f"{surrogate.terms}",
     }
     for level in surrogate.about.get("levels", ()):
         rows[f"fitted to {level['accuracy']} {level['options']}"] = f"{level['cases']} cases"

@@ -20,6 +20,7 @@ from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.studies.conditions import Conditions, lumen_ratios
 from stonepass.studies.surrogates.box import Box, Setting, case_at, fit_lumen, narrowest_lumen
+from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain
@@ -71,7 +72,8 @@ def build_surrogate(
     everything = [each for level in solved for each in level.answers]
     _refuse_unsolved(everything)
     physics = SeatedContact.fitted_to(everything)
-    learnt, left_out = None, []
+    learnt: LearntFunctions | None = None
+    left_out = []
     for first in solved:
         level = _refined(case, box, physics, learnt, first, solver)
         values = physics.learnt(case, level.at, level.answers)
@@ -142,7 +144,7 @@ def _refined(
     case: Case,
     box: Box,
     physics: SeatedContact,
-    before: SparsePolynomial | None,
+    before: LearntFunctions | None,
     level: _Solved,
     solver: CaseSolver,
 ) -> _Solved:
@@ -158,7 +160,7 @@ def _refined(
     def pressures(half: slice) -> Float[np.ndarray, " m"]:
         part = _Solved(level.level, level.at.where(_chosen(level, half)), level.answers[half])
         fitted, _ = _corrected(before, part, values[half])
-        found: Float[np.ndarray, " m"] = physics.solve(case, there, fitted(there.unit)).pressure
+        found: Float[np.ndarray, " m"] = physics.solve(case, there, fitted(there)).pressure
         return found
 
     chosen = np.zeros(len(candidates.friction), dtype=bool)
@@ -174,10 +176,11 @@ def _chosen(level: _Solved, part: slice) -> Bool[np.ndarray, " n"]:
 
 
 def _corrected(
-    before: SparsePolynomial | None, level: _Solved, values: Float[np.ndarray, "n functions"]
-) -> tuple[SparsePolynomial, Float[np.ndarray, "n functions"]]:
+    before: LearntFunctions | None, level: _Solved, values: Float[np.ndarray, "n functions"]
+) -> tuple[LearntFunctions, Float[np.ndarray, "n functions"]]:
     """Fit what earlier levels leave over; return all levels together and leave-one-out errors."""
-    rest = values if before is None else values - before(level.at.unit)
+    rest = values if before is None else values - before(level.at)
+    points = level.at.unit if before is None else before.by_width(level.at)
     fitted, left_out = [], np.full(values.shape, np.nan)
     for k in range(values.shape[1]):
         known = np.isfinite(rest[:, k])
@@ -187,21 +190,13 @@ def _corrected(
                 f"at least {FEWEST}", "make the box smaller",
             )  # fmt: skip
         found = fit_polynomial(
-            level.at.unit[known], rest[known, k], level.level.degrees, level.level.total
-        )
+            points[known], rest[known, k], level.level.degrees, level.level.total,
+            None if before is None else level.at.conditions.friction[known],
+        )  # fmt: skip
         fitted.append(found.polynomial)
         left_out[known, k] = found.left_out
-    correction = joined(fitted)
-    if before is None:
-        return correction, left_out
-    return _sum(before, correction), left_out
-
-
-def _sum(one: SparsePolynomial, other: SparsePolynomial) -> SparsePolynomial:
-    """Return the sum of two polynomials with the same functions."""
-    both, count = joined([one, other]), one.coefficients.shape[1]
-    coefficients = both.coefficients[:, :count] + both.coefficients[:, count:]
-    return SparsePolynomial(both.degrees, coefficients)
+    added = joined(fitted)
+    return LearntFunctions(added) if before is None else before.corrected(added), left_out
 
 
 def relative_errors(

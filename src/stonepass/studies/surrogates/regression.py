@@ -46,6 +46,7 @@ def fit_polynomial(
     values: Float[np.ndarray, " n"],
     largest: tuple[int, ...],
     total: int,
+    factor: Float[np.ndarray, " n"] | None = None,
 ) -> Fitted:
     """Fit a sparse polynomial to values at points.
 
@@ -59,9 +60,13 @@ def fit_polynomial(
         Largest degree of a term in each coordinate.
     total : int
         Largest total degree of a term.
+    factor : array (n), optional
+        Known factors: the fitted values are the polynomial times the factor.
     """
     pool = _pool(largest, total)
     columns = chebyshev_products(points, pool)
+    if factor is not None:
+        columns = columns * factor
     favour = DECAY ** pool.sum(axis=1)
     chosen, best = _pursue(columns, values, favour)
     terms = chosen[:best]

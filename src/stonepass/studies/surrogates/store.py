@@ -23,6 +23,7 @@ from stonepass.inputs.case_record import describe_material
 from stonepass.io.text_file import existing, replace_file
 from stonepass.model.case import Case
 from stonepass.studies.surrogates.box import Box
+from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.surrogate import Surrogate
@@ -31,7 +32,7 @@ __all__ = ["load_surrogate", "save_surrogate", "shipped_surrogates"]
 
 FORMAT = 1  # raised if the files change so that older versions cannot be read
 SHIPPED = "shipped"  # folder of the surrogates that come with the package
-_POLYNOMIALS = ("learnt", "error", "lumen")
+_POLYNOMIALS = ("base", "correction", "error", "lumen")
 
 
 def shipped_surrogates() -> list[tuple[str, str]]:
@@ -86,8 +87,9 @@ def save_surrogate(surrogate: Surrogate, path: Path) -> None:
         A file cannot be written.
     """
     arrays: dict[str, Any] = {}
-    for part in _POLYNOMIALS:
-        polynomial = getattr(surrogate, part)
+    learnt = surrogate.learnt
+    parts = (learnt.base, learnt.correction, surrogate.error, surrogate.lumen)
+    for part, polynomial in zip(_POLYNOMIALS, parts, strict=True):
         if polynomial is not None:
             arrays[f"{part}_degrees"] = polynomial.degrees.astype(np.int8)
             arrays[f"{part}_coefficients"] = polynomial.coefficients
@@ -131,18 +133,20 @@ def _read(path: Path) -> Surrogate:
         name = built.ureter.material.name
         raise BadInput("surrogate", path, f"built for the present constants of '{name}'",
                        "build it again")  # fmt: skip
-    polynomials = {
-        part: SparsePolynomial(
-            arrays[f"{part}_degrees"].astype(int), arrays[f"{part}_coefficients"]
-        )
-        for part in _POLYNOMIALS
+    base, correction, error, lumen = (
+        SparsePolynomial(arrays[f"{part}_degrees"].astype(int), arrays[f"{part}_coefficients"])
         if f"{part}_degrees" in arrays
-    }
+        else None
+        for part in _POLYNOMIALS
+    )
+    assert base is not None
+    assert error is not None
+    learnt = LearntFunctions(base, correction)
     physics = SeatedContact(arrays["shear"], arrays["axial"])
     limits = document["box"]
     box = Box(limits["size_ratio"], tuple(limits["wall_ratio"]), tuple(limits["friction"]))
-    return Surrogate(built, box, physics, floor=document["floor_Pa"],
-                     about=document["about"], **polynomials)  # fmt: skip
+    return Surrogate(built, box, physics, learnt, error, document["floor_Pa"], lumen,
+                     document["about"])  # fmt: skip
 
 
 def _material_digest(case: Case) -> str:

@@ -20,6 +20,7 @@ from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions
 from stonepass.studies.surrogates.answers import SurrogateAnswers
 from stonepass.studies.surrogates.box import Box
+from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.solved import LOOSE, NO_SOLUTION, Solved
@@ -45,8 +46,8 @@ class Surrogate:
         The range of the inputs.
     physics : SeatedContact
         Gives the answer for values of the learnt functions.
-    learnt : SparsePolynomial
-        The learnt functions of the four coordinates of the box.
+    learnt : LearntFunctions
+        The learnt functions of the conditions.
     error : SparsePolynomial
         Natural logarithm of the claimed relative error of P_ucr.
     floor : float
@@ -62,7 +63,7 @@ class Surrogate:
     case: Case
     box: Box
     physics: SeatedContact
-    learnt: SparsePolynomial
+    learnt: LearntFunctions
     error: SparsePolynomial
     floor: float
     lumen: SparsePolynomial | None = None
@@ -155,7 +156,7 @@ class Surrogate:
         loose = asked.size_ratio <= lumen
         stuck = inside & ~loose
         at = self.box.setting(self.case, held, lumen, self.narrowest).where(stuck)
-        found = self.physics.solve(self.case, at, self.learnt(at.unit))
+        found = self.physics.solve(self.case, at, self.learnt(at))
         claim = found.pressure * np.exp(self.error(at.unit)[:, 0]) + self.floor
         missing = np.where(inside, 0.0, np.nan)  # P_ucr of a loose stone is 0
         return Solved(
@@ -174,7 +175,7 @@ class Surrogate:
             "options": repr(self.case.model),
             "box": asdict(self.box)
             | {"confining_pressure_Pa": float(self.case.load.confining_pressure)},
-            "terms": len(self.learnt.degrees),
+            "terms": self.terms,
             "claimed_absolute_error_Pa": self.floor,
             **self.about,
             "disclaimer": DISCLAIMER,
@@ -188,6 +189,12 @@ class Surrogate:
             f"η {low:g} to {high:g}, friction {self.box.friction[0]:g} to "
             f"{self.box.friction[1]:g}, confining pressure up to {load:g} kPa>"
         )
+
+    @property
+    def terms(self) -> int:
+        """Number of terms of the polynomials of the learnt functions."""
+        parts = (self.learnt.base, self.learnt.correction)
+        return sum(len(each.degrees) for each in parts if each is not None)
 
     @cached_property
     def narrowest(self) -> float:

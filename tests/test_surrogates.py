@@ -339,3 +339,18 @@ def test_further_cases_are_where_two_fits_differ_and_apart_from_each_other():
     apart = np.linalg.norm(u[chosen][:, None] - u[chosen], axis=2)[~np.eye(6, dtype=bool)]
     assert apart.min() > 0.08
     assert len(least_certain(lambda part: true, u, 6)) == 0
+
+
+def test_cases_of_a_check_are_never_used_to_build():
+    """However many cases a level has, those of the check and of the refinement are left out."""
+    from stonepass.studies.surrogates import build, levels
+
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5))
+    box = Box()
+    level = levels.Level(case, 3000, (1, 1, 1, 0), 1)
+    used = build._sampled(level, box)
+    assert len(used.size_ratio) == 3000
+    reserved = box.sample(case, build.AFTER - 1024, first=1024)
+    assert not set(used.size_ratio) & set(reserved.size_ratio)
+    assert build.POOL + build.CANDIDATES <= build.AFTER
+    assert build.POOL >= 1024 + 300

@@ -17,7 +17,7 @@ from stonepass.model.far_field import (
     inflation,
 )
 
-__all__ = ["Conditions", "lumen_ratios", "transmural"]
+__all__ = ["Conditions", "joined", "lumen_ratios", "transmural"]
 
 
 @array_dataclass
@@ -50,6 +50,16 @@ class Conditions:
             self.friction[chosen],
             self.load_factor[chosen],
         )
+
+
+def joined(one: Conditions, other: Conditions) -> Conditions:
+    """Return the rows of two sets of conditions, those of the first one first."""
+    return Conditions(
+        np.concatenate([one.size_ratio, other.size_ratio]),
+        np.concatenate([one.wall_ratio, other.wall_ratio]),
+        np.concatenate([one.friction, other.friction]),
+        np.concatenate([one.load_factor, other.load_factor]),
+    )
 
 
 def transmural(

@@ -20,11 +20,19 @@ from stonepass.model.far_field import confining_traction, inflation
 from stonepass.model.load import Load
 from stonepass.model.stone import FRICTION, SIZE_RATIO, Stone
 from stonepass.model.ureter import WALL_RATIO, Ureter
-from stonepass.studies.conditions import Conditions, lumen_ratios
+from stonepass.studies.conditions import Conditions, joined, lumen_ratios
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
 from stonepass.units import Pressure, format_pressure
 
-__all__ = ["Box", "Setting", "case_at", "fit_lumen", "narrowest_lumen", "opening_pressure"]
+__all__ = [
+    "HELD_OUT",
+    "Box",
+    "Setting",
+    "case_at",
+    "fit_lumen",
+    "narrowest_lumen",
+    "opening_pressure",
+]
 
 SMALLEST_FRICTION = 0.01  # smallest friction coefficient of a sampled case
 FIRST = 0.04  # smallest root of the relative oversize of a sampled case
@@ -32,6 +40,7 @@ SHIFT = 0.1  # added to this root before the logarithm is taken
 AT_ZERO = 0.15  # part of the range of the load's coordinate that stands for no confining pressure
 LUMEN_DEGREES = (20, 14)  # degrees of the lumen in wall ratio and load factor
 SEED = 20221  # seed of the sampled cases
+HELD_OUT = 1024  # first case of the sequence that is left to checks
 
 
 @dataclass(frozen=True)
@@ -195,14 +204,8 @@ class Setting:
 
     def joined(self, other: Setting) -> Setting:
         """Return the rows of this setting, followed by those of another one."""
-        mine, theirs = self.conditions, other.conditions
         return Setting(
-            Conditions(
-                np.concatenate([mine.size_ratio, theirs.size_ratio]),
-                np.concatenate([mine.wall_ratio, theirs.wall_ratio]),
-                np.concatenate([mine.friction, theirs.friction]),
-                np.concatenate([mine.load_factor, theirs.load_factor]),
-            ),
+            joined(self.conditions, other.conditions),
             np.concatenate([self.confining, other.confining]),
             np.concatenate([self.lumen, other.lumen]),
             np.concatenate([self.root, other.root]),

@@ -19,7 +19,15 @@ from stonepass.model.case import Case
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.studies.conditions import Conditions, lumen_ratios
-from stonepass.studies.surrogates.box import Box, Setting, case_at, fit_lumen, narrowest_lumen
+from stonepass.studies.conditions import joined as together
+from stonepass.studies.surrogates.box import (
+    HELD_OUT,
+    Box,
+    Setting,
+    case_at,
+    fit_lumen,
+    narrowest_lumen,
+)
 from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
@@ -37,6 +45,7 @@ ERROR_DEGREES, ERROR_TOTAL = (2, 2, 2, 2), 2  # degrees of the claimed relative 
 SMALLEST_ERROR = 1e-4  # smallest relative error in the fit of the claimed error
 # Candidates of the refinement, from the sequence of sampled cases after those of a check.
 POOL, CANDIDATES = 2048, 512
+AFTER = 4096  # first case of the sequence after all of these
 FEWEST = 8  # smallest number of answers that a level is fitted to
 
 
@@ -127,7 +136,15 @@ def _refuse_unsolved(answers: Sequence[Answer]) -> None:
 
 
 def _solve(level: Level, box: Box, solver: CaseSolver) -> _Solved:
-    return _solved_at(level, box, box.sample(level.case, level.count), solver)
+    return _solved_at(level, box, _sampled(level, box), solver)
+
+
+def _sampled(level: Level, box: Box) -> Conditions:
+    """Return the cases of a level; those that a check or the refinement takes are left out."""
+    first = box.sample(level.case, min(level.count, HELD_OUT))
+    if level.count <= HELD_OUT:
+        return first
+    return together(first, box.sample(level.case, level.count - HELD_OUT, AFTER))
 
 
 def _solved_at(level: Level, box: Box, at: Conditions, solver: CaseSolver) -> _Solved:

@@ -13,13 +13,12 @@ from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
 from stonepass.studies.case_solver import CaseSolver
 from stonepass.studies.conditions import Conditions
-from stonepass.studies.surrogates.box import case_at
+from stonepass.studies.surrogates.box import HELD_OUT, case_at
 from stonepass.studies.surrogates.solved import OUTCOMES
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["HeldOut", "check_surrogate", "compare", "with_check"]
 
-FIRST = 1024  # number of sampled cases that are left to the construction of surrogates
 CASES = 300  # number of cases of a check
 SMALL = 10.0  # Pa, difference that counts as none in the relative error
 
@@ -72,7 +71,7 @@ def check_surrogate(surrogate: Surrogate, solver: CaseSolver, count: int = CASES
     """
     if count < 1:
         raise BadInput("number of cases", count, "at least 1")
-    asked = surrogate.box.sample(surrogate.case, count, FIRST)
+    asked = surrogate.box.sample(surrogate.case, count, HELD_OUT)
     cases = [case_at(surrogate.case, asked, k) for k in range(len(asked.friction))]
     return compare(surrogate, asked, solver.answers(cases, error=False))
 

@@ -245,7 +245,9 @@ def test_the_fast_search_finds_the_first_balance(shipped, monkeypatch):
     at = {"size_ratio": size, "wall_ratio": wall, "friction": friction}
     quick = shipped.evaluate(**at)
     monkeypatch.setattr(
-        seated_contact, "refined_guess", lambda excess, guess: (guess, np.zeros(len(guess), bool))
+        seated_contact,
+        "refined_guess",
+        lambda excess, guess, step=0.0: (guess, np.zeros(len(guess), bool)),
     )
     full = shipped.evaluate(**at)
     assert (quick.outcome == full.outcome).all()

@@ -10,7 +10,7 @@ import numpy as np
 
 from stonepass.array_types import Bool, Float
 
-__all__ = ["ALL", "Excess", "Rows", "first_crossing", "refined_guess"]
+__all__ = ["ALL", "STEPS", "Excess", "Rows", "first_crossing", "refined_guess"]
 
 SCAN = 9  # number of points of the scan
 REFINEMENTS = 3  # number of steps of Ridders' method, each with two evaluations
@@ -18,8 +18,10 @@ REFINEMENTS = 3  # number of steps of Ridders' method, each with two evaluations
 Rows = Any  # an array of row numbers, or the slice of all rows
 Excess = Callable[[Float[np.ndarray, " m"], Rows], Float[np.ndarray, " m"]]
 ALL = slice(None)
-STEP = 0.02  # distance of the second point of the secant method from the guess
-CLOSE = 2e-4  # largest last step of a secant method that has converged
+STEPS = (0.02, 0.002)  # distances of the second point of the secant method from the guess
+# Largest last step of a secant method that has converged, as a fraction of the distance from x = 1:
+# there a pressure that grows with this distance vanishes.
+CLOSE = 1e-3
 
 
 def first_crossing(
@@ -64,7 +66,7 @@ def first_crossing(
 
 
 def refined_guess(
-    excess: Excess, guess: Float[np.ndarray, " n"]
+    excess: Excess, guess: Float[np.ndarray, " n"], step: float = STEPS[0]
 ) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
     """Improve guesses of zeros by three evaluations of the secant method.
 
@@ -74,6 +76,8 @@ def refined_guess(
         As for `first_crossing`; it is called for all functions.
     guess : array (n)
         Guesses between 0 and 1.
+    step : float
+        Distance of the second point from the guess.
 
     Returns
     -------
@@ -83,14 +87,15 @@ def refined_guess(
         True if the method has converged inside the interval.
     """
     before = excess(guess, ALL)
-    x = guess - np.where((guess > STEP) & ((before > 0.0) | (guess > 1.0 - STEP)), STEP, -STEP)
+    down = (guess > step) & ((before > 0.0) | (guess > 1.0 - step))
+    x = guess - np.where(down, step, -step)
     value = excess(x, ALL)
     second = _secant(guess, before, x, value)
     inside = (second > 0.0) & (second < 1.0)
     second = np.clip(second, 0.0, 1.0)
     last = _secant(x, value, second, excess(second, ALL))
-    sure = inside & (np.abs(last - second) < CLOSE) & (last > 0.0) & (last < 1.0)
-    return np.where(sure, last, 0.0), sure
+    sure = inside & (last > 0.0) & (np.abs(last - second) < CLOSE * (1.0 - last))
+    return np.clip(last, 0.0, 1.0), sure
 
 
 def _secant(

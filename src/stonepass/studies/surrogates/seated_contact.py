@@ -32,7 +32,14 @@ from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.model.monotone import monotone_integral
 from stonepass.model.states.seated_state import Contact, SeatedState
 from stonepass.studies.surrogates.box import Setting, opening_pressure
-from stonepass.studies.surrogates.crossing import ALL, Excess, Rows, first_crossing, refined_guess
+from stonepass.studies.surrogates.crossing import (
+    ALL,
+    STEPS,
+    Excess,
+    Rows,
+    first_crossing,
+    refined_guess,
+)
 from stonepass.studies.surrogates.solved import BEYOND_CLOSURE, MOVES, Solved
 
 __all__ = ["SeatedContact"]
@@ -163,6 +170,10 @@ def _crossing(
     """
     ended = excess(np.zeros(len(guess)), ALL) > 0.0
     x, sure = refined_guess(excess, np.clip(guess, 0.0, 1.0))
+    again = np.flatnonzero(~ended & ~sure)
+    if len(again):
+        nearer = refined_guess(lambda at, _: excess(at, again), x[again], STEPS[1])
+        x[again], sure[again] = nearer
     rest = np.flatnonzero(ended | ~sure)
     found = np.ones(len(guess), dtype=bool)
     if len(rest):

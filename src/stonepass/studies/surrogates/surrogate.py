@@ -28,7 +28,7 @@ from stonepass.units import pressure
 
 __all__ = ["Surrogate"]
 
-CHUNK = 4096  # number of conditions that are evaluated at a time; their arrays fit into the cache
+CHUNK = 32_768  # number of conditions that are evaluated at a time, which bounds the memory
 Given = Any  # a number or an array of numbers
 
 

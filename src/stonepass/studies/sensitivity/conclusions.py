@@ -1,4 +1,4 @@
-"""What a sensitivity study says, in full sentences: what matters most, and what does not."""
+"""Conclusions of a sensitivity study in sentences: which inputs matter most, and which do not."""
 
 from __future__ import annotations
 

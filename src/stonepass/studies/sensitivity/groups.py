@@ -54,7 +54,7 @@ class Groups:
         response : Response
             The response, which may be a yes-or-no number.
         independent : array (m, j)
-            Those values of the complete groups whose variance counts.
+            The values of the complete groups whose variance counts.
         fewest : int
             Smallest number of complete groups.
         """

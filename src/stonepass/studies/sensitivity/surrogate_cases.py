@@ -34,7 +34,7 @@ Array = Float[np.ndarray, " n"]
 
 @runtime_checkable
 class AnsweringSurrogate(Protocol):
-    """What a sensitivity study needs of a surrogate."""
+    """The interface through which a sensitivity study asks a surrogate."""
 
     @property
     def case(self) -> Case:

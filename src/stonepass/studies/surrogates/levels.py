@@ -3,7 +3,7 @@
 The polynomial of each level is fitted to what the polynomials of the levels before it leave over.
 The contact without friction costs a fifth of the contact with friction and does not depend on the
 friction coefficient; what friction changes in it is small, so that few cases suffice to learn it.
-What a finer mesh changes is smaller still.
+The change by a finer mesh is smaller still.
 """
 
 from __future__ import annotations

@@ -230,6 +230,7 @@ class _Balance:
     def of(
         cls, contact: SeatedContact, case: Case, at: Setting, learnt: Float[np.ndarray, "n f"]
     ) -> _Balance:
+        """Return the balance for values of the learnt functions."""
         asked, count = at.conditions, len(contact.shear) - 1
         width = at.root * np.exp(learnt[:, 0])
         S = opening_pressure(case, at) * np.exp(learnt[:, 1])

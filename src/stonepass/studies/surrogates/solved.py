@@ -1,4 +1,4 @@
-"""What the physics of a surrogate returns: outcomes, pressures and lower bounds of many cases."""
+"""The results of the balance of a surrogate: outcomes, pressures, lower bounds of many cases."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ __all__ = ["CaseInputs", "Sweep", "Variant"]
 
 @dataclass(frozen=True)
 class Variant:
-    """One of the models of a sweep.
+    """A model of a sweep with its label and its options.
 
     Attributes
     ----------

@@ -122,8 +122,8 @@ def workers_of(work: Any, executor: Executor | None, count: int | None) -> Itera
     Parameters
     ----------
     work : object
-        What is sent to the workers. If it cannot be pickled, as a user's own function, the work is
-        done in this process.
+        The work that is sent to the workers. It is done in this process if it cannot be pickled,
+        which holds for a user's own function.
     executor : concurrent.futures.Executor or None
         The executor of the caller.
     count : int or None

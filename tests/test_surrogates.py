@@ -10,8 +10,8 @@ from scipy.stats import qmc
 import stonepass as sp
 from stonepass.cli import main as command_line
 from stonepass.errors import BadInput
-from stonepass.studies.conditions import Conditions, lumen_ratios
-from stonepass.studies.surrogates.box import Box, case_at, fit_lumen, narrowest_lumen
+from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
+from stonepass.studies.surrogates.box import Box, fit_lumen, narrowest_lumen
 from stonepass.studies.surrogates.build import build_surrogate
 from stonepass.studies.surrogates.check import check_surrogate
 from stonepass.studies.surrogates.crossing import first_crossing, refined_guess

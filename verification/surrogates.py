@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import replace
 
 import numpy as np
 from cores import on_all_cores
@@ -14,8 +13,8 @@ from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
 import stonepass as sp
 from stonepass.array_types import Float
-from stonepass.studies.conditions import Conditions
-from stonepass.studies.surrogates.box import case_at, opening_pressure
+from stonepass.studies.conditions import Conditions, case_at
+from stonepass.studies.surrogates.box import opening_pressure
 from stonepass.studies.surrogates.check import compare
 from stonepass.studies.surrogates.store import shipped_surrogates
 
@@ -77,7 +76,7 @@ def gaussian_process(surrogate: sp.Surrogate, asked: Conditions, answers: list[s
     """Return the root-mean-square relative error of P_ucr, by cross-validation in five parts."""
     true = np.array([np.nan if each.pressure is None else each.pressure for each in answers])
     known = np.isfinite(true) & (true > 0.0)
-    case = replace(surrogate.case)
+    case = surrogate.case
     at = surrogate.box.setting(case, asked, np.ones(CASES), 1.0).where(known)
     scale = at.conditions.friction * opening_pressure(case, at)
     points, values = at.unit[:, :3], np.log(true[known] / scale)

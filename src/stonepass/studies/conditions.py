@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import elementwise
@@ -16,8 +16,12 @@ from stonepass.model.far_field import (
     far_field_law,
     inflation,
 )
+from stonepass.model.load import Load
+from stonepass.model.stone import Stone
+from stonepass.model.ureter import Ureter
+from stonepass.units import Pressure
 
-__all__ = ["Conditions", "joined", "lumen_ratios", "transmural"]
+__all__ = ["Conditions", "case_at", "joined", "lumen_ratios", "transmural"]
 
 
 @array_dataclass
@@ -50,6 +54,18 @@ class Conditions:
             self.friction[chosen],
             self.load_factor[chosen],
         )
+
+
+def case_at(case: Case, at: Conditions, k: int) -> Case:
+    """Return the k-th case of some conditions; material, load, model and numerics are kept."""
+    load = Load(
+        Pressure(at.load_factor[k] * case.load.confining_pressure),
+        case.load.confinement,
+        case.load.prestretch,
+    )
+    stone = Stone(None, float(at.friction[k]), float(at.size_ratio[k]), shape=case.stone.shape)
+    ureter = Ureter(material=case.ureter.material, wall_ratio=float(at.wall_ratio[k]))
+    return replace(case, stone=stone, ureter=ureter, load=load)
 
 
 def joined(one: Conditions, other: Conditions) -> Conditions:

@@ -25,13 +25,10 @@ from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.far_field import confining_traction, inflation
-from stonepass.model.load import CONFINING, Load
+from stonepass.model.load import CONFINING
 from stonepass.model.numerics import Numerics
-from stonepass.model.stone import Stone
-from stonepass.model.ureter import Ureter
 from stonepass.studies.case_solver import CaseSolver
-from stonepass.studies.conditions import Conditions, lumen_ratios, transmural
-from stonepass.units import Pressure
+from stonepass.studies.conditions import Conditions, case_at, lumen_ratios, transmural
 
 __all__ = ["OVERSIZE", "ResponseSurface", "response_surface"]
 
@@ -227,7 +224,7 @@ def response_surface(case: Case, over: Conditions, solver: CaseSolver) -> Respon
     half_length = max(case.numerics.half_length, longest)
     quick = replace(case, numerics=Numerics("fast", half_length))
     design = _design(case, over)
-    cases = [_case(quick, design, k) for k in range(len(design.friction))]
+    cases = [case_at(quick, design, k) for k in range(len(design.friction))]
     answers = solver.answers(cases, error=False)
     pressures = np.array([_pressure(answer) for answer in answers])
     known = np.isfinite(pressures) & (pressures > 0.0)
@@ -248,17 +245,6 @@ def _pressure(answer: Answer) -> float:
     if answer.outcome is Outcome.BEYOND_CLOSURE and answer.closure_end_pressure is not None:
         return answer.closure_end_pressure
     return np.nan if answer.pressure is None else answer.pressure
-
-
-def _case(case: Case, at: Conditions, k: int) -> Case:
-    load = Load(
-        Pressure(at.load_factor[k] * case.load.confining_pressure),
-        case.load.confinement,
-        case.load.prestretch,
-    )
-    stone = Stone(None, float(at.friction[k]), float(at.size_ratio[k]), shape=case.stone.shape)
-    ureter = Ureter(material=case.ureter.material, wall_ratio=float(at.wall_ratio[k]))
-    return Case(stone, ureter, load, case.model, case.numerics)
 
 
 def _raw(case: Case, at: Conditions) -> Float[np.ndarray, "n 4"]:

@@ -8,7 +8,7 @@ depends on the logarithm of this width. The load enters by the lumen that it lea
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,18 +17,16 @@ from stonepass.array_types import Bool, Float
 from stonepass.errors import require
 from stonepass.model.case import Case
 from stonepass.model.far_field import confining_traction, inflation
-from stonepass.model.load import Load
-from stonepass.model.stone import FRICTION, SIZE_RATIO, Stone
-from stonepass.model.ureter import WALL_RATIO, Ureter
+from stonepass.model.stone import FRICTION, SIZE_RATIO
+from stonepass.model.ureter import WALL_RATIO
 from stonepass.studies.conditions import Conditions, joined, lumen_ratios
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
-from stonepass.units import Pressure, format_pressure
+from stonepass.units import format_pressure
 
 __all__ = [
     "HELD_OUT",
     "Box",
     "Setting",
-    "case_at",
     "fit_lumen",
     "narrowest_lumen",
     "opening_pressure",
@@ -211,18 +209,6 @@ class Setting:
             np.concatenate([self.root, other.root]),
             np.concatenate([self.unit, other.unit]),
         )
-
-
-def case_at(case: Case, at: Conditions, k: int) -> Case:
-    """Return the k-th case of some conditions; material, load, model and numerics are kept."""
-    load = Load(
-        Pressure(at.load_factor[k] * case.load.confining_pressure),
-        case.load.confinement,
-        case.load.prestretch,
-    )
-    stone = Stone(None, float(at.friction[k]), float(at.size_ratio[k]), shape=case.stone.shape)
-    ureter = Ureter(material=case.ureter.material, wall_ratio=float(at.wall_ratio[k]))
-    return replace(case, stone=stone, ureter=ureter, load=load)
 
 
 def opening_pressure(case: Case, at: Setting) -> Float[np.ndarray, " n"]:

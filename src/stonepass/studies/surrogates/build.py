@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,13 +18,12 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.studies.case_solver import CaseSolver, JobSolver
-from stonepass.studies.conditions import Conditions, lumen_ratios
+from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
 from stonepass.studies.conditions import joined as together
 from stonepass.studies.surrogates.box import (
     HELD_OUT,
     Box,
     Setting,
-    case_at,
     fit_lumen,
     narrowest_lumen,
 )
@@ -36,7 +35,7 @@ from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.surrogate import Surrogate
 
-__all__ = ["build_surrogate", "relative_errors"]
+__all__ = ["build_surrogate"]
 
 CLAIM = 0.99  # fraction of the leave-one-out errors that the claimed error covers
 MARGIN = 2.0  # factor on the claimed relative error
@@ -216,16 +215,10 @@ def _corrected(
     return LearntFunctions(added) if before is None else before.corrected(added), left_out
 
 
-def relative_errors(
+def _relative_errors(
     pressure: Float[np.ndarray, " n"], true: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, " n"]:
-    """Return |pressure/true − 1|, after `FLOOR` is deducted from the difference; NaN where unknown.
-
-    Parameters
-    ----------
-    pressure, true : array (n)
-        Pressures in Pa; NaN where a pressure does not exist.
-    """
+    """Return |pressure/true − 1| beyond the claimed absolute error; NaN where one is unknown."""
     with np.errstate(invalid="ignore", divide="ignore"):
         off = np.maximum(np.abs(pressure - true) - FLOOR, 0.0) / true
     return np.where(np.isfinite(off), off, np.nan)
@@ -245,7 +238,7 @@ def _claimed(
     whole = np.isfinite(values[:, :-1]).all(axis=1)
     at, true = level.at.where(whole), np.array([_number(a) for a in level.answers])[whole]
     shifted = np.where(np.isfinite(left), values + left, 0.0)[whole]
-    off = relative_errors(physics.solve(case, at, shifted).pressure, true)
+    off = _relative_errors(physics.solve(case, at, shifted).pressure, true)
     known = np.isfinite(off)
     logarithm = np.log(np.maximum(off[known], SMALLEST_ERROR))
     fitted = fit_polynomial(at.unit[known], logarithm, ERROR_DEGREES, ERROR_TOTAL).polynomial
@@ -268,7 +261,7 @@ def _about(case: Case, solved: Sequence[_Solved]) -> dict[str, Any]:
     ]  # fmt: skip
     return {
         "version": VERSION,
-        "fingerprint": fingerprint(replace(case), case.model, case.numerics),
+        "fingerprint": fingerprint(case, case.model, case.numerics),
         "levels": levels,
         "outcomes": dict(outcomes),
     }

@@ -12,8 +12,8 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput, Outcome
 from stonepass.model.answer import Answer
 from stonepass.studies.case_solver import CaseSolver
-from stonepass.studies.conditions import Conditions
-from stonepass.studies.surrogates.box import HELD_OUT, case_at
+from stonepass.studies.conditions import Conditions, case_at
+from stonepass.studies.surrogates.box import HELD_OUT
 from stonepass.studies.surrogates.solved import OUTCOMES
 from stonepass.studies.surrogates.surrogate import Surrogate
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from stonepass.about import DISCLAIMER
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import BadInput
@@ -166,20 +165,6 @@ class Surrogate:
             {name: _filled(np.full(len(stuck), np.nan), stuck, each) for name, each in
              found.quantities.items()} | {"error": _filled(missing, stuck, claim)},
         )  # fmt: skip
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return box, origin and measured errors as a JSON-ready dictionary."""
-        return {
-            "material": self.case.ureter.material.name,
-            "model": self.case.model.NAME,
-            "options": repr(self.case.model),
-            "box": asdict(self.box)
-            | {"confining_pressure_Pa": float(self.case.load.confining_pressure)},
-            "terms": self.terms,
-            "claimed_absolute_error_Pa": self.floor,
-            **self.about,
-            "disclaimer": DISCLAIMER,
-        }
 
     def __repr__(self) -> str:
         name, load = self.case.ureter.material.name, self.case.load.confining_pressure / 1e3

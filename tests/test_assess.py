@@ -27,6 +27,9 @@ from stonepass.model.case import Case
 from stonepass.model.critical import solve
 from stonepass.model.far_field import inflation, lumen_ratio
 from stonepass.model.load import Load
+from stonepass.model.models.push_through import PushThrough
+from stonepass.model.models.seated_balance import SeatedBalance
+from stonepass.model.shape import Shape
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.records.assess import AssessRecord, assess_record
@@ -43,6 +46,8 @@ from stonepass.studies.case_solver import JobSolver
 from stonepass.studies.censored_samples import Fraction
 from stonepass.studies.conditions import Conditions, lumen_ratios
 from stonepass.studies.response import response_surface
+from stonepass.studies.surrogates.covering import CoveringSurrogate, covering_surrogate
+from stonepass.studies.surrogates.store import load_surrogate
 from stonepass.studies.uncertain_quantity import measured_length, measured_number
 from stonepass.units import Pressure
 
@@ -95,6 +100,11 @@ class MadeUp:
         return Answer(case, *asked, Outcome.MOVES, pressure=pressure + outside)
 
 
+def by_formula(someone, formula=MadeUp()):
+    """Assess with the formula although a surrogate of the package covers the inputs."""
+    return assess(someone, formula, surrogates=False)
+
+
 def test_a_number_with_its_uncertainty():
     bounds = (1e-5, 1.0)
     for text in ("5 mm ± 1 mm", "5 ± 1 mm", "5mm +/- 1mm", "0.5 cm +- 1000 um", "5 mm ± 20 %"):
@@ -130,7 +140,7 @@ def test_a_number_with_its_uncertainty():
 
 
 def test_exact_inputs_give_one_number(tmp_path):
-    found = assess(patient(tmp_path), MadeUp())
+    found = by_formula(patient(tmp_path))
     exact = 1e5 * 0.2 * 1.4 * 0.3 / 0.8
     assert found.central == pytest.approx(exact)
     low, median, high = found.critical.low, found.critical.median, found.critical.high
@@ -147,7 +157,7 @@ def test_shares_are_those_of_a_plain_simulation(tmp_path):
     """A million draws of the formula itself, without a surface."""
     someone = patient(tmp_path, stone="4.2 mm ± 0.5 mm", friction="0.1 to 0.5",
                      inner="3.5 mm ± 0.3 mm", wall="0.7 mm ± 0.1 mm", stiffness="1 ± 0.3")  # fmt: skip
-    found = assess(someone, MadeUp(4e4))
+    found = by_formula(someone, MadeUp(4e4))
     generator = np.random.default_rng(3)
     count = 1_000_000
     inner = generator.normal(3.5, 0.3, count)
@@ -173,7 +183,7 @@ def test_shares_are_those_of_a_plain_simulation(tmp_path):
     assert found.fraction_noise == pytest.approx((below * (1.0 - below) / 1024) ** 0.5)
     assert found.sensitivity[0].name == "stone diameter"
     assert sum(each.total for each in found.sensitivity) > 0.9
-    again, other = (assess(replace(someone, seed=k), MadeUp(4e4)) for k in (1, 2))
+    again, other = (by_formula(replace(someone, seed=k), MadeUp(4e4)) for k in (1, 2))
     assert again.critical == found.critical
     assert other.critical != found.critical
     assert other.below_limit.low == pytest.approx(found.below_limit.low, abs=0.03)
@@ -181,24 +191,87 @@ def test_shares_are_those_of_a_plain_simulation(tmp_path):
 
 def test_twice_as_stiff_needs_twice_the_pressure(tmp_path):
     """Also under a load, by P_ucr(s w, P_out) = s P_ucr(w, P_out/s)."""
-    single = assess(patient(tmp_path, confining="1 kPa"), MadeUp())
-    double = assess(patient(tmp_path, stiffness="2 ± 0", confining="2 kPa"), MadeUp())
+    single = by_formula(patient(tmp_path, confining="1 kPa"))
+    double = by_formula(patient(tmp_path, stiffness="2 ± 0", confining="2 kPa"))
     assert double.central == pytest.approx(2.0 * single.central)
     assert double.critical.median == pytest.approx(2.0 * single.critical.median)
+
+
+class Unused:
+    """A solver that must not be called."""
+
+    def answers(self, cases, *, error=True):
+        raise AssertionError("a case was solved")
+
+
+def test_a_surrogate_answers_where_it_covers_the_inputs(tmp_path, shared_solutions):
+    someone = patient(tmp_path, stone="4.2 mm ± 0.3 mm", stiffness="1.5 ± 0")
+    found = assess(someone, Unused())
+    solved = solve(someone.case(), someone.numerics.resolution)
+    assert found.central == pytest.approx(1.5 * solved.pressure, rel=0.005)
+    assert found.critical.median == pytest.approx(found.central, rel=0.03)
+    assert (found.solves, found.at_values) == (0, None)
+    assert 0.0 < found.surface_error < 0.005
+    record = assess_record(found, "a.toml")
+    assert record.at_values is None
+    assert record.critical_pressure_at_values_kPa == pytest.approx(found.central / 1e3)
+    write_assessment(found, tmp_path / "page.html")
+    assert "the surrogate 'ureter' of the package" in (tmp_path / "page.html").read_text("utf-8")
+
+
+def test_a_surrogate_and_a_response_surface_agree(tmp_path, shared_solutions):
+    someone = patient(tmp_path, stone="4.2 mm ± 0.5 mm", friction="0.1 to 0.4",
+                      wall="0.7 mm ± 0.05 mm")  # fmt: skip
+    quick = replace(someone, samples=256)
+    by_surrogate = assess(quick, Unused())
+    by_surface = assess(quick, JobSolver(), surrogates=False)
+    assert by_surface.at_values is not None
+    assert by_surrogate.central == pytest.approx(by_surface.central, rel=0.005)
+    assert by_surrogate.critical.median == pytest.approx(by_surface.critical.median, rel=0.03)
+    assert by_surrogate.below_limit.low == pytest.approx(by_surface.below_limit.low, abs=0.02)
+    assert by_surrogate.loose == by_surface.loose
+
+
+def test_a_surrogate_covers_its_own_model_walls_and_loads_only(tmp_path):
+    someone = patient(tmp_path)
+    case, at = someone.case(), Conditions(*np.array([[1.2], [1.4], [0.3], [1.0]]))
+    assert covering_surrogate(case, at).covers(at)
+    for other in (
+        replace(case, load=Load(prestretch=1.1)),
+        replace(case, model=SeatedBalance(as_printed=True)),
+        replace(case, model=PushThrough()),
+        replace(case, stone=Stone(size_ratio=1.2, shape=Shape(1.5))),
+    ):
+        assert covering_surrogate(other, at) is None
+    assert covering_surrogate(case, replace(at, wall_ratio=np.array([1.05]))) is None
+
+
+def test_stones_and_walls_outside_the_surrogate_have_bounds(tmp_path):
+    case = patient(tmp_path).case()
+    at = Conditions(
+        np.array([0.9, 1.2, 1.6, 1.9, 1.2, 0.9]),
+        np.array([1.4, 1.4, 1.4, 1.4, 1.05, 1.05]),
+        np.full(6, 0.1),
+        np.ones(6),
+    )
+    pressure, censored = CoveringSurrogate(case, load_surrogate("ureter"))(at)
+    assert censored.tolist() == [False, False, False, True, True, False]
+    assert pressure[[0, 4, 5]].tolist() == [0.0, 0.0, 0.0]
+    assert pressure[3] == pressure[2] > pressure[1] > 0.0
 
 
 def test_present_pressure_is_the_far_field(tmp_path):
     """13.207 kPa at η 1.3 and r_a/R_a 1.2 (Eq. 22, evaluated independently)."""
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0 mm"'
-    found = assess(patient(tmp_path, wall="0.525 mm ± 0 mm", dilated=dilated), MadeUp())
+    found = by_formula(patient(tmp_path, wall="0.525 mm ± 0 mm", dilated=dilated))
     assert found.present.median == pytest.approx(13.207e3, rel=1e-4)
     assert found.below_present == Fraction(1.0, 1.0)
     narrow = '[dilated]\ninner_diameter = "3 mm ± 0 mm"'
-    found = assess(patient(tmp_path, dilated=narrow), MadeUp())
+    found = by_formula(patient(tmp_path, dilated=narrow))
     assert found.present.high == 0.0
     assert any("no wider than the ureter" in str(sentence) for sentence in found.warnings)
     wide = '[dilated]\ninner_diameter = "9 mm ± 0 mm"'
-    found = assess(patient(tmp_path, dilated=wide), MadeUp())
+    found = by_formula(patient(tmp_path, dilated=wide))
     assert found.present.median is None
     law = fibres_of(found.patient.material.law)
     assert found.present.at_least == pytest.approx(float(inflation(1.8, 1.4, law)))
@@ -208,19 +281,19 @@ def test_present_pressure_is_the_far_field(tmp_path):
 def test_both_dilated_diameters_are_weighed_by_the_walls_volume(tmp_path):
     """A sharp outer diameter of the dilated segment pins the inner one: r_b² − r_a² stays."""
     dilated = '[dilated]\ninner_diameter = "4.5 mm ± 1 mm"\nouter_diameter = "5.8 mm ± 0.05 mm"'
-    found = assess(patient(tmp_path, dilated=dilated), MadeUp())
+    found = by_formula(patient(tmp_path, dilated=dilated))
     expected = np.sqrt(5.8**2 - (4.9**2 - 3.5**2)) / 3.5
     assert np.mean(found.at_present.opening) == pytest.approx(expected, rel=0.01)
     assert np.std(found.at_present.opening) < 0.03
     assert found.possible == 1.0
     impossible = dilated.replace("5.8", "20")
     with pytest.raises(BadInput, match="constant volume"):
-        assess(patient(tmp_path, dilated=impossible), MadeUp())
+        by_formula(patient(tmp_path, dilated=impossible))
 
 
 def test_what_is_not_known_is_a_bound(tmp_path):
     someone = patient(tmp_path, stone="8 mm ± 2 mm", inner="3 mm ± 0.2 mm")
-    found = assess(someone, MadeUp(1e4))
+    found = by_formula(someone, MadeUp(1e4))
     assert found.critical.high is None
     assert found.critical.at_least > 0.0
     assert found.below_limit.high > found.below_limit.low + 0.1
@@ -230,9 +303,9 @@ def test_what_is_not_known_is_a_bound(tmp_path):
 
 def test_thin_walls_without_an_answer_are_not_decided(tmp_path):
     someone = patient(tmp_path, wall="0.7 mm ± 0.2 mm", stone="4.2 mm ± 0.3 mm")
-    found = assess(someone, MadeUp(thinnest=1.12))
+    found = by_formula(someone, MadeUp(thinnest=1.12))
     assert 0.001 < np.mean(found.samples.censored) < 0.2
-    lost = assess(someone, MadeUp(thinnest=9.0))
+    lost = by_formula(someone, MadeUp(thinnest=9.0))
     assert lost.outcome is Outcome.NO_SOLUTION
     assert "The wall buckles." in lost.message
     record = assess_record(lost, "a.toml")
@@ -243,7 +316,7 @@ def test_thin_walls_without_an_answer_are_not_decided(tmp_path):
 def test_without_a_surface_what_needs_none_is_told(tmp_path):
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0 mm"'
     someone = patient(tmp_path, wall="0.525 mm ± 0.01 mm", dilated=dilated)
-    lost = assess(someone, MadeUp(thinnest=9.0))
+    lost = by_formula(someone, MadeUp(thinnest=9.0))
     assert lost.outcome is Outcome.NO_SOLUTION
     assert lost.present.median == pytest.approx(13.2e3, rel=0.01)
     write_assessment(lost, tmp_path / "page.html")
@@ -253,7 +326,7 @@ def test_without_a_surface_what_needs_none_is_told(tmp_path):
 def test_the_beam_is_refused(tmp_path):
     beam = '[method]\nmodel = "beam"\nsecant_stretch = 1.2'
     with pytest.raises(BadInput, match="model is beam, but must be a model with finite elements: "):
-        assess(patient(tmp_path, dilated=beam), MadeUp())
+        by_formula(patient(tmp_path, dilated=beam))
 
 
 def test_shares_are_no_verdicts():
@@ -263,7 +336,7 @@ def test_shares_are_no_verdicts():
 
 def test_a_class_is_compared_with_its_own_samples(tmp_path):
     """A stone of exactly 4.2 mm is of the class 4 mm: the share beside it is that of page one."""
-    found = assess(patient(tmp_path, friction="0.05 to 0.5"), MadeUp())
+    found = by_formula(patient(tmp_path, friction="0.05 to 0.5"))
     rows = [row for row in found.cohorts if row.group == "4 mm"]
     assert len(rows) == 1
     assert found.beside(rows[0]) == found.below_limit
@@ -334,7 +407,7 @@ def test_contradictions_are_told(tmp_path):
     assert contradiction(0.1, Fraction(0.5, 0.6)) == FEWER
     assert contradiction(0.1, Fraction(0.5, 0.9)) == "undecided by the model"
     assert contradiction(0.65, Fraction(0.6, 0.7)) == "near the model"
-    found = assess(patient(tmp_path, stone="4.2 mm ± 0.3 mm"), MadeUp(1e6))
+    found = by_formula(patient(tmp_path, stone="4.2 mm ± 0.3 mm"), MadeUp(1e6))
     comparisons = {row.comparison for row in assess_record(found, "a.toml").cohorts}
     assert MORE in comparisons
 
@@ -379,7 +452,7 @@ def test_what_the_file_leaves_open_is_assumed_aloud(tmp_path):
     someone = read_patient(path)
     assert len(someone.assumed) == 2
     assert (someone.measured["friction"].low, someone.measured["friction"].high) == (0.05, 0.5)
-    assert set(someone.assumed) <= set(assess(someone, MadeUp()).warnings)
+    assert set(someone.assumed) <= set(by_formula(someone).warnings)
 
 
 @pytest.fixture(scope="module")
@@ -388,7 +461,7 @@ def contradicting(tmp_path_factory):
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0.5 mm"'
     someone = patient(tmp_path_factory.mktemp("someone"), stone="4.6 mm ± 1 mm",
                       friction="0.05 to 0.5", dilated=dilated)  # fmt: skip
-    return assess(replace(someone, title="Case 12 <b>"), MadeUp())
+    return by_formula(replace(someone, title="Case 12 <b>"))
 
 
 def test_an_assessment_is_shown_like_other_results(contradicting):
@@ -446,7 +519,7 @@ def test_decisions_follow_the_samples(contradicting, tmp_path):
         f"it is below the limit in {held} of the simulated" in each.sentence for each in asked
     )
     assert "stone diameter contributes most" in next_measurement(contradicting)
-    certain = assess(patient(tmp_path), MadeUp())  # 10.5 kPa, exactly
+    certain = by_formula(patient(tmp_path))  # 10.5 kPa, exactly
     told = {each.sentence: each.decided for each in decisions(certain)}
     above = next(sentence for sentence in told if "is above the limit of 6 kPa" in sentence)
     assert told[above]
@@ -511,13 +584,13 @@ def test_the_sketch_is_to_scale(contradicting, tmp_path):
     assert outer[-1] - inner[-1] == pytest.approx(0.7, rel=1e-3)
     assert outer[0] ** 2 - inner[0] ** 2 == pytest.approx(outer[-1] ** 2 - inner[-1] ** 2)
     assert max(inner) >= 2.3 - 1e-6  # the wall does not cut the stone
-    small = assess(patient(tmp_path, stone="3 mm ± 0 mm"), MadeUp())
+    small = by_formula(patient(tmp_path, stone="3 mm ± 0 mm"))
     assert sketch_figure(small).axes  # a stone within the lumen
 
 
 def test_the_record_is_whole(tmp_path):
     dilated = '[dilated]\ninner_diameter = "4.2 mm ± 0.5 mm"'
-    record = assess_record(assess(patient(tmp_path, dilated=dilated), MadeUp()), "a.toml")
+    record = assess_record(by_formula(patient(tmp_path, dilated=dilated)), "a.toml")
     assert len(record.to_dict()) > 15
     assert AssessRecord.model_validate(json.loads(json.dumps(record.to_dict()))) == record
 

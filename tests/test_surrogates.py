@@ -10,8 +10,9 @@ from scipy.stats import qmc
 import stonepass as sp
 from stonepass.cli import main as command_line
 from stonepass.errors import BadInput
+from stonepass.model.states.stability import axisymmetric_buckling
 from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
-from stonepass.studies.surrogates.box import Box, fit_lumen, narrowest_lumen
+from stonepass.studies.surrogates.box import Box, fit_lumen
 from stonepass.studies.surrogates.build import build_surrogate
 from stonepass.studies.surrogates.check import check_surrogate
 from stonepass.studies.surrogates.crossing import first_crossing, refined_guess
@@ -19,6 +20,7 @@ from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
+from stonepass.studies.surrogates.stable_loads import MARGIN, StableLoads, stable_loads
 from stonepass.studies.surrogates.store import load_surrogate, save_surrogate, shipped_surrogates
 
 
@@ -101,14 +103,17 @@ def test_a_guess_is_refined_or_given_up():
 def test_the_box_is_sampled_inside_and_the_same_every_time():
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5), sp.Load("4 kPa"))
     box = Box(friction=(0.1, 0.8))
-    whole = box.sample(case, 64)
+    stable = stable_loads(case, box.wall_ratio)
+    whole = box.sample(case, stable, 64)
     assert box.contains(whole).all()
-    later = box.sample(case, 16, first=48)
+    assert (whole.load_factor <= stable(whole.wall_ratio)).all()
+    later = box.sample(case, stable, 16, first=48)
     assert np.array_equal(later.size_ratio, whole.size_ratio[48:])
     assert 0.1 < np.mean(whole.load_factor == 0.0) < 0.4
     lumen = lumen_ratios(case, whole.wall_ratio, whole.load_factor)
     assert (whole.size_ratio > lumen).all()
-    at = box.setting(case, whole, lumen, narrowest_lumen(case, box))
+    assert lumen.min() >= stable.narrowest
+    at = box.setting(case, whole, lumen, stable.narrowest)
     assert at.unit.min() >= 0.0
     assert at.unit.max() <= 1.0
 
@@ -117,11 +122,36 @@ def test_the_lumen_is_that_of_the_far_field():
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material="latex"),
                    sp.Load("8 kPa"))  # fmt: skip
     box = Box()
-    asked = box.sample(case, 64)
+    asked = box.sample(case, any_load(), 64)
     polynomial = fit_lumen(case, box)
     u = np.stack([box.wall_coordinate(asked), asked.load_factor], axis=1)
     lumen = lumen_ratios(case, asked.wall_ratio, asked.load_factor)
     assert np.abs(polynomial(u)[:, 0] - lumen).max() < 1e-9
+
+
+def test_the_largest_load_is_a_fraction_of_that_at_which_the_tube_buckles():
+    """The thin wall is limited by buckling, the thick one by the load of the case."""
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5), sp.Load("10 kPa"))
+    found = stable_loads(case, (1.2, 2.0))
+    assert (np.diff(found.factor) >= 0.0).all()
+    assert found.factor[-1] == 1.0
+    edge = float(found(np.array([1.2]))[0]) / MARGIN
+
+    def buckles(factor):
+        at = Conditions(np.ones(1), np.array([1.2]), np.zeros(1), np.array([factor]))
+        return axisymmetric_buckling(case_at(case, at, 0), case.numerics.half_length)
+
+    assert not buckles(0.99 * edge)
+    assert "half-waves" in buckles(1.01 * edge)
+    unloaded = stable_loads(replace(case, load=sp.Load()), (1.2, 2.0))
+    assert (unloaded.factor == 1.0).all()
+    assert unloaded.narrowest == 1.0
+
+
+def test_a_load_that_closes_the_lumen_is_refused():
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5), sp.Load("90 kPa"))
+    with pytest.raises(BadInput, match="keeps a lumen"):
+        stable_loads(case, (1.1, 2.0))
 
 
 @pytest.mark.parametrize("load", ["0 kPa", "3 kPa"])
@@ -144,12 +174,17 @@ def test_the_learnt_contact_gives_the_pressure_of_the_model(shared_solutions, lo
     )
     answers = [sp.solve(case_at(case, asked, k), case.numerics.resolution) for k in range(3)]
     lumen = lumen_ratios(case, asked.wall_ratio, asked.load_factor)
-    at = box.setting(case, asked, lumen, narrowest_lumen(case, box))
+    at = box.setting(case, asked, lumen, float(lumen[0]))
     physics = SeatedContact.fitted_to(answers)
     solved = physics.solve(case, at, physics.learnt(case, at, answers))
     assert solved.pressure == pytest.approx([each.pressure for each in answers], rel=3e-4)
     angles = [each.contact.contact_angle for each in answers]
     assert solved.quantities["contact_angle"] == pytest.approx(angles, abs=1e-12)
+
+
+def any_load(narrowest=1.0):
+    """Return loads up to that of the case for all walls of a box."""
+    return StableLoads(np.array([1.1, 4.0]), np.ones(2), narrowest)
 
 
 def main(arguments):
@@ -350,9 +385,10 @@ def test_cases_of_a_check_are_never_used_to_build():
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5))
     box = Box()
     level = levels.Level(case, 3000, (1, 1, 1, 0), 1)
-    used = build._sampled(level, box)
+    domain = build._Domain(box, any_load())
+    used = build._sampled(level, domain)
     assert len(used.size_ratio) == 3000
-    reserved = box.sample(case, build.AFTER - 1024, first=1024)
+    reserved = domain.sample(case, build.AFTER - 1024, first=1024)
     assert not set(used.size_ratio) & set(reserved.size_ratio)
     assert build.POOL + build.CANDIDATES <= build.AFTER
     assert build.POOL >= 1024 + 300

@@ -278,7 +278,7 @@ SENTENCES = {
         "the diameters are too uncertain; the remaining samples vary less than the measurements do"
     ),
     "surface_error": (
-        "the response surface, from which the samples are computed, has errors of up to {error:.0%}"
+        "the critical pressures of the samples are interpolated with errors of up to {error:.0%}"
     ),
     # --- sensitivity
     "cases_refused": (

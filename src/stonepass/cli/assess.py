@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stonepass.about import DISCLAIMER
-from stonepass.cli.help import OUTPUT, QUESTION, epilog
+from stonepass.cli.help import OUTPUT, QUESTION, SOLVER, epilog
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
 
 if TYPE_CHECKING:
     from stonepass.clinic.patient import Patient
+    from stonepass.model.answer import Answer
+    from stonepass.model.case import Case
 
 __all__ = ["EPILOG", "command"]
 
@@ -61,6 +64,14 @@ def command(
             rich_help_panel=OUTPUT,
         ),
     ] = None,
+    solve: Annotated[
+        bool,
+        typer.Option(
+            "--solve",
+            help="Solve about fifty cases although a surrogate of the package covers the inputs.",
+            rich_help_panel=SOLVER,
+        ),
+    ] = False,
     cache: Cache = None,
     no_cache: NoCache = False,
     workers: Workers = None,
@@ -71,7 +82,7 @@ def command(
     stones of this size and place in published cohorts. It is not a probability of passage.
     Published pressures that may serve as the limit are 2, 4, 6, 8 and 12 kPa.
     """
-    from stonepass.cli.terminal import announce, counting, print_json, show, warn, writable, wrote
+    from stonepass.cli.terminal import print_json, show, warn, writable, wrote
 
     writable(html, (".html", ".htm"))
     patient = _patient(patient_file, limit)
@@ -79,19 +90,17 @@ def command(
     from stonepass.clinic.decisions import CONTRADICTIONS
     from stonepass.records.assess import CAUTION, assess_record
     from stonepass.report.assess_report import assess_summary, assess_tables
-    from stonepass.studies.case_solver import JobSolver
-    from stonepass.studies.executor import CORES, process_pool
+    from stonepass.studies.executor import CORES
 
-    folder, count = cache_folder(cache, no_cache), workers or CORES
-    announce("solving about fifty cases", SECONDS / count, remembers=folder is not None)
-    with process_pool(count) as pool, counting("solving the cases") as progress:
-        found = assess(patient, JobSolver(pool, folder, progress))
+    solver = _Solver(cache_folder(cache, no_cache), workers or CORES)
+    found = assess(patient, solver, surrogates=not solve)
     if json:
         print_json(assess_record(found, patient_file.name).to_dict())
     else:
         # Contradictions stand at the head of the result itself.
         warn(each for each in found.warnings if each.code not in CONTRADICTIONS)
-        warn([f"at the measured values {each}" for each in found.at_values.warnings])
+        if found.at_values is not None:
+            warn([f"at the measured values {each}" for each in found.at_values.warnings])
         show(*assess_summary(found), *assess_tables(found), CAUTION, DISCLAIMER)
     if html is not None:
         from stonepass.report.assess_page import write_assessment
@@ -99,6 +108,28 @@ def command(
         write_assessment(found, html)
         wrote(html)
     return 0 if found.outcome.answered else 1
+
+
+class _Solver:
+    """A case solver that starts its processes when it is first needed, and shows its progress."""
+
+    def __init__(self, folder: Path | None, workers: int) -> None:
+        self.folder, self.workers = folder, workers
+        self.announced = False
+
+    def answers(self, cases: Sequence[Case], *, error: bool = True) -> list[Answer]:
+        """Return the answer of every case; see `stonepass.studies.case_solver.CaseSolver`."""
+        from stonepass.cli.terminal import announce, counting
+        from stonepass.studies.case_solver import JobSolver
+        from stonepass.studies.executor import process_pool
+
+        if not self.announced:
+            seconds = SECONDS / self.workers
+            announce("solving about fifty cases", seconds, remembers=self.folder is not None)
+            self.announced = True
+        count = min(self.workers, len(cases))
+        with process_pool(count) as pool, counting("solving the cases") as progress:
+            return JobSolver(pool, self.folder, progress).answers(cases, error=error)
 
 
 def _patient(path: Path, limit: str | None) -> Patient:

@@ -1,8 +1,9 @@
 """Assessment of one patient's stone by Monte Carlo samples of the measured quantities.
 
 Samples of the inputs follow a scrambled Sobol sequence with a fixed seed. Samples that describe no
-possible wall are rejected. A response surface through solved cases gives the critical pressure of
-the other samples (docs/assess.md).
+possible wall are rejected. The critical pressures of the other samples come from a surrogate of the
+package, or from a response surface through solved cases if no surrogate covers them
+(docs/assess.md).
 """
 
 from __future__ import annotations
@@ -25,9 +26,11 @@ from stonepass.model.far_field import confining_traction
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.studies.censored_samples import Fraction, fraction_below, interval, median_noise
 from stonepass.studies.conditions import lumen_ratios, transmural
+from stonepass.studies.critical_pressures import CriticalPressures
 from stonepass.studies.response import OVERSIZE, ResponseSurface, response_surface
 from stonepass.studies.sampling import Draws
 from stonepass.studies.sensitivity_indices import SensitivityIndex, rank_sensitivity
+from stonepass.studies.surrogates.covering import covering_surrogate
 
 __all__ = ["assess"]
 
@@ -41,7 +44,9 @@ NOT_OF_RESISTANCE = ("dilated_inner_diameter", "dilated_outer_diameter")
 MOST_LOST = 0.5  # largest fraction of samples whose nearest case has no answer
 
 
-def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
+def assess(
+    patient: Patient, solver: CaseSolver | None = None, *, surrogates: bool = True
+) -> Assessment:
     """Assess the stone of one patient.
 
     Parameters
@@ -49,7 +54,10 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     patient : Patient
         Measured quantities with their uncertainties, and the pressure limit.
     solver : CaseSolver, optional
-        Solves about fifty cases; by default in this process, without a cache.
+        Solves about fifty cases if no surrogate of the package covers the inputs; by default in
+        this process, without a cache.
+    surrogates : bool
+        False if the cases are solved although a surrogate covers them.
 
     Returns
     -------
@@ -66,42 +74,53 @@ def assess(patient: Patient, solver: CaseSolver | None = None) -> Assessment:
     ----------
     Liu et al. 2022, section 4; docs/assess.md, "What is done".
     """
-    solver = solver or JobSolver(progress=True)
     check(patient.material)
-    case = patient.case()
     draws, possible = draw_patient(patient)
-    at_values = solver.answers([case])[0]
     # `conditions` divides the confining pressure of each sample by the stiffness of that sample.
-    under_load = replace(case, load=patient.load)
+    under_load = replace(patient.case(), load=patient.load)
+    at = conditions(draws)
     present = _present(patient, under_load, draws)
-    surface = response_surface(under_load, conditions(draws), solver)
     known = Assessment(
         patient=patient,
         outcome=Outcome.NO_SOLUTION,
         message="",
-        at_values=at_values,
         cohorts=_cohorts(patient),
         present=None if present is None else interval(present.pressure, present.censored),
         at_present=present,
         possible=possible,
-        solves=surface.tried + 1,
     )
-    samples = _samples(surface, draws) if surface.usable else None
-    if samples is None or float(np.mean(samples.censored & (samples.critical == 0.0))) > MOST_LOST:
-        return replace(known, message=_lost(surface), warnings=assessment_warnings(known))
+    source = covering_surrogate(under_load, at) if surrogates else None
+    if source is not None:
+        return _assessed(known, source, draws)
+    solver = solver or JobSolver(progress=True)
+    at_values = solver.answers([patient.case()])[0]
+    surface = response_surface(under_load, at, solver)
+    known = replace(known, at_values=at_values, solves=surface.tried + 1, message=_lost(surface))
+    if not surface.usable:
+        return replace(known, warnings=assessment_warnings(known))
+    return _assessed(known, surface, draws)
+
+
+def _assessed(known: Assessment, source: CriticalPressures, draws: Draws) -> Assessment:
+    """Return the assessment with the critical pressures of all samples."""
+    patient, present = known.patient, known.at_present
+    samples = _samples(source, draws)
+    if float(np.mean(samples.censored & (samples.critical == 0.0))) > MOST_LOST:
+        return replace(known, warnings=assessment_warnings(known))
     below = samples.below(patient.limit)
     found = replace(
         known,
         outcome=Outcome.MOVES,
+        central=_central(known, source),
         critical=interval(samples.critical, samples.censored),
         median_noise=median_noise(samples.critical, samples.censored),
         below_limit=below,
         below_present=None if present is None else samples.below(present),
         loose=float(np.mean(samples.loose)),
-        sensitivity=_sensitivity(patient, surface, samples),
-        by_size=_by_size(patient, surface, draws),
+        sensitivity=_sensitivity(patient, source, samples),
+        by_size=_by_size(patient, source, draws),
         samples=samples,
-        surface_error=float(np.quantile(surface.errors, 0.95)),
+        surface_error=source.error,
     )
     return replace(found, message=_headline(found, below), warnings=assessment_warnings(found))
 
@@ -128,21 +147,21 @@ def _lost(surface: ResponseSurface) -> str:
 
 
 def _critical(
-    surface: ResponseSurface, draws: Draws
+    source: CriticalPressures, draws: Draws
 ) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
     """Return P_ucr in Pa of n samples, and which values are only lower bounds.
 
     For a wall that is s times as stiff P_ucr is s P_ucr(P_out/s), see "A stiffer wall" in
     docs/theory.md.
     """
-    found, censored = surface(conditions(draws))
+    found, censored = source(conditions(draws))
     return draws["stiffness"] * found, censored
 
 
-def _samples(surface: ResponseSurface, draws: Draws) -> Samples:
-    critical, censored = _critical(surface, draws)
+def _samples(source: CriticalPressures, draws: Draws) -> Samples:
+    critical, censored = _critical(source, draws)
     at = conditions(draws)
-    lumen = lumen_ratios(surface.case, at.wall_ratio, at.load_factor)
+    lumen = lumen_ratios(source.case, at.wall_ratio, at.load_factor)
     loose = at.size_ratio <= lumen
     return Samples(critical, censored, loose, at.size_ratio, 1e3 * draws["stone_diameter"])
 
@@ -164,8 +183,19 @@ def _present(patient: Patient, case: Case, draws: Draws) -> Present | None:
     return Present(np.maximum(across, 0.0) + outside, opening > WIDEST, opening)
 
 
+def _central(known: Assessment, source: CriticalPressures) -> float | None:
+    """Return P_ucr in Pa at the measured values: by a solve if there is one, else by the source."""
+    measured = known.patient.measured
+    if known.at_values is not None:
+        pressure = known.at_values.pressure
+        return None if pressure is None else measured["stiffness"].value * pressure
+    values = {name: np.array([each.value]) for name, each in measured.items()}
+    critical, censored = _critical(source, values)
+    return None if censored[0] else float(critical[0])
+
+
 def _sensitivity(
-    patient: Patient, surface: ResponseSurface, samples: Samples
+    patient: Patient, source: CriticalPressures, samples: Samples
 ) -> tuple[SensitivityIndex, ...]:
     """Return the total sensitivity indices of the inputs for the rank of P_ucr."""
     uncertain = {
@@ -177,19 +207,19 @@ def _sensitivity(
     def critical(draws: Draws) -> Float[np.ndarray, " n"]:
         count = len(next(iter(draws.values())))
         others = {name: np.full(count, each.value) for name, each in patient.measured.items()}
-        return _critical(surface, {**others, **draws})[0]
+        return _critical(source, {**others, **draws})[0]
 
     found = rank_sensitivity(critical, uncertain, samples.critical, patient.seed)
     return tuple(replace(each, name=INPUTS[each.name]) for each in found)
 
 
 def _by_size(
-    patient: Patient, surface: ResponseSurface, draws: Draws
+    patient: Patient, source: CriticalPressures, draws: Draws
 ) -> tuple[tuple[float, Fraction], ...]:
     found = []
     for size in SIZES:
         fixed = {**draws, "stone_diameter": np.full(len(draws["friction"]), size / 1e3)}
-        critical, censored = _critical(surface, fixed)
+        critical, censored = _critical(source, fixed)
         found.append((float(size), fraction_below(critical, censored, patient.limit)))
     return tuple(found)
 

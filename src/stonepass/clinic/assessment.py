@@ -40,12 +40,15 @@ class Assessment(Result):
         MOVES, or NO_SOLUTION if the model has an answer for too few of the possible cases.
     message : str
         The outcome as a sentence.
-    at_values : Answer
-        Answer at the measured values, except that the wall has the stiffness of the material, and
-        the confining pressure is divided by the measured relative stiffness s. P_ucr at the
-        measured values is s times the pressure of this answer.
     cohorts : tuple of Row
         Published passage rates of stones of this size and place.
+    at_values : Answer or None
+        Answer at the measured values, except that the wall has the stiffness of the material, and
+        the confining pressure is divided by the measured relative stiffness s. P_ucr at the
+        measured values is s times the pressure of this answer. It is None if nothing was solved,
+        because a surrogate of the package covers the inputs.
+    central : float or None
+        P_ucr in Pa at the measured values; None if it is not known.
     critical : Range or None
         Median and 90 % interval of the critical pressure P_ucr in Pa.
     present : Range or None
@@ -64,15 +67,16 @@ class Assessment(Result):
     median_noise : float or None
         Standard error of the median of P_ucr in Pa that is due to the number of samples.
     samples : Samples or None
-        The samples; None without a response surface.
+        The samples; None if the model has an answer for too few cases.
     at_present : Present or None
         Present urine pressure of the samples.
     possible : float
         Fraction of the drawn samples that describe a possible wall, 0 to 1.
     solves : int
-        Number of solved cases.
+        Number of solved cases; 0 if a surrogate of the package covers the inputs.
     surface_error : float
-        95th percentile of the relative cross-validation error of the response surface.
+        95th percentile of the relative error of P_ucr of the samples: of the response surface by
+        leaving out one case at a time, or of the surrogate by held-out cases.
     warnings : tuple of Caution
         Warnings about assumptions, extrapolation and contradictions.
 
@@ -84,8 +88,9 @@ class Assessment(Result):
     patient: Patient
     outcome: Outcome
     message: str
-    at_values: Answer
     cohorts: tuple[Row, ...]
+    at_values: Answer | None = None
+    central: float | None = None
     critical: Range | None = None
     present: Range | None = None
     below_limit: Fraction | None = None
@@ -146,9 +151,3 @@ class Assessment(Result):
         It is 0 if there is no such fraction.
         """
         return 0.0 if self.below_limit is None else self.below_limit.noise(self.patient.samples)
-
-    @property
-    def central(self) -> float | None:
-        """P_ucr in Pa at the measured values; None if the model has no answer there."""
-        pressure = self.at_values.pressure
-        return None if pressure is None else self.patient.measured["stiffness"].value * pressure

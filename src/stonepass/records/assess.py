@@ -120,12 +120,17 @@ class AssessInputsRecord(PartRecord):
 
 
 class SurfaceAccuracyRecord(PartRecord):
-    """The accuracy of the samples and of the response surface."""
+    """The accuracy of the samples and of their critical pressures."""
 
     possible: float = Field(description="fraction of the draws that describe a possible wall")
-    solves: int = Field(description="number of solved cases behind the response surface")
+    solves: int = Field(
+        description="number of solved cases; 0 if a surrogate of the package covers the inputs"
+    )
     surface_error: float = Field(
-        description="95th percentile of the response surface's relative error"
+        description=(
+            "95th percentile of the relative error of P_ucr of the samples: of the response "
+            "surface by leaving out one case at a time, or of the surrogate by held-out cases"
+        )
     )
     median_noise_kPa: float | None = Field(
         description=(
@@ -151,11 +156,12 @@ class AssessRecord(Record):
     critical_pressure_at_values_kPa: float | None = Field(
         description="P_ucr at the measured values"
     )
-    at_values: AnswerRecord = Field(
+    at_values: AnswerRecord | None = Field(
         description=(
-            "answer at the measured values, except that the wall has the stiffness of the material "
-            "and the confining pressure is divided by the measured relative stiffness s; P_ucr at "
-            "the measured values is s times the pressure of this answer"
+            "solved answer at the measured values, except that the wall has the stiffness of "
+            "the material and the confining pressure is divided by the measured relative "
+            "stiffness s; P_ucr at the measured values is s times the pressure of this answer; "
+            "null if nothing was solved, because a surrogate of the package covers the inputs"
         )
     )
     present_pressure_kPa: PressureRangeRecord | None = Field(
@@ -189,7 +195,7 @@ class AssessRecord(Record):
     )
     inputs: AssessInputsRecord = Field(description="measurements and settings of the assessment")
     accuracy: SurfaceAccuracyRecord = Field(
-        description="accuracy of the samples and of the response surface"
+        description="accuracy of the samples and of their critical pressures"
     )
     level: float = Field(description="probability level of the intervals")
     cannot_decide: list[str] = Field(
@@ -220,7 +226,7 @@ def assess_record(found: Assessment, file: str) -> AssessRecord:
         message=found.message,
         critical_pressure_kPa=_range(found.critical),
         critical_pressure_at_values_kPa=kilo(found.central),
-        at_values=answer_record(found.at_values),
+        at_values=None if found.at_values is None else answer_record(found.at_values),
         present_pressure_kPa=_range(found.present),
         critical_below_limit=_fraction(found.below_limit),
         critical_below_limit_where_held=_fraction(found.below_limit_held),

@@ -270,11 +270,20 @@ def _how(found: Assessment) -> str:
     patient = found.patient
     if found.samples is None:
         return f"{found.solves} cases were solved."
+    count, error = len(found.samples.critical), f"{100.0 * found.surface_error:.2g} %"
+    if found.solves == 0:
+        source = (
+            f"the surrogate '{patient.material.name}' of the package, whose error is at most "
+            f"{error} in 95 % of the solved cases that it was compared with"
+        )
+    else:
+        source = (
+            f"a response surface through {found.solves} solved cases, whose error is at most "
+            f"{error} in 95 % of them, as measured by leaving out one case at a time"
+        )
     return (
-        f"Computation: {len(found.samples.critical)} samples (seed {patient.seed}) of a "
-        f"response surface through {found.solves} solved cases. The error of the surface is at "
-        f"most {100.0 * found.surface_error:.1f} % in 95 % of the cases, as measured by leaving "
-        f"out one case at a time. {100.0 * found.possible:.0f} % of the random draws describe a "
+        f"Computation: the critical pressures of {count} samples (seed {patient.seed}) come from "
+        f"{source}. {100.0 * found.possible:.0f} % of the random draws describe a "
         f"possible wall. Standard error due to the number of samples: {noise_in_words(found)}."
     )
 

@@ -89,6 +89,11 @@ class ResponseSurface:
         """True if enough cases have an answer for an interpolant."""
         return len(self.pressure) >= FEWEST
 
+    @property
+    def error(self) -> float:
+        """95th percentile of the relative errors of `errors`."""
+        return float(np.quantile(self.errors, 0.95))
+
     def __call__(self, asked: Conditions) -> tuple[Float[np.ndarray, " n"], Bool[np.ndarray, " n"]]:
         """Return P_ucr in Pa for n conditions; some values are only lower bounds (*censored*).
 

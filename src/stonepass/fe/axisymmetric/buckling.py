@@ -28,6 +28,7 @@ from stonepass.fe.axisymmetric.problem import Tube
 from stonepass.fe.axisymmetric.profile import Profile
 from stonepass.fe.core.newton import newton
 from stonepass.fe.core.systems import FormSystem
+from stonepass.fe.core.threads import one_thread
 
 __all__ = ["buckling_half_wave", "unstable_motions"]
 
@@ -64,11 +65,13 @@ def buckling_half_wave(tube: Tube, lumen: float) -> float | None:
         return None
     shortest = (tube.wall_ratio - 1.0) / 3.0
     count = 1 + int(np.ceil(np.log(tube.half_length / shortest) / np.log(STEP)))
-    for length in np.geomspace(shortest, tube.half_length, count):
-        place(d.mesh, _half_wave(tube, length))
-        _stretch(d)
-        if unstable_motions(d, free) > 0:
-            return float(length)
+    # Threads of the linear algebra would slow down matrices as small as these.
+    with one_thread():
+        for length in np.geomspace(shortest, tube.half_length, count):
+            place(d.mesh, _half_wave(tube, length))
+            _stretch(d)
+            if unstable_motions(d, free) > 0:
+                return float(length)
     return None
 
 

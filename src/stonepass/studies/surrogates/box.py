@@ -21,14 +21,13 @@ from stonepass.model.stone import FRICTION, SIZE_RATIO
 from stonepass.model.ureter import WALL_RATIO
 from stonepass.studies.conditions import Conditions, joined, lumen_ratios
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
-from stonepass.units import format_pressure
+from stonepass.studies.surrogates.stable_loads import StableLoads
 
 __all__ = [
     "HELD_OUT",
     "Box",
     "Setting",
     "fit_lumen",
-    "narrowest_lumen",
     "opening_pressure",
 ]
 
@@ -102,7 +101,7 @@ class Box:
         low, high = (edge - 1.0 for edge in self.wall_ratio)
         return np.log((at.wall_ratio - 1.0) / low) / np.log(high / low)
 
-    def sample(self, case: Case, count: int, first: int = 0) -> Conditions:
+    def sample(self, case: Case, stable: StableLoads, count: int, first: int = 0) -> Conditions:
         """Return conditions that fill the box, from a scrambled Sobol sequence with a fixed seed.
 
         Points near the faces of the box are drawn more often, because polynomials are least
@@ -112,6 +111,8 @@ class Box:
         ----------
         case : Case
             Its material and load are used.
+        stable : StableLoads
+            The largest load factors of the conditions.
         count : int
             Number n of conditions.
         first : int
@@ -129,11 +130,11 @@ class Box:
         friction = least + (self.friction[1] - least) * unit[:, 2]
         factor = np.zeros(count)
         if loaded:
-            factor = np.maximum(0.0, (unit[:, 3] - AT_ZERO) / (1.0 - AT_ZERO))
+            factor = np.maximum(0.0, (unit[:, 3] - AT_ZERO) / (1.0 - AT_ZERO)) * stable(wall)
         lumen = lumen_ratios(case, wall, factor)
         root = FIRST + (1.0 - FIRST) * unit[:, 0]
         size = lumen * (1.0 + root**2 * (self.size_ratio / lumen - 1.0))
-        return Conditions(size, wall, friction, factor).where(np.isfinite(lumen))
+        return Conditions(size, wall, friction, factor)
 
     def setting(
         self, case: Case, asked: Conditions, lumen: Float[np.ndarray, " n"], narrowest: float
@@ -149,7 +150,7 @@ class Box:
         lumen : array (n)
             Inner radius ratio of the tube under the load, without stone and urine pressure.
         narrowest : float
-            The smallest lumen in the box, which is that of the thinnest wall under the whole load.
+            The smallest lumen in the box, see `StableLoads`.
         """
         over = np.maximum(asked.size_ratio / lumen - 1.0, 0.0)
         widest = np.maximum(self.size_ratio / lumen - 1.0, np.finfo(float).tiny)
@@ -228,22 +229,6 @@ def opening_pressure(case: Case, at: Setting) -> Float[np.ndarray, " n"]:
     across = np.asarray(inflation(asked.size_ratio, asked.wall_ratio, law, load.prestretch))
     outside = confining_traction(asked.size_ratio, asked.wall_ratio, load)
     return across + asked.load_factor * np.asarray(outside)
-
-
-def narrowest_lumen(case: Case, box: Box) -> float:
-    """Return the smallest lumen r_a/R_a in a box: that of the thinnest wall under the whole load.
-
-    Raises
-    ------
-    BadInput
-        The load closes this lumen.
-    """
-    if case.load.confining_pressure == 0.0:
-        return 1.0
-    found = float(lumen_ratios(case, np.array([box.wall_ratio[0]]), np.ones(1))[0])
-    require(np.isfinite(found), "confining pressure", format_pressure(case.load.confining_pressure),
-            "so small that the thinnest wall of the box keeps a lumen")  # fmt: skip
-    return found
 
 
 def fit_lumen(case: Case, box: Box) -> SparsePolynomial:

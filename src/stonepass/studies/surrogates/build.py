@@ -25,7 +25,6 @@ from stonepass.studies.surrogates.box import (
     Box,
     Setting,
     fit_lumen,
-    narrowest_lumen,
 )
 from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.levels import Level, levels_for
@@ -33,6 +32,7 @@ from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
+from stonepass.studies.surrogates.stable_loads import StableLoads, stable_loads
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_surrogate"]
@@ -76,14 +76,15 @@ def build_surrogate(
     """
     _refuse(case)
     box, solver = box or Box(), solver or JobSolver(progress=True)
-    solved = [_solve(level, box, solver) for level in levels_for(case, effort)]
+    domain = _Domain(box, stable_loads(case, box.wall_ratio))
+    solved = [_solve(level, domain, solver) for level in levels_for(case, effort)]
     everything = [each for level in solved for each in level.answers]
     _refuse_unsolved(everything)
     physics = SeatedContact.fitted_to(everything)
     learnt: LearntFunctions | None = None
     left_out = []
     for first in solved:
-        level = _refined(case, box, physics, learnt, first, solver)
+        level = _refined(case, domain, physics, learnt, first, solver)
         values = physics.learnt(case, level.at, level.answers)
         learnt, left = _corrected(learnt, level, values)
         left_out.append((level, values, left))
@@ -97,9 +98,25 @@ def build_surrogate(
         learnt,
         error,
         FLOOR,
+        domain.stable,
         fit_lumen(case, box) if loaded else None,
         _about(case, [each for each, _, _ in left_out]),
     )
+
+
+@dataclass(frozen=True)
+class _Domain:
+    """The box of a surrogate and the largest loads in it."""
+
+    box: Box
+    stable: StableLoads
+
+    def sample(self, case: Case, count: int, first: int = 0) -> Conditions:
+        return self.box.sample(case, self.stable, count, first)
+
+    def setting(self, case: Case, at: Conditions) -> Setting:
+        lumen = lumen_ratios(case, at.wall_ratio, at.load_factor)
+        return self.box.setting(case, at, lumen, self.stable.narrowest)
 
 
 @array_dataclass
@@ -134,31 +151,26 @@ def _refuse_unsolved(answers: Sequence[Answer]) -> None:
         )  # fmt: skip
 
 
-def _solve(level: Level, box: Box, solver: CaseSolver) -> _Solved:
-    return _solved_at(level, box, _sampled(level, box), solver)
+def _solve(level: Level, domain: _Domain, solver: CaseSolver) -> _Solved:
+    return _solved_at(level, domain, _sampled(level, domain), solver)
 
 
-def _sampled(level: Level, box: Box) -> Conditions:
+def _sampled(level: Level, domain: _Domain) -> Conditions:
     """Return the cases of a level; those that a check or the refinement takes are left out."""
-    first = box.sample(level.case, min(level.count, HELD_OUT))
+    first = domain.sample(level.case, min(level.count, HELD_OUT))
     if level.count <= HELD_OUT:
         return first
-    return together(first, box.sample(level.case, level.count - HELD_OUT, AFTER))
+    return together(first, domain.sample(level.case, level.count - HELD_OUT, AFTER))
 
 
-def _solved_at(level: Level, box: Box, at: Conditions, solver: CaseSolver) -> _Solved:
+def _solved_at(level: Level, domain: _Domain, at: Conditions, solver: CaseSolver) -> _Solved:
     cases = [case_at(level.case, at, k) for k in range(len(at.friction))]
-    return _Solved(level, _setting(level.case, box, at), solver.answers(cases, error=False))
-
-
-def _setting(case: Case, box: Box, at: Conditions) -> Setting:
-    lumen = lumen_ratios(case, at.wall_ratio, at.load_factor)
-    return box.setting(case, at, lumen, narrowest_lumen(case, box))
+    return _Solved(level, domain.setting(level.case, at), solver.answers(cases, error=False))
 
 
 def _refined(
     case: Case,
-    box: Box,
+    domain: _Domain,
     physics: SeatedContact,
     before: LearntFunctions | None,
     level: _Solved,
@@ -167,11 +179,9 @@ def _refined(
     """Return a level with further cases where the surrogate is least certain."""
     if level.level.refined == 0:
         return level
-    candidates = box.sample(level.level.case, CANDIDATES, POOL)
-    there, values = (
-        _setting(case, box, candidates),
-        physics.learnt(case, level.at, level.answers),
-    )
+    candidates = domain.sample(level.level.case, CANDIDATES, POOL)
+    there = domain.setting(case, candidates)
+    values = physics.learnt(case, level.at, level.answers)
 
     def pressures(half: slice) -> Float[np.ndarray, " m"]:
         part = _Solved(level.level, level.at.where(_chosen(level, half)), level.answers[half])
@@ -181,7 +191,7 @@ def _refined(
 
     chosen = np.zeros(len(candidates.friction), dtype=bool)
     chosen[least_certain(pressures, there.unit, level.level.refined)] = True
-    more = _solved_at(level.level, box, candidates.where(chosen), solver)
+    more = _solved_at(level.level, domain, candidates.where(chosen), solver)
     return _Solved(level.level, level.at.joined(more.at), [*level.answers, *more.answers])
 
 

@@ -71,7 +71,7 @@ def check_surrogate(surrogate: Surrogate, solver: CaseSolver, count: int = CASES
     """
     if count < 1:
         raise BadInput("number of cases", count, "at least 1")
-    asked = surrogate.box.sample(surrogate.case, count, HELD_OUT)
+    asked = surrogate.box.sample(surrogate.case, surrogate.stable, count, HELD_OUT)
     cases = [case_at(surrogate.case, asked, k) for k in range(len(asked.friction))]
     return compare(surrogate, asked, solver.answers(cases, error=False))
 

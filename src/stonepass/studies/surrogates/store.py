@@ -26,11 +26,12 @@ from stonepass.studies.surrogates.box import Box
 from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.seated_contact import SeatedContact
+from stonepass.studies.surrogates.stable_loads import StableLoads
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["load_surrogate", "save_surrogate", "shipped_surrogates"]
 
-FORMAT = 1  # raised if the files change so that older versions cannot be read
+FORMAT = 2  # raised if the files change so that older versions cannot be read
 SHIPPED = "shipped"  # folder of the surrogates that come with the package
 _POLYNOMIALS = ("base", "correction", "error", "lumen")
 
@@ -94,6 +95,8 @@ def save_surrogate(surrogate: Surrogate, path: Path) -> None:
             arrays[f"{part}_degrees"] = polynomial.degrees.astype(np.int8)
             arrays[f"{part}_coefficients"] = polynomial.coefficients
     arrays |= {"shear": surrogate.physics.shear, "axial": surrogate.physics.axial}
+    stable = surrogate.stable
+    arrays |= {"stable_wall_ratio": stable.wall_ratio, "stable_factor": stable.factor}
     packed = io.BytesIO()
     np.savez_compressed(packed, **arrays)
     case = surrogate.case
@@ -102,6 +105,7 @@ def save_surrogate(surrogate: Surrogate, path: Path) -> None:
         "case": values_of(case, path.parent),
         "box": asdict(surrogate.box),
         "floor_Pa": surrogate.floor,
+        "narrowest_lumen": stable.narrowest,
         "about": dict(surrogate.about),
         "material_digest": _material_digest(case),
         "arrays_digest": hashlib.sha256(packed.getvalue()).hexdigest(),
@@ -145,7 +149,9 @@ def _read(path: Path) -> Surrogate:
     physics = SeatedContact(arrays["shear"], arrays["axial"])
     limits = document["box"]
     box = Box(limits["size_ratio"], tuple(limits["wall_ratio"]), tuple(limits["friction"]))
-    return Surrogate(built, box, physics, learnt, error, document["floor_Pa"], lumen,
+    stable = StableLoads(arrays["stable_wall_ratio"], arrays["stable_factor"],
+                         document["narrowest_lumen"])  # fmt: skip
+    return Surrogate(built, box, physics, learnt, error, document["floor_Pa"], stable, lumen,
                      document["about"])  # fmt: skip
 
 

@@ -6,13 +6,12 @@ import os
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from stonepass.array_dataclass import array_dataclass
-from stonepass.array_types import Float
+from stonepass.array_types import Bool, Float
 from stonepass.errors import BadInput
 from stonepass.fe.core.threads import one_thread
 from stonepass.model.case import Case
@@ -23,6 +22,7 @@ from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.solved import LOOSE, NO_SOLUTION, Solved
+from stonepass.studies.surrogates.stable_loads import StableLoads
 from stonepass.units import pressure
 
 __all__ = ["Surrogate"]
@@ -54,6 +54,8 @@ class Surrogate:
     lumen : SparsePolynomial or None
         Lumen r_a/R_a as a function of the coordinates of wall and load; None without a load, for
         which it is 1.
+    stable : StableLoads
+        The largest load factors for which the tubes of the box are stable.
     about : mapping
         How the surrogate was built and checked: version, fingerprint, number of cases, measured
         errors, and the command that builds it again.
@@ -65,6 +67,7 @@ class Surrogate:
     learnt: LearntFunctions
     error: SparsePolynomial
     floor: float
+    stable: StableLoads
     lumen: SparsePolynomial | None = None
     about: Mapping[str, Any] = field(default_factory=dict)
 
@@ -127,7 +130,7 @@ class Surrogate:
             for name, values in found.quantities.items()
         }
         scaled = Solved(found.outcome, critical, bound, quantities)
-        return SurrogateAnswers.of(inputs, scaled, ~self.box.contains(asked))
+        return SurrogateAnswers.of(inputs, scaled, ~self.contains(asked))
 
     def solve(self, asked: Conditions) -> Solved:
         """Return the results of n conditions; the load factor 1 is the load of the case.
@@ -149,12 +152,12 @@ class Surrogate:
         )
 
     def _solve(self, asked: Conditions) -> Solved:
-        inside = self.box.contains(asked)
+        inside = self.contains(asked)
         held = self.box.clipped(asked)
         lumen = self._lumen(held)
         loose = asked.size_ratio <= lumen
         stuck = inside & ~loose
-        at = self.box.setting(self.case, held, lumen, self.narrowest).where(stuck)
+        at = self.box.setting(self.case, held, lumen, self.stable.narrowest).where(stuck)
         found = self.physics.solve(self.case, at, self.learnt(at))
         claim = found.pressure * np.exp(self.error(at.unit)[:, 0]) + self.floor
         missing = np.where(inside, 0.0, np.nan)  # P_ucr of a loose stone is 0
@@ -181,10 +184,12 @@ class Surrogate:
         parts = (self.learnt.base, self.learnt.correction)
         return sum(len(each.degrees) for each in parts if each is not None)
 
-    @cached_property
-    def narrowest(self) -> float:
-        """The smallest lumen r_a/R_a in the box."""
-        return 1.0 if self.lumen is None else float(self.lumen(np.array([[0.0, 1.0]]))[0, 0])
+    def contains(self, asked: Conditions) -> Bool[np.ndarray, " n"]:
+        """Return which of n conditions are inside the box and have a load that keeps them stable.
+
+        The lower end of the size is ignored.
+        """
+        return self.box.contains(asked) & (asked.load_factor <= self.stable(asked.wall_ratio))
 
     def _lumen(self, at: Conditions) -> Float[np.ndarray, " n"]:
         if self.lumen is None:

@@ -12,10 +12,11 @@ from stonepass.cli import main as command_line
 from stonepass.errors import BadInput
 from stonepass.model.states.stability import axisymmetric_buckling
 from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
-from stonepass.studies.surrogates.box import Box, fit_lumen
+from stonepass.studies.surrogates.box import HELD_OUT, Box, fit_lumen
 from stonepass.studies.surrogates.build import build_surrogate
-from stonepass.studies.surrogates.check import check_surrogate
+from stonepass.studies.surrogates.check import MOST, check_surrogate
 from stonepass.studies.surrogates.crossing import first_crossing, refined_guess
+from stonepass.studies.surrogates.domain import Domain
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
@@ -382,15 +383,12 @@ def test_further_cases_are_where_two_fits_differ_and_apart_from_each_other():
 
 def test_cases_of_a_check_are_never_used_to_build():
     """However many cases a level has, those of the check and of the refinement are left out."""
-    from stonepass.studies.surrogates import build, levels
-
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5))
-    box = Box()
-    level = levels.Level(case, 3000, (1, 1, 1, 0), 1)
-    domain = build._Domain(box, any_load())
-    used = build._sampled(level, domain)
+    domain = Domain(Box(), any_load())
+    used = domain.training(case, 3000)
     assert len(used.size_ratio) == 3000
-    reserved = domain.sample(case, build.AFTER - 1024, first=1024)
+    reserved = domain.box.sample(case, domain.stable, 4096 - 1024, first=1024)
     assert not set(used.size_ratio) & set(reserved.size_ratio)
-    assert build.POOL + build.CANDIDATES <= build.AFTER
-    assert build.POOL >= 1024 + 300
+    assert set(domain.candidates(case).size_ratio) <= set(reserved.size_ratio[1024:])
+    checked = domain.box.sample(case, domain.stable, MOST, HELD_OUT)
+    assert not set(domain.candidates(case).size_ratio) & set(checked.size_ratio)

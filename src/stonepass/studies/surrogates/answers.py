@@ -15,9 +15,12 @@ from stonepass.array_types import Bool, Float, Int
 from stonepass.errors import Outcome, require
 from stonepass.io.csv_file import write_csv
 from stonepass.io.optional_imports import library
-from stonepass.studies.surrogates.solved import BEYOND_CLOSURE, OUTCOMES, Solved
+from stonepass.studies.surrogates.solved import NO_SOLUTION, OUTCOMES, UNITS, Solved
 
 __all__ = ["SurrogateAnswers"]
+
+# Ending of the key and factor of a number with a given unit, in rows.
+_SHOWN = {"rad": ("_deg", 180.0 / np.pi), "Pa": ("_kPa", 1e-3), "": ("", 1.0)}
 
 
 @array_dataclass
@@ -36,12 +39,14 @@ class SurrogateAnswers:
     error : masked array (n)
         Claimed error of P_ucr in Pa; masked where P_ucr is.
     lower_bound : array (n)
-        Pressure in Pa that P_ucr exceeds: the end of the closure for the outcome BEYOND_CLOSURE, 0
-        for the other outcomes.
+        Pressure in Pa that P_ucr exceeds: the end of the closure for the outcome BEYOND_CLOSURE,
+        and the largest pressure of a surrogate of the direct model; otherwise 0.
     outside : array (n) of bool
-        True for a condition outside the box of the surrogate.
+        True for a condition that the surrogate does not cover; its outcome is NO_SOLUTION.
     quantities : mapping of str to masked array (n)
-        Further results by name, in SI units: ``contact_angle`` in rad.
+        Further results by name: ``contact_angle`` in rad; for the direct model also
+        ``leak_pressure`` and ``friction_work`` in Pa (the dissipation D divided by π R_s²), and
+        ``opened_radius``, r_a/R_a of the tube under P_ucr.
     """
 
     OUTCOMES: ClassVar[tuple[Outcome, ...]] = OUTCOMES
@@ -55,17 +60,13 @@ class SurrogateAnswers:
     quantities: Mapping[str, Any]
 
     @classmethod
-    def of(
-        cls,
-        inputs: Mapping[str, Float[np.ndarray, " n"]],
-        solved: Solved,
-        outside: Bool[np.ndarray, " n"],
-    ) -> SurrogateAnswers:
+    def of(cls, inputs: Mapping[str, Float[np.ndarray, " n"]], solved: Solved) -> SurrogateAnswers:
         """Return the answers with all missing numbers masked."""
         quantities = {name: np.ma.masked_invalid(each) for name, each in solved.quantities.items()}
         pressure = np.ma.masked_invalid(solved.pressure)
         error = np.ma.array(quantities.pop("error"), mask=np.ma.getmaskarray(pressure))
         outcome = solved.outcome.astype(np.int8)
+        outside = outcome == NO_SOLUTION
         return cls(inputs, outcome, pressure, error, solved.lower_bound, outside, quantities)
 
     @property
@@ -76,7 +77,7 @@ class SurrogateAnswers:
     @property
     def censored(self) -> Bool[np.ndarray, " n"]:
         """True where only a lower bound of P_ucr is known."""
-        return np.asarray(self.outcome == BEYOND_CLOSURE)
+        return self.lower_bound > 0.0
 
     @property
     def answered(self) -> Bool[np.ndarray, " n"]:
@@ -100,8 +101,8 @@ class SurrogateAnswers:
             "lower_bound_kPa": _plain(self.lower_bound, 1e-3),
         }
         for name, values in self.quantities.items():
-            unit, factor = ("deg", 180.0 / np.pi) if name.endswith("angle") else ("kPa", 1e-3)
-            columns[f"{name}_{unit}"] = _plain(values, factor)
+            unit, factor = _SHOWN[UNITS[name]]
+            columns[name + unit] = _plain(values, factor)
         return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
     def save(self, path: str | Path) -> None:
@@ -131,8 +132,7 @@ class SurrogateAnswers:
         outcome = {"outcome": pandas.Categorical.from_codes(self.outcome, names)}
         numbers = {"critical_pressure_Pa": self.pressure, "critical_pressure_error_Pa": self.error,
                    "lower_bound_Pa": self.lower_bound}  # fmt: skip
-        units = {"contact_angle": "rad"}
-        numbers |= {f"{name}_{units.get(name, 'Pa')}": each for name, each in
+        numbers |= {f"{name}_{UNITS[name]}".rstrip("_"): each for name, each in
                     self.quantities.items()}  # fmt: skip
         filled = {name: np.ma.filled(each, np.nan) for name, each in numbers.items()}
         return pandas.DataFrame(inputs | outcome | {"outside": self.outside} | filled)

@@ -16,35 +16,29 @@ from stonepass.errors import BadInput
 from stonepass.inputs.case_record import fingerprint
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
+from stonepass.model.models.push_through import PushThrough
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.studies.case_solver import CaseSolver, JobSolver
-from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
-from stonepass.studies.conditions import joined as together
+from stonepass.studies.conditions import Conditions, case_at
 from stonepass.studies.surrogates.box import (
-    HELD_OUT,
     Box,
     Setting,
     fit_lumen,
 )
+from stonepass.studies.surrogates.build_held import build_held_stone
+from stonepass.studies.surrogates.claimed_error import FLOOR, claimed_error
+from stonepass.studies.surrogates.domain import Domain
 from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
-from stonepass.studies.surrogates.stable_loads import StableLoads, stable_loads
+from stonepass.studies.surrogates.stable_loads import stable_loads
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_surrogate"]
 
-CLAIM = 0.99  # fraction of the leave-one-out errors that the claimed error covers
-MARGIN = 2.0  # factor on the claimed relative error
-FLOOR = 5.0  # Pa, claimed absolute error
-ERROR_DEGREES, ERROR_TOTAL = (2, 2, 2, 2), 2  # degrees of the claimed relative error
-SMALLEST_ERROR = 1e-4  # smallest relative error in the fit of the claimed error
-# Candidates of the refinement, from the sequence of sampled cases after those of a check.
-POOL, CANDIDATES = 2048, 512
-AFTER = 4096  # first case of the sequence after all of these
 FEWEST = 8  # smallest number of answers that a level is fitted to
 
 
@@ -74,9 +68,11 @@ def build_surrogate(
     ----------
     docs/surrogates.md, "How a surrogate is built".
     """
-    _refuse(case)
     box, solver = box or Box(), solver or JobSolver(progress=True)
-    domain = _Domain(box, stable_loads(case, box.wall_ratio))
+    if isinstance(case.model, PushThrough):
+        return build_held_stone(case, box, solver, effort)
+    _refuse(case)
+    domain = Domain(box, stable_loads(case, box.wall_ratio))
     solved = [_solve(level, domain, solver) for level in levels_for(case, effort)]
     everything = [each for level in solved for each in level.answers]
     _refuse_unsolved(everything)
@@ -104,21 +100,6 @@ def build_surrogate(
     )
 
 
-@dataclass(frozen=True)
-class _Domain:
-    """The box of a surrogate and the largest loads in it."""
-
-    box: Box
-    stable: StableLoads
-
-    def sample(self, case: Case, count: int, first: int = 0) -> Conditions:
-        return self.box.sample(case, self.stable, count, first)
-
-    def setting(self, case: Case, at: Conditions) -> Setting:
-        lumen = lumen_ratios(case, at.wall_ratio, at.load_factor)
-        return self.box.setting(case, at, lumen, self.stable.narrowest)
-
-
 @array_dataclass
 @dataclass(frozen=True)
 class _Solved:
@@ -133,7 +114,7 @@ def _refuse(case: Case) -> None:
     """Raise BadInput if the model, one of its options, or the stone has no surrogate."""
     model = case.model
     if not isinstance(model, SeatedBalance):
-        raise BadInput("model", model.NAME, "'paper', the only model that has surrogates")
+        raise BadInput("model", model.NAME, "'paper' or 'direct'; other models have no surrogates")
     if model.closure != "linear" or model.closure_start != "inner-radius":
         raise BadInput("closure", f"{model.closure} from {model.closure_start}",
                        "linear from inner-radius, which is the default")  # fmt: skip
@@ -151,26 +132,18 @@ def _refuse_unsolved(answers: Sequence[Answer]) -> None:
         )  # fmt: skip
 
 
-def _solve(level: Level, domain: _Domain, solver: CaseSolver) -> _Solved:
-    return _solved_at(level, domain, _sampled(level, domain), solver)
+def _solve(level: Level, domain: Domain, solver: CaseSolver) -> _Solved:
+    return _solved_at(level, domain, domain.training(level.case, level.count), solver)
 
 
-def _sampled(level: Level, domain: _Domain) -> Conditions:
-    """Return the cases of a level; those that a check or the refinement takes are left out."""
-    first = domain.sample(level.case, min(level.count, HELD_OUT))
-    if level.count <= HELD_OUT:
-        return first
-    return together(first, domain.sample(level.case, level.count - HELD_OUT, AFTER))
-
-
-def _solved_at(level: Level, domain: _Domain, at: Conditions, solver: CaseSolver) -> _Solved:
+def _solved_at(level: Level, domain: Domain, at: Conditions, solver: CaseSolver) -> _Solved:
     cases = [case_at(level.case, at, k) for k in range(len(at.friction))]
     return _Solved(level, domain.setting(level.case, at), solver.answers(cases, error=False))
 
 
 def _refined(
     case: Case,
-    domain: _Domain,
+    domain: Domain,
     physics: SeatedContact,
     before: LearntFunctions | None,
     level: _Solved,
@@ -179,7 +152,7 @@ def _refined(
     """Return a level with further cases where the surrogate is least certain."""
     if level.level.refined == 0:
         return level
-    candidates = domain.sample(level.level.case, CANDIDATES, POOL)
+    candidates = domain.candidates(level.level.case)
     there = domain.setting(case, candidates)
     values = physics.learnt(case, level.at, level.answers)
 
@@ -225,15 +198,6 @@ def _corrected(
     return LearntFunctions(added) if before is None else before.corrected(added), left_out
 
 
-def _relative_errors(
-    pressure: Float[np.ndarray, " n"], true: Float[np.ndarray, " n"]
-) -> Float[np.ndarray, " n"]:
-    """Return |pressure/true − 1| beyond the claimed absolute error; NaN where one is unknown."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        off = np.maximum(np.abs(pressure - true) - FLOOR, 0.0) / true
-    return np.where(np.isfinite(off), off, np.nan)
-
-
 def _claimed(
     case: Case, physics: SeatedContact, left_out: Sequence[tuple[_Solved, Any, Any]]
 ) -> SparsePolynomial:
@@ -248,14 +212,7 @@ def _claimed(
     whole = np.isfinite(values[:, :-1]).all(axis=1)
     at, true = level.at.where(whole), np.array([_number(a) for a in level.answers])[whole]
     shifted = np.where(np.isfinite(left), values + left, 0.0)[whole]
-    off = _relative_errors(physics.solve(case, at, shifted).pressure, true)
-    known = np.isfinite(off)
-    logarithm = np.log(np.maximum(off[known], SMALLEST_ERROR))
-    fitted = fit_polynomial(at.unit[known], logarithm, ERROR_DEGREES, ERROR_TOTAL).polynomial
-    excess = np.quantile(logarithm - fitted(at.unit[known])[:, 0], CLAIM)
-    coefficients = fitted.coefficients.copy()
-    coefficients[~fitted.degrees.any(axis=1), 0] += excess + np.log(MARGIN)
-    return SparsePolynomial(fitted.degrees, coefficients)
+    return claimed_error(at.unit, physics.solve(case, at, shifted).pressure, true)
 
 
 def _number(answer: Answer) -> float:

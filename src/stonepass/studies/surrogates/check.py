@@ -14,12 +14,15 @@ from stonepass.model.answer import Answer
 from stonepass.studies.case_solver import CaseSolver
 from stonepass.studies.conditions import Conditions, case_at
 from stonepass.studies.surrogates.box import HELD_OUT
-from stonepass.studies.surrogates.solved import OUTCOMES
+from stonepass.studies.surrogates.domain import POOL
+from stonepass.studies.surrogates.held_stone import balanced
+from stonepass.studies.surrogates.solved import NO_SOLUTION, OUTCOMES
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["HeldOut", "check_surrogate", "compare", "with_check"]
 
 CASES = 300  # number of cases of a check
+MOST = POOL - HELD_OUT  # number of cases that are left to checks
 SMALL = 10.0  # Pa, difference that counts as none in the relative error
 
 
@@ -62,18 +65,28 @@ def check_surrogate(surrogate: Surrogate, solver: CaseSolver, count: int = CASES
     solver : CaseSolver
         Solves the cases with the numerics of the surrogate, without error estimates.
     count : int
-        Number of cases, at least 1.
+        Number of cases, 1 to 1024.
 
     Raises
     ------
     BadInput
-        The number of cases is not positive, or none of them can be compared.
+        The number of cases is out of bounds, or none of them can be compared.
     """
-    if count < 1:
-        raise BadInput("number of cases", count, "at least 1")
-    asked = surrogate.box.sample(surrogate.case, surrogate.stable, count, HELD_OUT)
+    if not 1 <= count <= MOST:
+        raise BadInput("number of cases", count, f"1 to {MOST}")
+    asked = _covered(surrogate, count)
     cases = [case_at(surrogate.case, asked, k) for k in range(len(asked.friction))]
     return compare(surrogate, asked, solver.answers(cases, error=False))
+
+
+def _covered(surrogate: Surrogate, count: int) -> Conditions:
+    """Return held-out conditions that the surrogate covers.
+
+    A surrogate of the direct model does not cover large pressures, so that more are drawn.
+    """
+    drawn = surrogate.box.sample(surrogate.case, surrogate.stable, min(2 * count, MOST), HELD_OUT)
+    covered = surrogate.solve(drawn).outcome != NO_SOLUTION
+    return drawn.where(covered & (np.cumsum(covered) <= count))
 
 
 def compare(surrogate: Surrogate, asked: Conditions, answers: list[Answer]) -> HeldOut:
@@ -93,7 +106,7 @@ def compare(surrogate: Surrogate, asked: Conditions, answers: list[Answer]) -> H
         No case has a P_ucr by both.
     """
     found = surrogate.solve(asked)
-    true = np.array([np.nan if each.pressure is None else each.pressure for each in answers])
+    true = np.array([_pressure(each) for each in answers])
     known = np.isfinite(true) & np.isfinite(found.pressure) & (true > 0.0)
     if not known.any():
         raise BadInput("number of cases that can be compared", 0, "at least 1", "solve more cases")
@@ -116,6 +129,13 @@ def with_check(surrogate: Surrogate, found: HeldOut) -> Surrogate:
     """Return a surrogate that remembers the result of a check."""
     about: Mapping[str, Any] = {**surrogate.about, "check": asdict(found)}
     return replace(surrogate, about=about)
+
+
+def _pressure(answer: Answer) -> float:
+    """Return P_ucr in Pa; NaN if there is none, or if the answer does not keep its own balance."""
+    if answer.pressure is None or not balanced(answer):
+        return np.nan
+    return answer.pressure
 
 
 def _relative(

@@ -9,7 +9,7 @@ import numpy as np
 from stonepass.array_types import Bool, Float
 from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions, lumen_ratios
-from stonepass.studies.surrogates.solved import BEYOND_CLOSURE, MOVES
+from stonepass.studies.surrogates.solved import MOVES
 from stonepass.studies.surrogates.store import load_surrogate, shipped_surrogates
 from stonepass.studies.surrogates.surrogate import Surrogate
 
@@ -49,11 +49,10 @@ class CoveringSurrogate:
         largest = self.surrogate.box.size_ratio
         held = replace(at, size_ratio=np.minimum(at.size_ratio, largest))
         found = self.surrogate.solve(held)
-        ended = found.outcome == BEYOND_CLOSURE
-        unknown = ~np.isfinite(found.pressure) & ~ended
-        pressure = np.where(ended, found.lower_bound, np.where(unknown, 0.0, found.pressure))
+        known = np.isfinite(found.pressure)
+        pressure = np.where(known, found.pressure, found.lower_bound)
         larger = (at.size_ratio > largest) & (found.outcome == MOVES)
-        return pressure, ended | larger | (unknown & ~self._loose(asked, unknown))
+        return pressure, larger | (~known & ~self._loose(asked, ~known))
 
     def _loose(self, asked: Conditions, chosen: Bool[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
         """Return which of the chosen conditions have a stone that is no larger than the lumen."""

@@ -18,7 +18,7 @@ from stonepass.studies.surrogates.box import Setting
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.regression import joined
 
-__all__ = ["LearntFunctions"]
+__all__ = ["LearntFunctions", "half_width"]
 
 
 @array_dataclass
@@ -59,10 +59,14 @@ class LearntFunctions:
         return replace(self, correction=more if before is None else _sum(before, more))
 
 
+def half_width(at: Setting, values: Float[np.ndarray, "n functions"]) -> Float[np.ndarray, " n"]:
+    """Return the half-width of the contact divided by π/2, if the first function is ln(w/root)."""
+    return np.clip(at.root * np.exp(values[:, 0]) / (np.pi / 2), 0.0, 1.0)
+
+
 def _by(at: Setting, values: Float[np.ndarray, "n functions"]) -> Float[np.ndarray, "n 4"]:
-    width = np.clip(at.root * np.exp(values[:, 0]) / (np.pi / 2), 0.0, 1.0)
     _, wall, friction, narrowed = at.unit.T
-    return np.stack([width, wall, friction**2, narrowed], axis=1)
+    return np.stack([half_width(at, values), wall, friction**2, narrowed], axis=1)
 
 
 def _sum(one: SparsePolynomial, other: SparsePolynomial) -> SparsePolynomial:

@@ -11,7 +11,7 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float, Int
 from stonepass.errors import Outcome
 
-__all__ = ["BEYOND_CLOSURE", "LOOSE", "MOVES", "NO_SOLUTION", "OUTCOMES", "Solved"]
+__all__ = ["BEYOND_CLOSURE", "LOOSE", "MOVES", "NO_SOLUTION", "OUTCOMES", "UNITS", "Solved"]
 
 # The outcomes of a surrogate; arrays of outcomes contain the places in this tuple.
 OUTCOMES = (
@@ -21,6 +21,15 @@ OUTCOMES = (
     Outcome.NO_SOLUTION,
 )
 MOVES, LOOSE, BEYOND_CLOSURE, NO_SOLUTION = range(len(OUTCOMES))
+
+# Units of the further results of a surrogate. Pressures are proportional to the stiffness.
+UNITS = {
+    "contact_angle": "rad",
+    "leak_pressure": "Pa",
+    "friction_work": "Pa",
+    "opened_radius": "",
+    "error": "Pa",
+}
 
 
 @array_dataclass
@@ -37,7 +46,7 @@ class Solved:
     lower_bound : array (n)
         Pressure in Pa that P_ucr exceeds; 0 if P_ucr exists, or if no bound is known.
     quantities : mapping of str to array (n)
-        Further results by name, in SI units; NaN where they do not exist.
+        Further results by name, in the units of `UNITS`; NaN where they do not exist.
     """
 
     outcome: Int[np.ndarray, " n"]

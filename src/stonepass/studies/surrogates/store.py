@@ -22,7 +22,10 @@ from stonepass.inputs.case_file import values_of
 from stonepass.inputs.case_record import describe_material
 from stonepass.io.text_file import existing, replace_file
 from stonepass.model.case import Case
+from stonepass.model.models.push_through import PushThrough
 from stonepass.studies.surrogates.box import Box
+from stonepass.studies.surrogates.held_functions import HeldFunctions
+from stonepass.studies.surrogates.held_stone import HeldStone
 from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.seated_contact import SeatedContact
@@ -94,7 +97,8 @@ def save_surrogate(surrogate: Surrogate, path: Path) -> None:
         if polynomial is not None:
             arrays[f"{part}_degrees"] = polynomial.degrees.astype(np.int8)
             arrays[f"{part}_coefficients"] = polynomial.coefficients
-    arrays |= {"shear": surrogate.physics.shear, "axial": surrogate.physics.axial}
+    if isinstance(surrogate.physics, SeatedContact):
+        arrays |= {"shear": surrogate.physics.shear, "axial": surrogate.physics.axial}
     stable = surrogate.stable
     arrays |= {"stable_wall_ratio": stable.wall_ratio, "stable_factor": stable.factor}
     packed = io.BytesIO()
@@ -145,8 +149,14 @@ def _read(path: Path) -> Surrogate:
     )
     assert base is not None
     assert error is not None
-    learnt = LearntFunctions(base, correction)
-    physics = SeatedContact(arrays["shear"], arrays["axial"])
+    physics: SeatedContact | HeldStone
+    learnt: LearntFunctions | HeldFunctions
+    if isinstance(built.model, PushThrough):
+        assert correction is not None
+        physics, learnt = HeldStone(), HeldFunctions(base, correction)
+    else:
+        physics = SeatedContact(arrays["shear"], arrays["axial"])
+        learnt = LearntFunctions(base, correction)
     limits = document["box"]
     box = Box(limits["size_ratio"], tuple(limits["wall_ratio"]), tuple(limits["friction"]))
     stable = StableLoads(arrays["stable_wall_ratio"], arrays["stable_factor"],

@@ -18,10 +18,12 @@ from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions
 from stonepass.studies.surrogates.answers import SurrogateAnswers
 from stonepass.studies.surrogates.box import Box
+from stonepass.studies.surrogates.held_functions import HeldFunctions
+from stonepass.studies.surrogates.held_stone import HeldStone
 from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.seated_contact import SeatedContact
-from stonepass.studies.surrogates.solved import LOOSE, NO_SOLUTION, Solved
+from stonepass.studies.surrogates.solved import LOOSE, NO_SOLUTION, UNITS, Solved
 from stonepass.studies.surrogates.stable_loads import StableLoads
 from stonepass.units import pressure
 
@@ -43,9 +45,9 @@ class Surrogate:
         box; size, wall and friction of the case do not matter.
     box : Box
         The range of the inputs.
-    physics : SeatedContact
-        Gives the answer for values of the learnt functions.
-    learnt : LearntFunctions
+    physics : SeatedContact or HeldStone
+        Gives the answer for values of the learnt functions, of the paper's or the direct model.
+    learnt : LearntFunctions or HeldFunctions
         The learnt functions of the conditions.
     error : SparsePolynomial
         Natural logarithm of the claimed relative error of P_ucr.
@@ -63,8 +65,8 @@ class Surrogate:
 
     case: Case
     box: Box
-    physics: SeatedContact
-    learnt: LearntFunctions
+    physics: SeatedContact | HeldStone
+    learnt: LearntFunctions | HeldFunctions
     error: SparsePolynomial
     floor: float
     stable: StableLoads
@@ -97,7 +99,9 @@ class Surrogate:
         Returns
         -------
         SurrogateAnswers
-            A condition outside the box has the outcome NO_SOLUTION.
+            A condition outside the box has the outcome NO_SOLUTION. For the direct model, so has
+            one whose P_ucr exceeds 0.95 times the pressure that opens the tube to the width of the
+            stone; this pressure is then the lower bound.
 
         Raises
         ------
@@ -126,11 +130,11 @@ class Surrogate:
         found = self.solve(asked)
         critical, bound = stiff * found.pressure, stiff * found.lower_bound
         quantities = {
-            name: stiff * values if name.endswith("pressure") or name == "error" else values
+            name: stiff * values if UNITS[name] == "Pa" else values
             for name, values in found.quantities.items()
         }
         scaled = Solved(found.outcome, critical, bound, quantities)
-        return SurrogateAnswers.of(inputs, scaled, ~self.contains(asked))
+        return SurrogateAnswers.of(inputs, scaled)
 
     def solve(self, asked: Conditions) -> Solved:
         """Return the results of n conditions; the load factor 1 is the load of the case.

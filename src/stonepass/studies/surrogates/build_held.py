@@ -1,0 +1,177 @@
+"""Construction of a surrogate of the direct model: solve the cases, fit the functions of p."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from stonepass.about import VERSION
+from stonepass.array_dataclass import array_dataclass
+from stonepass.array_types import Bool, Float
+from stonepass.errors import BadInput
+from stonepass.inputs.case_record import fingerprint
+from stonepass.model.answer import Answer
+from stonepass.model.case import Case
+from stonepass.model.load import Load
+from stonepass.model.numerics import Numerics
+from stonepass.studies.case_solver import CaseSolver
+from stonepass.studies.conditions import Conditions, case_at
+from stonepass.studies.surrogates.box import Box, Setting
+from stonepass.studies.surrogates.claimed_error import FLOOR, claimed_error
+from stonepass.studies.surrogates.domain import Domain
+from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions
+from stonepass.studies.surrogates.held_stone import HeldStone
+from stonepass.studies.surrogates.learnt import half_width
+from stonepass.studies.surrogates.polynomial import SparsePolynomial
+from stonepass.studies.surrogates.regression import fit_polynomial, joined
+from stonepass.studies.surrogates.solved import MOVES
+from stonepass.studies.surrogates.stable_loads import stable_loads
+from stonepass.studies.surrogates.surrogate import Surrogate
+
+__all__ = ["build_held_stone"]
+
+NEARLY_NONE = 1e-4  # friction coefficient of the cases that stand for no friction
+FREE, GENTLE, PUSHED = 384, 96, 448  # number of cases of the three levels
+GENTLER = 0.3  # factor on the friction of the second level
+BASE, BASE_TOTAL = (20, 16, 0, 0), 20  # degrees of the functions without friction
+CHANGE, CHANGE_TOTAL = (8, 8, 8), 8  # degrees of what the pressure changes
+MOST_LOST = 0.05  # largest fraction of cases without an answer
+FEWEST = 8  # smallest number of cases that a function is fitted to
+
+Values = Float[np.ndarray, "n functions"]
+
+
+@array_dataclass
+@dataclass(frozen=True)
+class _Solved:
+    """Solved cases: conditions, answers, and p with the functions at p."""
+
+    at: Setting
+    answers: list[Answer]
+    values: Values
+
+
+def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) -> Surrogate:
+    """Build a surrogate of the direct model; for parameters see `build.build_surrogate`.
+
+    Three levels of cases are solved: nearly without friction, with little friction, and with the
+    friction of the box. Cases of the third level whose pressure would be above the largest one of a
+    surrogate, by the fit to the second level, are left out.
+
+    Raises
+    ------
+    BadInput
+        The case has a load, or too many cases have no answer.
+
+    References
+    ----------
+    docs/surrogates.md, "The direct model".
+    """
+    if case.load != Load():
+        raise BadInput("confining pressure", "given", "0 for a surrogate of the direct model")
+    quick = replace(case, numerics=Numerics("fast", case.numerics.half_length))
+    domain, physics = Domain(box, stable_loads(case, box.wall_ratio)), HeldStone()
+
+    def count(number: int) -> int:
+        return max(FEWEST, round(effort * number))
+
+    def solved(asked: Conditions, *, error: bool) -> _Solved:
+        cases = [case_at(quick, asked, k) for k in range(len(asked.friction))]
+        answers, at = solver.answers(cases, error=error), domain.setting(quick, asked)
+        return _Solved(at, answers, physics.learnt(quick, at, answers))
+
+    asked = domain.training(quick, count(FREE))
+    nearly = np.full(len(asked.friction), NEARLY_NONE)
+    free = solved(replace(asked, friction=nearly), error=True)
+    base = _base(free)
+
+    gentle = count(GENTLE)
+    asked = domain.training(quick, gentle + count(PUSHED))
+    first = np.arange(len(asked.friction)) < gentle
+    little = asked.where(first)
+    second = solved(replace(little, friction=GENTLER * little.friction), error=True)
+    functions, _ = _with_changes(base, second)
+
+    rest = asked.where(~first)
+    at = domain.setting(quick, rest)
+    below = physics.solve(quick, at, functions(at)).outcome == MOVES
+    third = solved(rest.where(below), error=True)
+    _refuse_lost([*free.answers, *second.answers, *third.answers])
+    both = _Solved(second.at.joined(third.at), [*second.answers, *third.answers],
+                   np.concatenate([second.values, third.values]))  # fmt: skip
+    learnt, left_out = _with_changes(base, both)
+    error = _claimed(quick, physics, learnt, both, left_out)
+    levels = [{"model": case.model.NAME, "options": repr(case.model), "accuracy": "fast",
+               "cases": len(each.answers)} for each in (free, second, third)]  # fmt: skip
+    about = {
+        "version": VERSION,
+        "fingerprint": fingerprint(case, case.model, case.numerics),
+        "levels": levels,
+    }
+    return Surrogate(case, box, physics, learnt, error, FLOOR, domain.stable, None, about)
+
+
+def _base(free: _Solved) -> SparsePolynomial:
+    """Fit ln((π/2 − α)/root) and the functions of p without friction."""
+    _, *functions = free.values.T
+    widths = np.log(functions[1])
+    return joined([
+        _fitted(free.at.unit, each, BASE, BASE_TOTAL)[0] for each in (widths, *functions)
+    ])  # fmt: skip
+
+
+def _with_changes(base: SparsePolynomial, solved: _Solved) -> tuple[HeldFunctions, Values]:
+    """Fit what the pressure changes in all functions; return leave-one-out errors too."""
+    at, p = solved.at, solved.values[:, 0]
+    without = base(at.unit)
+    points = np.stack([half_width(at, without), at.unit[:, 1], p / HIGHEST], axis=1)
+    rest = solved.values[:, 1:] - without[:, 1:]
+    fits = [_fitted(points, each, CHANGE, CHANGE_TOTAL, p) for each in rest.T]
+    functions = HeldFunctions(base, joined([fit for fit, _ in fits]))
+    return functions, np.stack([left for _, left in fits], axis=1)
+
+
+def _fitted(
+    points: Float[np.ndarray, "n d"],
+    values: Float[np.ndarray, " n"],
+    degrees: tuple[int, ...],
+    total: int,
+    p: Float[np.ndarray, " n"] | None = None,
+) -> tuple[SparsePolynomial, Float[np.ndarray, " n"]]:
+    """Fit values at the points where they exist and p is not too large, p being a factor."""
+    known: Bool[np.ndarray, " n"] = np.isfinite(values)
+    if p is not None:
+        known &= np.where(np.isfinite(p), p, np.inf) <= HIGHEST
+    if known.sum() < FEWEST:
+        raise BadInput("number of cases with an answer", f"{known.sum()} of {len(known)}",
+                       f"at least {FEWEST}", "make the box smaller")  # fmt: skip
+    factor = None if p is None else p[known]
+    found = fit_polynomial(points[known], values[known], degrees, total, factor)
+    left_out = np.full(len(values), np.nan)
+    left_out[known] = found.left_out
+    return found.polynomial, left_out
+
+
+def _claimed(
+    case: Case, physics: HeldStone, learnt: HeldFunctions, solved: _Solved, left_out: Values
+) -> SparsePolynomial:
+    """Return the claimed error from the leave-one-out errors of ln h."""
+    known = np.isfinite(left_out[:, 0])
+    at = solved.at.where(known)
+    coefficients = learnt(at)
+    coefficients[:, 0] += left_out[known, 0]
+    true = np.array([each.pressure for each in solved.answers], dtype=float)[known]
+    return claimed_error(at.unit, physics.solve(case, at, coefficients).pressure, true)
+
+
+def _refuse_lost(answers: Sequence[Answer]) -> None:
+    """Raise BadInput if too many cases have no answer."""
+    lost = [each.reason for each in answers if each.pressure is None]
+    if len(lost) > MOST_LOST * len(answers):
+        raise BadInput(
+            "number of cases of the box without an answer", f"{len(lost)} of {len(answers)}",
+            f"at most {100.0 * MOST_LOST:g} %",
+            f"make the box smaller; the first reason is: {lost[0]}",
+        )  # fmt: skip

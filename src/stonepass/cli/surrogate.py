@@ -130,10 +130,10 @@ app.command(
     "build",
     cls=PanelCommand,
     epilog=_epilog(
-        "build --material latex --out latex.json",
-        "a surrogate of the paper's model without a load; takes about ten minutes",
+        "build --material latex --confining 10kPa --out latex.json",
+        "a surrogate of the paper's model up to this confining pressure; takes half an hour",
     ),
-)(takes_settings(*VARIED, models=("paper",))(_build))
+)(takes_settings(*VARIED, models=("paper", "direct"))(_build))
 
 
 @app.command(

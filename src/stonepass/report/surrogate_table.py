@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 from rich import box
 from rich.table import Table
 
@@ -26,7 +27,7 @@ def surrogate_table(surrogate: Surrogate) -> Table:
         "size ratio ξ": f"from that of the lumen to {limits.size_ratio:g}",
         "wall ratio η": _span(limits.wall_ratio),
         "friction": _span(limits.friction),
-        "confining pressure": f"0 to {case.load.confining_pressure / 1e3:g} kPa",
+        "confining pressure": _loads(surrogate),
         "terms": f"{surrogate.terms}",
     }
     for level in surrogate.about.get("levels", ()):
@@ -52,6 +53,19 @@ def answers_table(answers: SurrogateAnswers) -> Table:
     if len(answers) > MOST_ROWS:
         table.caption = f"{len(answers) - MOST_ROWS} further answers are not shown"
     return table
+
+
+def _loads(surrogate: Surrogate) -> str:
+    """Return the range of the confining pressure; that of the thinnest wall if it is smaller."""
+    most, stable = surrogate.case.load.confining_pressure / 1e3, surrogate.stable
+    text = f"0 to {most:g} kPa"
+    if stable.factor[0] == 1.0:
+        return text
+    whole = stable.wall_ratio[np.argmax(stable.factor == 1.0)]
+    return (
+        f"{text}; in walls thinner than η {whole:.3g} less, because the tube would buckle: "
+        f"{stable.factor[0] * most:.2g} kPa at η {stable.wall_ratio[0]:g}"
+    )
 
 
 def _errors(check: Mapping[str, Any] | None) -> dict[str, str]:

@@ -81,6 +81,16 @@ def test_joined_polynomials_keep_their_values():
     assert np.allclose(both(u), np.hstack([one(u), other(u)]))
 
 
+def test_a_fixed_coordinate_has_no_influence():
+    degrees = np.array([[0, 0], [1, 2], [1, 1], [3, 0]])
+    whole = SparsePolynomial(degrees, np.arange(8.0).reshape(4, 2))
+    fixed = whole.fixed(1, 0.3)
+    u = points(8, 2)
+    there = np.stack([u[:, 0], np.full(8, 0.3)], axis=1)
+    assert np.allclose(fixed(u), whole(there), atol=1e-12)
+    assert len(fixed.degrees) == 3
+
+
 def test_the_first_of_several_crossings_is_found():
     # x = 1 comes first: the roots of these functions are 0.7 and 0.2; 0.35; none; 1.
     def excess(x, rows):

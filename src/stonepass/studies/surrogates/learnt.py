@@ -20,6 +20,8 @@ from stonepass.studies.surrogates.regression import joined
 
 __all__ = ["LearntFunctions", "half_width"]
 
+LOAD = 3  # number of the load's coordinate
+
 
 @array_dataclass
 @dataclass(frozen=True)
@@ -52,6 +54,11 @@ class LearntFunctions:
         wall; the square of that of friction; and that of the load.
         """
         return _by(at, self.base(at.unit))
+
+    def without_load(self) -> LearntFunctions:
+        """Return the functions for tubes without a load, which have fewer terms."""
+        change = None if self.correction is None else self.correction.fixed(LOAD, 0.0)
+        return LearntFunctions(self.base.fixed(LOAD, 0.0), change)
 
     def corrected(self, more: SparsePolynomial) -> LearntFunctions:
         """Return the functions with a further correction."""

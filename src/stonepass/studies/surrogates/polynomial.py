@@ -44,6 +44,26 @@ class SparsePolynomial:
         # In this order the values of a function are contiguous in memory.
         return (self.coefficients.T @ chebyshev_products(points, self.degrees)).T
 
+    def fixed(self, column: int, value: float) -> SparsePolynomial:
+        """Return the functions with one coordinate fixed at a value; its degrees become 0.
+
+        The result has the same coordinates, of which one has no influence, and fewer terms.
+
+        Parameters
+        ----------
+        column : int
+            Number of the coordinate.
+        value : float
+            Its value, 0 to 1.
+        """
+        factors = np.cos(self.degrees[:, column] * np.arccos(2.0 * value - 1.0))
+        rest = self.degrees.copy()
+        rest[:, column] = 0
+        degrees, places = np.unique(rest, axis=0, return_inverse=True)
+        coefficients = np.zeros((len(degrees), self.coefficients.shape[1]))
+        np.add.at(coefficients, np.ravel(places), factors[:, None] * self.coefficients)
+        return SparsePolynomial(degrees, coefficients)
+
 
 def chebyshev_products(
     points: Float[np.ndarray, "n d"], degrees: Int[np.ndarray, "terms d"]

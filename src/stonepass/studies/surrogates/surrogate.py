@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -162,7 +163,8 @@ class Surrogate:
         loose = asked.size_ratio <= lumen
         stuck = inside & ~loose
         at = self.box.setting(self.case, held, lumen, self.stable.narrowest).where(stuck)
-        found = self.physics.solve(self.case, at, self.learnt(at))
+        learnt = self.learnt if asked.load_factor.any() else self._without_load
+        found = self.physics.solve(self.case, at, learnt(at))
         claim = found.pressure * np.exp(self.error(at.unit)[:, 0]) + self.floor
         missing = np.where(inside, 0.0, np.nan)  # P_ucr of a loose stone is 0
         return Solved(
@@ -195,10 +197,19 @@ class Surrogate:
         """
         return self.box.contains(asked) & (asked.load_factor <= self.stable(asked.wall_ratio))
 
+    @cached_property
+    def _without_load(self) -> LearntFunctions | HeldFunctions:
+        """The learnt functions of tubes without a confining pressure, which are faster."""
+        if self.lumen is None or isinstance(self.learnt, HeldFunctions):
+            return self.learnt
+        return self.learnt.without_load()
+
     def _lumen(self, at: Conditions) -> Float[np.ndarray, " n"]:
-        if self.lumen is None:
+        natural = self.case.load.prestretch == 1.0
+        if self.lumen is None or (natural and not at.load_factor.any()):
             return np.ones(len(at.size_ratio))
-        return self.lumen(np.stack([self.box.wall_coordinate(at), at.load_factor], axis=1))[:, 0]
+        found = self.lumen(np.stack([self.box.wall_coordinate(at), at.load_factor], axis=1))[:, 0]
+        return np.where(at.load_factor == 0.0, 1.0, found) if natural else found
 
 
 def _checked(given: Mapping[str, Given]) -> dict[str, Float[np.ndarray, " n"]]:

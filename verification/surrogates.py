@@ -13,9 +13,10 @@ from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
 import stonepass as sp
 from stonepass.array_types import Float
-from stonepass.studies.conditions import Conditions, case_at
+from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
 from stonepass.studies.surrogates.box import opening_pressure
 from stonepass.studies.surrogates.check import compare
+from stonepass.studies.surrogates.solved import NO_SOLUTION
 from stonepass.studies.surrogates.store import shipped_surrogates
 
 # Random conditions, uniform in the coordinates: no points of the sequence that the surrogates use.
@@ -50,7 +51,7 @@ def section() -> Section:
     header = ("material", "model", "cases", "compared", "root mean square", "largest",
               "within the claim", "Gaussian process, root mean square")  # fmt: skip
     text = (
-        f"{CASES} random cases of the box of every surrogate of the package are solved "
+        f"{CASES} random cases that each surrogate of the package covers are solved "
         "at standard accuracy. They are not those of `stonepass surrogate check`. The Gaussian "
         "process (scikit-learn, one length for each coordinate) learns ln(P_ucr/(μ P_s)) from four "
         "fifths of these cases and predicts the others, five times in turn; it is an independent "
@@ -60,12 +61,19 @@ def section() -> Section:
 
 
 def conditions(surrogate: sp.Surrogate) -> Conditions:
-    rng, box = np.random.default_rng(SEED), surrogate.box
-    root, wall, friction = rng.uniform(size=(3, CASES))
+    """Return random conditions that the surrogate covers, half of them without a load."""
+    rng, box, case = np.random.default_rng(SEED), surrogate.box, surrogate.case
+    root, wall, friction, load = rng.uniform(size=(4, 2 * CASES))
     low, high = (edge - 1.0 for edge in box.wall_ratio)
-    size = 1.0 + np.maximum(root, 0.05) ** 2 * (box.size_ratio - 1.0)
+    eta = 1.0 + low * (high / low) ** wall
+    loaded = case.load.confining_pressure > 0.0
+    factor = np.maximum(2.0 * load - 1.0, 0.0) * surrogate.stable(eta) if loaded else 0.0 * load
+    lumen = lumen_ratios(case, eta, factor)
+    size = lumen * (1.0 + np.maximum(root, 0.05) ** 2 * (box.size_ratio / lumen - 1.0))
     mu = np.maximum(friction * box.friction[1], 0.01)
-    return Conditions(size, 1.0 + low * (high / low) ** wall, mu, np.zeros(CASES))
+    drawn = Conditions(size, eta, mu, factor)
+    covered = surrogate.solve(drawn).outcome != NO_SOLUTION
+    return drawn.where(covered & (np.cumsum(covered) <= CASES))
 
 
 def solved(case: sp.Case) -> sp.Answer:
@@ -77,9 +85,11 @@ def gaussian_process(surrogate: sp.Surrogate, asked: Conditions, answers: list[s
     true = np.array([np.nan if each.pressure is None else each.pressure for each in answers])
     known = np.isfinite(true) & (true > 0.0)
     case = surrogate.case
-    at = surrogate.box.setting(case, asked, np.ones(CASES), 1.0).where(known)
+    lumen = lumen_ratios(case, asked.wall_ratio, asked.load_factor)
+    at = surrogate.box.setting(case, asked, lumen, surrogate.stable.narrowest).where(known)
     scale = at.conditions.friction * opening_pressure(case, at)
-    points, values = at.unit[:, :3], np.log(true[known] / scale)
+    varying = np.ptp(at.unit, axis=0) > 0.0
+    points, values = at.unit[:, varying], np.log(true[known] / scale)
     predicted = np.empty(len(values))
     for part in range(5):
         left_out = np.arange(len(values)) % 5 == part
@@ -90,10 +100,12 @@ def gaussian_process(surrogate: sp.Surrogate, asked: Conditions, answers: list[s
 
 
 def predict(
-    points: Float[np.ndarray, "n 3"], values: Float[np.ndarray, " n"],
-    others: Float[np.ndarray, "m 3"],
+    points: Float[np.ndarray, "n d"], values: Float[np.ndarray, " n"],
+    others: Float[np.ndarray, "m d"],
 ) -> Float[np.ndarray, " m"]:  # fmt: skip
-    kernel = ConstantKernel(1.0) * RBF(np.ones(3), (0.05, 50.0)) + WhiteKernel(1e-6, (1e-10, 1e-2))
+    kernel = ConstantKernel(1.0) * RBF(np.ones(points.shape[1]), (0.05, 50.0)) + WhiteKernel(
+        1e-6, (1e-10, 1e-2)
+    )
     process = GaussianProcessRegressor(kernel, normalize_y=True, random_state=0)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ConvergenceWarning)

@@ -35,6 +35,9 @@ __all__ = ["build_held_stone"]
 NEARLY_NONE = 1e-4  # friction coefficient of the cases that stand for no friction
 FREE, GENTLE, PUSHED = 384, 96, 448  # number of cases of the three levels
 GENTLER = 0.3  # factor on the friction of the second level
+# Numbers of cases of the levels whose leak pressure is computed too; that takes several times as
+# long.
+FREE_LEAKS, GENTLE_LEAKS, PUSHED_LEAKS = 160, 32, 128
 BASE, BASE_TOTAL = (20, 16, 0, 0), 20  # degrees of the functions without friction
 CHANGE, CHANGE_TOTAL = (8, 8, 8), 8  # degrees of what the pressure changes
 MOST_LOST = 0.05  # largest fraction of cases without an answer
@@ -77,27 +80,29 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     def count(number: int) -> int:
         return max(FEWEST, round(effort * number))
 
-    def solved(asked: Conditions, *, error: bool) -> _Solved:
+    def solved(asked: Conditions, leaks: int) -> _Solved:
+        """Solve cases; with an error estimate the model computes the leak pressure too."""
         cases = [case_at(quick, asked, k) for k in range(len(asked.friction))]
-        answers, at = solver.answers(cases, error=error), domain.setting(quick, asked)
+        answers = [*solver.answers(cases[:leaks]), *solver.answers(cases[leaks:], error=False)]
+        at = domain.setting(quick, asked)
         return _Solved(at, answers, physics.learnt(quick, at, answers))
 
     asked = domain.training(quick, count(FREE))
     nearly = np.full(len(asked.friction), NEARLY_NONE)
-    free = solved(replace(asked, friction=nearly), error=True)
+    free = solved(replace(asked, friction=nearly), count(FREE_LEAKS))
     base = _base(free)
 
     gentle = count(GENTLE)
     asked = domain.training(quick, gentle + count(PUSHED))
     first = np.arange(len(asked.friction)) < gentle
     little = asked.where(first)
-    second = solved(replace(little, friction=GENTLER * little.friction), error=True)
+    second = solved(replace(little, friction=GENTLER * little.friction), count(GENTLE_LEAKS))
     functions, _ = _with_changes(base, second)
 
     rest = asked.where(~first)
     at = domain.setting(quick, rest)
     below = physics.solve(quick, at, functions(at)).outcome == MOVES
-    third = solved(rest.where(below), error=True)
+    third = solved(rest.where(below), count(PUSHED_LEAKS))
     _refuse_lost([*free.answers, *second.answers, *third.answers])
     both = _Solved(second.at.joined(third.at), [*second.answers, *third.answers],
                    np.concatenate([second.values, third.values]))  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -10,6 +11,8 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float, Int
 
 __all__ = ["SparsePolynomial", "chebyshev_products"]
+
+BLOCK = 8192  # number of points whose terms are computed at a time, so that they stay in the cache
 
 
 @array_dataclass
@@ -42,7 +45,35 @@ class SparsePolynomial:
     def __call__(self, points: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "n functions"]:
         """Return the values of all functions at n points, each coordinate between 0 and 1."""
         # In this order the values of a function are contiguous in memory.
-        return (self.coefficients.T @ chebyshev_products(points, self.degrees)).T
+        values = np.empty((self.coefficients.shape[1], len(points)))
+        for first in range(0, len(points), BLOCK):
+            block = slice(first, first + BLOCK)
+            values[:, block] = self._values(points[block])
+        return values.T
+
+    def _values(self, points: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "functions n"]:
+        column, degrees, coefficients = self._by_last
+        count = self.coefficients.shape[1]
+        series = coefficients @ chebyshev_products(points, degrees)
+        series = series.reshape(-1, count, len(points))
+        powers = _chebyshev(2.0 * points[:, column] - 1.0, len(series) - 1)
+        return np.einsum("kfn,kn->fn", series, powers)
+
+    @cached_property
+    def _by_last(self) -> tuple[int, Int[np.ndarray, "terms d"], Float[np.ndarray, "k terms"]]:
+        """The last coordinate that matters, the terms in the others, and their coefficients.
+
+        Terms that differ in the last coordinate only are computed once. The coefficients have one
+        row for each degree in this coordinate and each function.
+        """
+        column = int(np.flatnonzero(self.degrees.any(axis=0)).max(initial=0))
+        rest = self.degrees.copy()
+        rest[:, column] = 0
+        degrees, places = np.unique(rest, axis=0, return_inverse=True)
+        highest = int(self.degrees[:, column].max(initial=0))
+        spread = np.zeros((highest + 1, self.coefficients.shape[1], len(degrees)))
+        spread[self.degrees[:, column], :, np.ravel(places)] = self.coefficients
+        return column, degrees, spread.reshape(-1, len(degrees))
 
     def fixed(self, column: int, value: float) -> SparsePolynomial:
         """Return the functions with one coordinate fixed at a value; its degrees become 0.

@@ -1,0 +1,77 @@
+// The critical pressure over wall ratio and size ratio, with the line of the largest stones that move.
+
+import { svg } from "../dom.js";
+import { digits, plain } from "../units.js";
+import { area, hatch, horizontal, line, scale, ticks, vertical } from "./axes.js";
+
+const LEVELS = [1, 2, 4, 6, 8, 10, 12, 16, 20, 30, 50]; // kPa
+
+/** Draw the map of a question. */
+export function mapPicture(width, height, { map, question, answer }) {
+  const inside = area(width, height, { right: 18, top: 26 });
+  const walls = map.wall_ratio;
+  const sizes = map.size_ratio;
+  const x = scale(walls[0], walls[walls.length - 1], inside.left, inside.right);
+  const y = scale(sizes[0], sizes[sizes.length - 1], inside.bottom, inside.top);
+  const [ratio, wall] = [question.stone / question.inner, question.outer / question.inner];
+  const known = wall >= x.low && wall <= x.high && ratio >= y.low && ratio <= y.high;
+  const ends = map.critical_pressure_kPa.map((row) => lastKnown(row, sizes));
+  const levels = LEVELS.map((level) => ({ level, crossings: map.critical_pressure_kPa.map((row, k) => crossing(row, sizes, level, ends[k])) }))
+    .filter(({ crossings }) => crossings.some((each) => each < sizes[sizes.length - 1]));
+  const passing = map.critical_size_ratio?.map((each, k) => [x(walls[k]), each === null ? NaN : y(each)]) ?? [];
+  const column = (values) => walls.map((each, k) => [x(each), y(values[k])]);
+  return svg("svg", { role: "img", "aria-label": "Critical pressure over the wall ratio and the size ratio, with the line of the largest stones that move at the limit." },
+    hatch("hatch-map"),
+    svg("rect", { x: inside.left, y: inside.top, width: inside.right - inside.left, height: inside.bottom - inside.top, fill: shade(0, levels.length) }),
+    levels.map(({ crossings }, k) => svg("path", { fill: shade(k + 1, levels.length), d: above(column(crossings), inside.top) })),
+    svg("path", { fill: "var(--raised)", d: above(column(ends), inside.top) }),
+    svg("path", { fill: "url(#hatch-map)", d: above(column(ends), inside.top) }),
+    levels.map(({ crossings }, k) => svg("path", { class: "level", d: line(column(crossings.map((each, j) => (each < ends[j] ? each : NaN)))) })),
+    svg("path", { class: "passing", d: line(passing) }),
+    levels.map(({ level, crossings }, k) => levelLabel(level, crossings, ends, walls, x, y, k)),
+    svg("rect", { class: "frame", x: inside.left, y: inside.top, width: inside.right - inside.left, height: inside.bottom - inside.top }),
+    vertical(y, ticks(y.low, y.high, 5), inside.left, { label: "size ratio ξ", shown: (each) => each.toFixed(1) }),
+    horizontal(x, ticks(x.low, x.high, 5), inside.bottom, { label: "wall ratio η" }),
+    passingLabel(passing, question, inside),
+    known && svg("path", { class: "drop-line", d: `M${inside.left} ${y(ratio)}H${x(wall)}V${inside.bottom}` }),
+    known && svg("circle", { class: "point", cx: x(wall), cy: y(ratio), r: 7 }),
+    known && answer?.critical_pressure_kPa !== null && answer && svg("text", { class: "strong halo", x: x(wall) + 12, y: y(ratio) - 9 }, `${digits(answer.critical_pressure_kPa, 3)} kPa`));
+}
+
+/** Return the size ratio at which a row of pressures crosses a level, by linear interpolation. */
+function crossing(row, sizes, level, end) {
+  for (let k = 0; k < row.length; k += 1) {
+    if (row[k] === null) return Math.max(end, sizes[0]);
+    if (row[k] >= level) {
+      if (k === 0) return sizes[0];
+      return sizes[k - 1] + ((level - row[k - 1]) / (row[k] - row[k - 1])) * (sizes[k] - sizes[k - 1]);
+    }
+  }
+  return sizes[sizes.length - 1];
+}
+
+function lastKnown(row, sizes) {
+  const k = row.findLastIndex((each) => each !== null);
+  return k < 0 ? sizes[0] : sizes[k];
+}
+
+function above(points, top) {
+  return `${line(points)}L${points[points.length - 1][0].toFixed(1)} ${top}L${points[0][0].toFixed(1)} ${top}Z`;
+}
+
+function shade(k, count) {
+  return `color-mix(in oklab, var(--heat-1) ${Math.round((88 * k) / Math.max(1, count))}%, var(--heat-0))`;
+}
+
+function levelLabel(level, crossings, ends, walls, x, y, k) {
+  const at = Math.round((0.9 - 0.035 * k) * (walls.length - 1));
+  if (crossings[at] >= ends[at] - 1e-9 || y(crossings[at]) > y(y.low) - 12) return null;
+  return svg("text", { class: "halo small-text", x: x(walls[at]), y: y(crossings[at]) + 4, "text-anchor": "middle" }, plain(level));
+}
+
+function passingLabel(passing, question, inside) {
+  const known = passing.filter(([, y]) => Number.isFinite(y));
+  if (known.length < 2) return null;
+  const [x, y] = known[Math.floor(known.length * 0.55)];
+  return svg("text", { class: "accent halo", x: Math.min(x, inside.right - 90), y: Math.min(y + 22, inside.bottom - 8), "text-anchor": "middle" }, `moves at ${plain(question.limit, 2)} kPa below this line`);
+}

@@ -1,0 +1,126 @@
+// The finite-element answer beside the instant one: a job with progress that can be cancelled.
+
+import { startJob } from "./jobs.js";
+import { fill, h, write } from "./dom.js";
+import { term } from "./glossary.js";
+import { toCase, toQuery } from "./question.js";
+import { clinical, decimals, digits, withError } from "./units.js";
+import { outcomeWords } from "./verdict.js";
+
+/** Build the reading of the finite elements; `solved()` is called when an answer has come or gone. */
+export function solvePanel(changed) {
+  const model = h("select", { "aria-label": "Model of the finite elements" },
+    h("option", { value: "paper" }, "model of the paper"), h("option", { value: "direct" }, "direct model"));
+  const start = h("button", { type: "button", class: "button first small" }, "Solve");
+  const cancel = h("button", { type: "button", class: "button small", hidden: true }, "Cancel");
+  const figure = h("p", { class: "figure" });
+  const also = h("p", { class: "also" });
+  const detail = h("p", { class: "detail", role: "status" });
+  const bar = h("div");
+  const progress = h("div", { class: "progress", role: "progressbar", "aria-label": "Progress of the solve", "aria-valuemin": "0", "aria-valuemax": "100", hidden: true }, bar);
+  const element = h("section", { class: "reading solve" },
+    h("h2", {}, "Solved by finite elements"), figure, also, progress, detail,
+    h("div", { class: "row solve-row no-print" }, model, start, cancel));
+  let question = null;
+  let instant = null;
+  let answer = null; // {key, record}
+  let stop = () => {};
+  let running = "";
+
+  start.addEventListener("click", run);
+  cancel.addEventListener("click", () => stop());
+  model.addEventListener("change", draw);
+
+  async function run() {
+    const asked = { key: keyOf(question), method: { model: model.value } };
+    running = asked.key;
+    const body = { kind: "pressure", case: toCase(question, asked.method) };
+    if (question.stiffness !== 1) body.stiffness = question.stiffness;
+    working("The solve is waiting for a free worker.", 0);
+    let ended = false;
+    try {
+      stop = await startJob(body, (state) => {
+        ended = told(asked, state);
+      });
+      if (ended) running = "";
+    } catch (error) {
+      failed(error.message);
+    }
+  }
+
+  function told(asked, state) {
+    if (state.status === "queued") working("The solve is waiting for a free worker.", 0);
+    else if (state.status === "running") working(state.progress?.sentence || "The finite elements are being solved.", state.progress?.total ? state.progress.done / state.progress.total : 0.05);
+    else if (state.status === "done") {
+      answer = { key: asked.key, record: state.result };
+      rest();
+      draw();
+      changed();
+    } else failed(state.status === "cancelled" ? "The solve was cancelled." : state.problem?.detail ?? "The solve failed.");
+    return ["done", "failed", "cancelled"].includes(state.status);
+  }
+
+  function working(text, part) {
+    start.hidden = true;
+    model.disabled = true;
+    cancel.hidden = false;
+    progress.hidden = false;
+    bar.style.setProperty("--part", Math.max(0.03, part).toFixed(3));
+    progress.setAttribute("aria-valuenow", Math.round(100 * part));
+    write(detail, text);
+  }
+  function rest() {
+    running = "";
+    start.hidden = false;
+    model.disabled = false;
+    cancel.hidden = true;
+    progress.hidden = true;
+  }
+  function failed(text) {
+    rest();
+    write(detail, text);
+  }
+
+  function keyOf(of) {
+    return `${toQuery({ ...of, limit: 0 })}&${model.value}`;
+  }
+  function current() {
+    return answer && question && answer.key === keyOf(question) ? answer.record : null;
+  }
+
+  function draw() {
+    const record = current();
+    if (running) return;
+    if (!record) {
+      fill(figure, h("span", { class: "words quiet" }, answer ? "other inputs" : "not solved yet"));
+      write(also, answer ? `Earlier inputs: ${reading(answer.record)}` : "It takes a few seconds.");
+      fill(detail, "A solve covers all inputs; the ", term("push-through", "direct"), " model goes beyond the paper’s.");
+      return;
+    }
+    const [value, error] = withError(record.critical_pressure_kPa, record.critical_pressure_error_kPa);
+    if (record.critical_pressure_kPa === null) fill(figure, h("span", { class: "words" }, outcomeWords(record)));
+    else fill(figure, h("span", { class: "big" }, value), h("span", { class: "unit" }, "kPa"), error && h("span", { class: "error" }, `${error} kPa`));
+    write(also, record.critical_pressure_kPa === null ? record.message : clinical(record.critical_pressure_kPa));
+    const warned = record.warnings?.length ? ` ${record.warnings.map((each) => each.sentence).join(" ")}` : "";
+    write(detail, `${difference(record)}${warned}`);
+  }
+  function reading(record) {
+    return record.critical_pressure_kPa === null ? outcomeWords(record) : `${digits(record.critical_pressure_kPa, 4)} kPa`;
+  }
+  function difference(record) {
+    if (!instant || record.critical_pressure_kPa === null) return "";
+    const part = (100 * (record.critical_pressure_kPa - instant)) / instant;
+    return record.model === "paper" ? `${decimals(part, 2)} % from the instant answer.` : `${decimals(part, 1)} % from the instant answer of the paper’s model.`;
+  }
+
+  return {
+    element,
+    current,
+    /** Take the question that a solve would answer, and the instant answer to compare with. */
+    asked(next, pressure = null) {
+      question = next;
+      instant = pressure;
+      draw();
+    },
+  };
+}

@@ -120,7 +120,8 @@ function space(unit) {
 }
 
 function group(title, ...children) {
-  return h("fieldset", { class: "group" }, h("legend", { class: "title" }, title), children);
+  const id = freshId("group");
+  return h("div", { class: "group", role: "group", "aria-labelledby": id }, h("h2", { class: "title", id }, title), children);
 }
 
 function select(label, given) {

@@ -14,6 +14,15 @@ export function scale(low, high, from, to) {
   return at;
 }
 
+/** Return a logarithmic scale from values to pixels. */
+export function logarithmic(low, high, from, to) {
+  const linear = scale(Math.log(low), Math.log(high), from, to);
+  const at = (value) => linear(Math.log(value));
+  at.low = low;
+  at.high = high;
+  return at;
+}
+
 /** Return round numbers between two values, about `count` of them. */
 export function ticks(low, high, count = 5) {
   const rough = (high - low) / count;

@@ -24,7 +24,7 @@ export function curvePicture(width, height, { curve, answer, size, question, sol
     hatch("hatch-curve"), svg("defs", {}, clip),
     critical !== null && svg("rect", { class: "passes", x: inside.left, y: inside.top, width: x(critical) - inside.left, height: inside.bottom - inside.top }),
     end < sizes.length - 1 && svg("rect", { class: "unknown", fill: "url(#hatch-curve)", x: x(sizes[end]), y: inside.top, width: inside.right - x(sizes[end]), height: inside.bottom - inside.top }),
-    vertical(y, ticks(0, top, 4), inside.left, { label: "P_ucr, kPa", lines: [inside.left, inside.right] }),
+    vertical(y, ticks(0, top, 4), inside.left, { label: "critical pressure, kPa", lines: [inside.left, inside.right] }),
     vertical(y, ticks(0, top / KILOPASCAL_PER.mmHg, 4).map((each) => each * KILOPASCAL_PER.mmHg), inside.right, { label: "mmHg", right: true, shown: (each) => plain(each / KILOPASCAL_PER.mmHg, 0) }),
     horizontal(scale(x.low * question.inner, x.high * question.inner, inside.left, inside.right), ticks(x.low * question.inner, x.high * question.inner, width > 520 ? 8 : 5), inside.bottom, { label: "stone diameter, mm" }),
     svg("rect", { class: "frame", x: inside.left, y: inside.top, width: inside.right - inside.left, height: inside.bottom - inside.top }),
@@ -36,7 +36,7 @@ export function curvePicture(width, height, { curve, answer, size, question, sol
     svg("line", { class: "limit", x1: inside.left, x2: inside.right, y1: y(question.limit), y2: y(question.limit) }),
     svg("text", { class: "accent halo", x: inside.right - 6, y: y(question.limit) - 6, "text-anchor": "end" }, `limit ${plain(question.limit, 2)} kPa`),
     critical !== null && svg("line", { class: "limit", x1: x(critical), x2: x(critical), y1: y(question.limit), y2: inside.bottom }),
-    critical !== null && svg("text", { class: "accent halo", x: x(critical) + (x(critical) > inside.right - 120 ? -6 : 6), y: inside.bottom - 10, "text-anchor": x(critical) > inside.right - 120 ? "end" : "start" }, `largest ${digits(critical * question.inner, 3)} mm`),
+    critical !== null && svg("text", { class: "accent halo", x: Math.min(Math.max(x(critical) + 7, inside.left + 50), inside.right - 110), y: inside.bottom - 9 }, `${digits(critical * question.inner, 3)} mm`),
     point(x, y, ratio, here),
     solved && svg("circle", { class: "point solved", cx: x(ratio), cy: y(solved.critical_pressure_kPa), r: 5 }));
 }
@@ -50,7 +50,7 @@ function point(x, y, ratio, pressure) {
   const reading = `${digits(pressure, 3)} kPa`;
   const left = x(ratio) > (x(x.low) + x(x.high)) / 2;
   return svg("g", {},
-    svg("path", { class: "drop-line", d: `M${x(x.low)} ${y(pressure)}H${x(ratio)}V${y(0)}` }),
+    svg("path", { class: "drop-line", d: `M${x(x.low)} ${y(pressure)}H${x(ratio)}` }),
     svg("text", { class: "strong halo", x: x(ratio) + (left ? -12 : 12), y: y(pressure) - 9, "text-anchor": left ? "end" : "start" }, reading),
     svg("circle", { class: "point", cx: x(ratio), cy: y(pressure), r: 7 }));
 }

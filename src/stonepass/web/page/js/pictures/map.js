@@ -2,8 +2,9 @@
 
 import { svg } from "../dom.js";
 import { digits, plain } from "../units.js";
-import { area, hatch, horizontal, line, scale, ticks, vertical } from "./axes.js";
+import { area, hatch, horizontal, line, logarithmic, scale, ticks, vertical } from "./axes.js";
 
+const WALL_TICKS = [1.1, 1.2, 1.3, 1.5, 2, 2.5, 3, 4];
 const LEVELS = [1, 2, 4, 6, 8, 10, 12, 16, 20, 30, 50]; // kPa
 
 /** Draw the map of a question. */
@@ -11,8 +12,8 @@ export function mapPicture(width, height, { map, question, answer }) {
   const inside = area(width, height, { right: 18, top: 26 });
   const walls = map.wall_ratio;
   const sizes = map.size_ratio;
-  const x = scale(walls[0], walls[walls.length - 1], inside.left, inside.right);
-  const y = scale(sizes[0], sizes[sizes.length - 1], inside.bottom, inside.top);
+  const x = logarithmic(walls[0], walls[walls.length - 1], inside.left, inside.right);
+  const y = scale(Math.max(1, sizes[0]), sizes[sizes.length - 1], inside.bottom, inside.top);
   const [ratio, wall] = [question.stone / question.inner, question.outer / question.inner];
   const known = wall >= x.low && wall <= x.high && ratio >= y.low && ratio <= y.high;
   const ends = map.critical_pressure_kPa.map((row) => lastKnown(row, sizes));
@@ -28,10 +29,10 @@ export function mapPicture(width, height, { map, question, answer }) {
     svg("path", { fill: "url(#hatch-map)", d: above(column(ends), inside.top) }),
     levels.map(({ crossings }, k) => svg("path", { class: "level", d: line(column(crossings.map((each, j) => (each < ends[j] ? each : NaN)))) })),
     svg("path", { class: "passing", d: line(passing) }),
-    levels.map(({ level, crossings }, k) => levelLabel(level, crossings, ends, walls, x, y, k)),
+    levels.map(({ level, crossings }) => levelLabel(level, crossings, ends, walls, x, y)),
     svg("rect", { class: "frame", x: inside.left, y: inside.top, width: inside.right - inside.left, height: inside.bottom - inside.top }),
     vertical(y, ticks(y.low, y.high, 5), inside.left, { label: "size ratio ξ", shown: (each) => each.toFixed(1) }),
-    horizontal(x, ticks(x.low, x.high, 5), inside.bottom, { label: "wall ratio η" }),
+    horizontal(x, WALL_TICKS.filter((each) => each >= x.low && each <= x.high), inside.bottom, { label: "wall ratio η" }),
     passingLabel(passing, question, inside),
     known && svg("path", { class: "drop-line", d: `M${inside.left} ${y(ratio)}H${x(wall)}V${inside.bottom}` }),
     known && svg("circle", { class: "point", cx: x(wall), cy: y(ratio), r: 7 }),
@@ -63,10 +64,12 @@ function shade(k, count) {
   return `color-mix(in oklab, var(--heat-1) ${Math.round((88 * k) / Math.max(1, count))}%, var(--heat-0))`;
 }
 
-function levelLabel(level, crossings, ends, walls, x, y, k) {
-  const at = Math.round((0.9 - 0.035 * k) * (walls.length - 1));
-  if (crossings[at] >= ends[at] - 1e-9 || y(crossings[at]) > y(y.low) - 12) return null;
-  return svg("text", { class: "halo small-text", x: x(walls[at]), y: y(crossings[at]) + 4, "text-anchor": "middle" }, plain(level));
+function levelLabel(level, crossings, ends, walls, x, y) {
+  const along = (k) => (x(walls[k]) - x(x.low)) * 0.35 + (y(y.low) - y(crossings[k]));
+  const shown = walls.map((_, k) => k).filter((k) => k > 1 && k < walls.length - 2 && crossings[k] < ends[k] - 1e-9 && crossings[k] > y.low + 0.02);
+  if (!shown.length) return null;
+  const at = shown.reduce((best, k) => (Math.abs(along(k) - 0.5 * (x(x.high) - x(x.low))) < Math.abs(along(best) - 0.5 * (x(x.high) - x(x.low))) ? k : best));
+  return svg("text", { class: "halo", x: x(walls[at]), y: y(crossings[at]) + 4, "text-anchor": "middle" }, plain(level));
 }
 
 function passingLabel(passing, question, inside) {

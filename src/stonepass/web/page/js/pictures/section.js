@@ -43,11 +43,17 @@ export function sectionWords({ question, section, exact }) {
 }
 
 function urine(inner, shape, x, y) {
-  const edge = shape.contact.length ? shape.contact[0] : { z: -Math.min(...shape.stone.map(([z]) => -z)) };
-  const upper = inner.filter(([z]) => z <= edge.z);
+  const edge = shape.contact[0] ?? touching(inner, shape.stone);
+  const upper = [...inner.filter(([z]) => z < edge.z), [edge.z, edge.r]];
   const around = shape.stone.filter(([z]) => z <= edge.z).toReversed();
   const outline = [...upper, ...around, ...mirrored(around), ...mirrored(upper)];
   return `${line(outline.map(([z, r]) => [x(z), y(r)]))}Z`;
+}
+
+/** Return the upstream point at which a stone would touch a straight wall, or its pole if it is loose. */
+function touching(inner, stone) {
+  const found = stone.find(([, r]) => r >= inner[0][1]);
+  return found ? { z: found[0], r: inner[0][1] } : { z: stone[0][0], r: inner[0][1] };
 }
 
 function pressureBars(contact, side, { x, y, length, top }) {

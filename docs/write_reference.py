@@ -1,12 +1,14 @@
-"""Write the pages that follow from the code: keys of records and case files, the JSON schema."""
+"""Write what follows from other files: keys of records and case files, JSON schema, glossary."""
 
 import json
+import re
 from pathlib import Path
 
 from stonepass.inputs.schema import case_schema
 from stonepass.records.reference import reference
 
 DOCS = Path(__file__).parent
+GLOSSARY = DOCS.parent / "src" / "stonepass" / "web" / "glossary.json"
 CASE_FILE = DOCS / "howto" / "case-file.md"
 # This script writes the text between these two lines of the page of case files.
 START, END = "<!-- written by docs/write_reference.py -->\n", "<!-- end -->\n"
@@ -18,6 +20,20 @@ def main() -> None:
     schema = json.dumps(case_schema(), indent=2, ensure_ascii=False) + "\n"
     (DOCS / "data" / "case.schema.json").write_text(schema, encoding="utf-8")
     CASE_FILE.write_text(case_file_page(), encoding="utf-8")
+    GLOSSARY.write_text(glossary_words(), encoding="utf-8")
+
+
+def glossary_words() -> str:
+    """Return the words of the glossary with their meanings as JSON, for the page in the browser."""
+    table = (DOCS / "glossary.md").read_text(encoding="utf-8").split("## Outcomes")[0]
+    rows = re.findall(r"^\| (.+?) \| (.*?) ?\| (.+?) \|$", table, re.MULTILINE)[2:]
+    words = {word: _plain(meaning) for word, _, meaning in rows}
+    return json.dumps(words, indent=1, ensure_ascii=False) + "\n"
+
+
+def _plain(text: str) -> str:
+    """Return a text of Markdown without links and without marks of code."""
+    return re.sub(r"\[(.+?)\]\(.+?\)", r"\1", text).replace("`", "")
 
 
 def case_file_page() -> str:

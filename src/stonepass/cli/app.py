@@ -35,9 +35,10 @@ COMMANDS = {
     "fit": ("fit", "Fit the constants of a material law to laboratory tests."),
     "material": ("material", "List, show and check material laws."),
     "surrogate": ("surrogate", "Build, check and evaluate fast surrogates of the models."),
+    "serve": ("serve", "Serve a page in the browser and an HTTP API."),
 }
 PANELS = {
-    "Questions about a stone": ("pressure", "size", "curve", "push", "assess"),
+    "Questions about a stone": ("serve", "pressure", "size", "curve", "push", "assess"),
     "Many cases": ("sweep", "results", "sensitivity", "surrogate"),
     "Laboratory": ("friction", "fit", "invitro", "material"),
     "Comparisons": ("closures", "export", "compare", "headline", "paper"),

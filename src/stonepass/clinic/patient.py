@@ -11,6 +11,7 @@ from pydantic import Field, create_model
 
 from stonepass.caution import Caution, caution
 from stonepass.clinic.cohorts import PLACES, place_meant
+from stonepass.clinic.pressure_limits import read_limit
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.inputs.build import build_load, build_method, in_words
 from stonepass.inputs.catalogue import all_inputs
@@ -28,12 +29,11 @@ from stonepass.model.shape import ASPECT, Shape
 from stonepass.model.stone import DIAMETER, FRICTION, SIZE_RATIO, Stone
 from stonepass.model.ureter import Ureter
 from stonepass.studies.uncertain_quantity import UncertainQuantity, measured_length, measured_number
-from stonepass.units import Length, Pressure, Quantity, pressure
+from stonepass.units import Length, Pressure, Quantity
 
 __all__ = ["INPUTS", "Patient", "read_patient"]
 
 STIFFNESS = (0.05, 20.0)  # smallest and largest factor on the stiffness of the material
-LIMIT = (100.0, 1e5)  # smallest and largest pressure limit in Pa
 SAMPLES = (256, 65_536)  # smallest and largest number of samples
 LARGEST_SEED = 2**32  # seeds are smaller than this
 LONGEST_TITLE = 120  # largest number of characters of a title
@@ -118,7 +118,7 @@ class Patient:
 
     def with_limit(self, limit: str | Pressure | Quantity) -> Patient:
         """Return the patient with another pressure limit, in Pa or as text with a unit."""
-        return replace(self, limit=_limit(limit))
+        return replace(self, limit=read_limit(limit))
 
     def case(self) -> Case:
         """Return the case at the measured values, with the stiffness of the material.
@@ -248,7 +248,7 @@ def _patient(parsed: Any, folder: Path) -> Patient:
     patient = Patient(
         measured=measured,
         material=find_material(ureter.material, folder),
-        limit=_limit(parsed.assessment.limit),
+        limit=read_limit(parsed.assessment.limit),
         place=stone.place,
         shape=_shape(stone, folder),
         load=build_load(section_values(parsed.load, "load")),
@@ -276,12 +276,6 @@ def _check_place(place: str | None) -> None:
 def _title(text: str) -> str:
     require(len(text) <= LONGEST_TITLE, "title", text, f"at most {LONGEST_TITLE} characters long")
     return " ".join(text.split())
-
-
-def _limit(value: str | Pressure | Quantity) -> Pressure:
-    limit = pressure(value, "limit")
-    require(LIMIT[0] <= limit <= LIMIT[1], "limit", value, "0.1 kPa to 100 kPa")
-    return limit
 
 
 def _check(measured: Mapping[str, UncertainQuantity]) -> None:

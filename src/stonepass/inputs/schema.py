@@ -7,7 +7,7 @@ from typing import Any
 from stonepass.declaration import DeclaredInput, Kind
 from stonepass.inputs.catalogue import models_with, sections
 
-__all__ = ["case_schema"]
+__all__ = ["case_schema", "property_schema"]
 
 _TYPES: dict[Kind, Any] = {
     Kind.NUMBER: "number",
@@ -34,14 +34,15 @@ def case_schema() -> dict[str, Any]:
             section: {
                 "type": "object",
                 "additionalProperties": False,
-                "properties": {name: _property(each) for name, each in keys.items()},
+                "properties": {name: property_schema(each) for name, each in keys.items()},
             }
             for section, keys in sections().items()
         },
     }
 
 
-def _property(each: DeclaredInput) -> dict[str, Any]:
+def property_schema(each: DeclaredInput) -> dict[str, Any]:
+    """Return the JSON Schema of one input: type, meaning, choices, bounds and default."""
     declaration = each.declaration
     found: dict[str, Any] = {
         "type": _TYPES.get(declaration.kind, "string"),

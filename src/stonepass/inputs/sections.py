@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, create_model
+from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from stonepass.declaration import Kind
 from stonepass.inputs.catalogue import sections
+from stonepass.inputs.schema import property_schema
 
 __all__ = ["FileSection", "section_model", "section_values"]
 
@@ -28,11 +29,19 @@ class FileSection(BaseModel):
 
 
 def section_model(section: str) -> type[FileSection]:
-    """Return the pydantic model of a section of a case file, made from the declared inputs."""
-    keys: dict[str, Any] = {
-        name: (_TYPES.get(each.declaration.kind, str) | None, None)
-        for name, each in sections()[section].items()
-    }
+    """Return the pydantic model of a section of a case file, made from the declared inputs.
+
+    The JSON schema of the model has the meanings, bounds and defaults of the inputs.
+    """
+    keys: dict[str, Any] = {}
+    for name, each in sections()[section].items():
+        schema = property_schema(each)
+        meaning = schema.pop("description")
+        extra: dict[str, Any] = {
+            key: schema[key] for key in ("enum", "minimum", "maximum") if key in schema
+        }
+        field = Field(None, description=meaning, json_schema_extra=extra)
+        keys[name] = (_TYPES.get(each.declaration.kind, str) | None, field)
     return create_model(f"{section.title()}Section", __base__=FileSection, **keys)
 
 

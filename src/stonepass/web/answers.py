@@ -1,0 +1,145 @@
+"""Responses of the API: JSON without NaN, and problems as RFC 9457 describes them."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from fastapi import Response
+from pydantic import BaseModel, ConfigDict, Field
+
+from stonepass.errors import BadInput
+from stonepass.inputs.build import in_words
+from stonepass.inputs.catalogue import all_inputs
+
+__all__ = ["Json", "Problem", "ProblemError", "field_of", "problem_response", "refused"]
+
+PROBLEM_TYPE = "application/problem+json"
+LONGEST_VALUE = 200  # characters of a refused value that a problem repeats
+TITLES = {
+    400: "The request cannot be read",
+    401: "The token is missing or wrong",
+    403: "The request is not allowed",
+    404: "There is nothing at this address",
+    405: "The method is not allowed here",
+    411: "The length of the request is missing",
+    413: "The request is too large",
+    415: "The content type is not supported",
+    421: "The request is addressed to another host",
+    422: "An input is refused",
+    429: "There are too many requests",
+    500: "This is an error of stonepass",
+}
+# Inputs that a message about more than one input belongs to.
+SHARED_FIELDS = {
+    "size of the stone": "stone.diameter",
+    "size of the ureter": "ureter.inner_diameter",
+    "size ratio (stone diameter over inner diameter)": "stone.size_ratio",
+    "wall of the ureter": "ureter.wall_thickness",
+}
+
+
+class Problem(BaseModel):
+    """A problem with a request, as RFC 9457 describes it."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    type: str = Field(description="kind of the problem; always about:blank")
+    title: str = Field(description="the problem in general")
+    status: int = Field(description="status code of the response")
+    detail: str = Field(description="the problem in one sentence")
+    field: str | None = Field(None, description="input that is refused, e.g. stone.diameter")
+    value: str | None = Field(None, description="refused value as text, shortened")
+
+
+class ProblemError(Exception):
+    """An error that ends a request with a problem.
+
+    Attributes
+    ----------
+    status : int
+        Status code of the response.
+    detail : str
+        The problem in one sentence.
+    field : str or None
+        The input that is refused.
+    headers : dict of str to str
+        Further headers of the response.
+    """
+
+    def __init__(
+        self,
+        status: int,
+        detail: str,
+        field: str | None = None,
+        headers: dict[str, str] | None = None,
+    ) -> None:
+        super().__init__(detail)
+        self.status, self.detail, self.field = status, detail, field
+        self.headers = headers or {}
+
+
+class Json(Response):
+    """A JSON response in ASCII, so that any text a client sent can be repeated."""
+
+    media_type = "application/json"
+
+    def render(self, content: Any) -> bytes:
+        """Return the content as JSON; NaN and infinity raise `ValueError`."""
+        return json.dumps(content, allow_nan=False, separators=(",", ":")).encode("ascii")
+
+
+def problem_response(
+    status: int,
+    detail: str,
+    field: str | None = None,
+    value: Any = None,
+    headers: dict[str, str] | None = None,
+) -> Response:
+    """Return a response that describes a problem.
+
+    Parameters
+    ----------
+    status : int
+        Status code.
+    detail : str
+        The problem in one sentence.
+    field : str, optional
+        The input that is refused.
+    value : object, optional
+        The refused value.
+    headers : dict of str to str, optional
+        Further headers.
+    """
+    document: dict[str, Any] = {
+        "type": "about:blank",
+        "title": TITLES.get(status, "The request failed"),
+        "status": status,
+        "detail": detail,
+    }
+    if field is not None:
+        document["field"] = field
+    if value is not None:
+        document["value"] = str(value)[:LONGEST_VALUE]
+    return Json(document, status, headers, PROBLEM_TYPE)
+
+
+def field_of(problem: BadInput) -> str | None:
+    """Return the key of the input that an error is about, e.g. ``stone.diameter``."""
+    fields = {each.title: key for key, each in all_inputs().items()} | SHARED_FIELDS
+    return fields.get(problem.argument)
+
+
+def refused(problem: BadInput, field: str | None = None) -> Response:
+    """Return the response to a request with an invalid input.
+
+    Parameters
+    ----------
+    problem : BadInput
+        The error.
+    field : str, optional
+        The input that is refused; by default the one that the error is about.
+    """
+    field = field or field_of(problem)
+    named = in_words(problem, {} if field is None else {problem.argument: field})
+    return problem_response(422, str(named), field, named.value)

@@ -1,0 +1,88 @@
+"""The application: routes of the API and of the page, behind the guard."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI
+from starlette.responses import FileResponse, Response
+from starlette.staticfiles import StaticFiles
+
+from stonepass.about import DISCLAIMER, VERSION
+from stonepass.web.answers import Problem, problem_response
+from stonepass.web.guard import Guard
+from stonepass.web.problems import handle_problems
+from stonepass.web.routes import router
+from stonepass.web.settings import ServerSettings
+
+__all__ = ["create_app"]
+
+PAGE = Path(__file__).parent / "page"
+DESCRIPTION = (
+    "At what urine pressure does a kidney stone move in a ureter, and how large a stone moves at a "
+    f"given pressure? {DISCLAIMER} Quantities in requests are texts with a unit, such as '3 mm' or "
+    "'6 kPa'; numbers in responses have their unit in the name of the key."
+)
+
+
+def create_app(settings: ServerSettings) -> Guard:
+    """Return the ASGI application of the server.
+
+    Parameters
+    ----------
+    settings : ServerSettings
+        Address, token, folder of the solution cache, and limits.
+    """
+    app = FastAPI(
+        title="stonepass",
+        version=VERSION,
+        description=DESCRIPTION,
+        openapi_url="/api/v1/openapi.json",
+        docs_url=None,  # their pages load scripts from other machines
+        redoc_url=None,
+    )
+    handle_problems(app)
+    app.include_router(router)
+    _add_page(app)
+    _describe_problems(app)
+    return Guard(app, settings)
+
+
+def _add_page(app: FastAPI) -> None:
+    """Serve the files of the page, and the library for its view in three dimensions."""
+
+    @app.get("/", include_in_schema=False)
+    def page() -> Response:
+        """Return the page."""
+        index = PAGE / "index.html"
+        if not index.is_file():
+            return problem_response(404, "This installation of stonepass has no page.")
+        return FileResponse(index, media_type="text/html; charset=utf-8")
+
+    @app.get("/vendor/plotly.min.js", include_in_schema=False)
+    def plotly() -> Response:
+        """Return plotly.js from the installed library of that name."""
+        found = find_spec("plotly")
+        folders = [] if found is None else list(found.submodule_search_locations or [])
+        for folder in folders:
+            script = Path(folder) / "package_data" / "plotly.min.js"
+            if script.is_file():
+                return FileResponse(script, media_type="text/javascript; charset=utf-8")
+        return problem_response(404, "The library plotly is not installed.")
+
+    app.mount("/assets", StaticFiles(directory=PAGE, check_dir=False), name="assets")
+
+
+def _describe_problems(app: FastAPI) -> None:
+    """Add the schema of a problem, which no route returns as its result, to the description."""
+    plain = app.openapi
+
+    def described() -> dict[str, Any]:
+        document = plain()
+        schemas = document.setdefault("components", {}).setdefault("schemas", {})
+        schemas.setdefault("Problem", Problem.model_json_schema())
+        return document
+
+    app.openapi = described  # type: ignore[method-assign]

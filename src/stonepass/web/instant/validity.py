@@ -1,0 +1,84 @@
+"""The ranges of the inputs within which a surrogate answers, and where a case lies in them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from stonepass.studies.surrogates.surrogate import Surrogate
+from stonepass.units import format_length, format_pressure
+from stonepass.web.instant.question import STIFFNESS_INPUT, InstantQuestion
+
+__all__ = ["validity"]
+
+
+def validity(question: InstantQuestion, surrogate: Surrogate) -> dict[str, dict[str, Any]]:
+    """Return the valid range of every input, in SI units, with a sentence for a reader.
+
+    The range of an input is valid for the present values of the others. A stone that is smaller
+    than the lumen is loose, and therefore the smallest size ratio is 0.
+
+    Parameters
+    ----------
+    question : InstantQuestion
+    surrogate : Surrogate
+        The surrogate that answers it.
+
+    Returns
+    -------
+    dict
+        For each input ``low``, ``high``, ``value``, ``inside`` and ``sentence``. Lengths are in m
+        and pressures in Pa.
+    """
+    case, box = question.case, surrogate.box
+    most = question.stiffness * surrogate.case.load.confining_pressure
+    confining = float(case.load.confining_pressure)
+    found = {
+        "stone.size_ratio": _range(0.0, box.size_ratio, case.size_ratio, "The size ratio"),
+        "ureter.wall_ratio": _range(*box.wall_ratio, case.wall_ratio, "The wall ratio"),
+        "stone.friction": _range(*box.friction, case.stone.friction, "The friction coefficient"),
+        "load.confining_pressure": _range(
+            0.0, most, confining, "The confining pressure", format_pressure
+        ),
+        "stiffness": _stiffness(question, surrogate),
+    }
+    inner = case.ureter.inner_diameter
+    diameter = case.stone_diameter
+    if inner is not None and diameter is not None:
+        found["stone.diameter"] = _range(
+            0.0, box.size_ratio * inner, diameter, "The diameter of the stone", format_length
+        )
+        low, high = (float(inner) * each for each in box.wall_ratio)
+        if case.ureter.outer_diameter is not None:
+            outer = float(case.ureter.outer_diameter)
+            found["ureter.outer_diameter"] = _range(
+                low, high, outer, "The outer diameter of the ureter", format_length
+            )
+            walls = [(each - inner) / 2.0 for each in (low, high, outer)]
+            found["ureter.wall_thickness"] = _range(
+                walls[0], walls[1], walls[2], "The thickness of the wall", format_length
+            )
+    return found
+
+
+def _stiffness(question: InstantQuestion, surrogate: Surrogate) -> dict[str, Any]:
+    """Return the range of the stiffness; a load needs a wall that is stiff enough."""
+    low, high = STIFFNESS_INPUT.bounds or (0.0, 1.0)
+    confining = float(question.case.load.confining_pressure)
+    most = float(surrogate.case.load.confining_pressure)
+    if confining > 0.0 and most > 0.0:
+        low = max(low, confining / most)
+    return _range(low, high, question.stiffness, "The stiffness factor of the wall")
+
+
+def _range(low: float, high: float, value: float, name: str, shown: Any = None) -> dict[str, Any]:
+    """Return the range of one input; `shown` writes a number with its unit."""
+    write = shown or (lambda number: f"{number:.4g}")
+    low, high, value = float(low), float(high), float(value)
+    slack = 1e-9 * max(abs(low), abs(high))  # of a quotient of two lengths
+    inside = low - slack <= value <= high + slack
+    where = "within" if inside else "outside"
+    sentence = (
+        f"{name} is {write(value)}, {where} the range from {write(low)} to {write(high)} of the "
+        "instant answer."
+    )
+    return {"low": low, "high": high, "value": value, "inside": inside, "sentence": sentence}

@@ -1,0 +1,92 @@
+"""Handlers that turn every error of a request into a problem with one sentence."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from fastapi import FastAPI, Request, Response
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+
+from stonepass.errors import BadInput, did_you_mean
+from stonepass.inputs.catalogue import sections
+from stonepass.web.answers import ProblemError, problem_response, refused
+
+__all__ = ["handle_problems"]
+
+ALLOWED = {
+    "missing": "given",
+    "string_type": "text",
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "bool_type": "true or false",
+    "list_type": "a list",
+    "dict_type": "an object",
+    "model_type": "an object",
+    "model_attributes_type": "an object",
+}
+# Parts of the location of an error that are no keys of the request.
+NO_KEYS = ("body", "query", "path", "str", "dict[str,any]", "case")
+SENTENCES = {
+    404: "There is nothing at this address; GET /api/v1 lists the addresses.",
+    405: "This method is not allowed at this address; GET /api/v1/openapi.json lists the methods.",
+}
+_LOG = logging.getLogger("stonepass.web")
+
+
+def handle_problems(app: FastAPI) -> None:
+    """Register the handlers of an application."""
+    app.add_exception_handler(BadInput, _bad_input)
+    app.add_exception_handler(ProblemError, _problem)
+    app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(HTTPException, _http)
+    app.add_exception_handler(Exception, _fault)
+
+
+def _bad_input(_: Request, problem: Exception) -> Response:
+    assert isinstance(problem, BadInput)
+    return refused(problem)
+
+
+def _problem(_: Request, problem: Exception) -> Response:
+    assert isinstance(problem, ProblemError)
+    return problem_response(problem.status, problem.detail, problem.field, None, problem.headers)
+
+
+def _invalid(_: Request, problem: Exception) -> Response:
+    """Describe the first key of a request that is missing, unknown or of the wrong type."""
+    assert isinstance(problem, RequestValidationError)
+    first: Mapping[str, Any] = problem.errors()[0]
+    kind, where = first["type"], first["loc"]
+    if kind == "json_invalid":
+        return problem_response(400, "The body of the request is not valid JSON.")
+    keys = [str(part) for part in where if part not in NO_KEYS]
+    field = ".".join(keys) or "body"
+    value = "missing" if kind == "missing" else first.get("input")
+    return refused(BadInput(field, value, _allowed(first, keys)), field)
+
+
+def _allowed(error: Mapping[str, Any], keys: Sequence[str]) -> str:
+    if error["type"] == "extra_forbidden":
+        known = sections()
+        names = known.get(keys[0], known) if len(keys) > 1 else known
+        return f"left out, because there is no such key{did_you_mean(keys[-1], names)}"
+    if error["type"] == "literal_error":
+        return f"one of {error['ctx']['expected']}"
+    return ALLOWED.get(error["type"], f"valid ({error['msg']})")
+
+
+def _http(_: Request, problem: Exception) -> Response:
+    assert isinstance(problem, HTTPException)
+    sentence = SENTENCES.get(problem.status_code, f"{str(problem.detail).rstrip('.')}.")
+    return problem_response(problem.status_code, sentence, headers=dict(problem.headers or {}))
+
+
+def _fault(_: Request, problem: Exception) -> Response:
+    """Answer a request that met an error of the program; the log has no content of the request."""
+    _LOG.error("an error of stonepass: %s", type(problem).__name__)
+    return problem_response(
+        500, "This is an error of stonepass; please report it together with your request."
+    )

@@ -2,6 +2,7 @@
 
 import { fill, h, svg } from "./dom.js";
 import { term } from "./glossary.js";
+import { plain } from "./units.js";
 import { redrawn } from "./pictures/axes.js";
 import { curvePicture } from "./pictures/curve.js";
 import { mapPicture } from "./pictures/map.js";
@@ -11,7 +12,7 @@ import { sectionPicture, sectionWords } from "./pictures/section.js";
 export function picturesPanel() {
   const section = picture("Section through ureter and stone, to scale", [], "wide");
   const curve = picture(["Size of the stone and ", term("critical pressure")], ["The thin band is the error of the instant answer. The shaded area holds the stones that move at the limit."]);
-  const map = picture(["Thickness of the wall and size"], ["Shades are the ", term("critical pressure"), " in kPa over ", term("wall ratio"), " and ", term("size ratio"), ". Hatched: the model has no answer."]);
+  const map = picture(["Thickness of the wall and size"], []);
   const turned = h("div", { class: "canvas", hidden: true });
   const turn = h("button", { type: "button", class: "button small no-print", "aria-expanded": "false" }, "Turn it in 3-D");
   section.tools.append(turn);
@@ -36,6 +37,7 @@ export function picturesPanel() {
     shown = { question, section: solved?.section ?? found.section, exact: Boolean(solved?.section) };
     section.draw((width, height) => sectionPicture(width, height, shown));
     fill(section.caption, sectionWords(shown));
+    fill(map.caption, `Stones below the thick line move at ${plain(question.limit, 2)} kPa. The thin lines are the `, term("critical pressure"), " in kPa; ", term("wall ratio"), " and ", term("size ratio"), " are outer and stone over inner diameter.");
     if (view && !turned.hidden) view.show(shown);
     for (const [each, make, part] of [[curve, curvePicture, found.curve], [map, mapPicture, found.map]]) {
       each.element.dataset.state = part ? "" : "empty";

@@ -13,7 +13,7 @@ export function repeatPanel() {
   const buttons = KINDS.map(([name, label]) => h("button", { type: "button", "aria-pressed": String(name === kind), onclick: () => choose(name) }, label));
   const link = h("button", { type: "button", class: "button small", onclick: () => copied(window.location.href) }, "Copy the link");
   const print = h("button", { type: "button", class: "button small", onclick: () => window.print() }, "Print");
-  const mark = h("p", { class: "small quiet" });
+  const mark = h("p", { class: "small quiet mark" });
   const element = h("section", { class: "more stack-small", "aria-label": "Repeat this answer" },
     h("div", { class: "row apart" }, h("h2", {}, "Repeat this answer"), h("div", { class: "row no-print" }, link, print)),
     h("div", { class: "choice no-print wrap", role: "group", "aria-label": "Way to repeat the answer" }, buttons),

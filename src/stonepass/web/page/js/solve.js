@@ -92,9 +92,9 @@ export function solvePanel(changed) {
     const record = current();
     if (running) return;
     if (!record) {
-      fill(figure, h("span", { class: "words quiet" }, answer ? "other inputs" : "not solved yet"));
-      write(also, answer ? `Earlier inputs: ${reading(answer.record)}` : "It takes a few seconds.");
-      fill(detail, "A solve covers all inputs; the ", term("push-through", "direct"), " model goes beyond the paper’s.");
+      fill(figure, h("span", { class: "words quiet" }, "not solved"));
+      write(also, answer ? `Solved for earlier inputs: ${reading(answer.record)}` : "A solve takes a few seconds and covers all inputs.");
+      fill(detail, "The ", term("push-through", "direct"), " model has no closure and goes beyond the paper’s.");
       return;
     }
     const [value, error] = withError(record.critical_pressure_kPa, record.critical_pressure_error_kPa);

@@ -106,3 +106,8 @@ export function redrawn(canvas) {
     paint();
   };
 }
+
+/** Draw a picture that stays as it is into a canvas, again whenever the size changes. */
+export function drawn(canvas, make) {
+  redrawn(canvas)(make);
+}

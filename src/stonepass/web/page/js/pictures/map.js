@@ -29,11 +29,10 @@ export function mapPicture(width, height, { map, question, answer }) {
     svg("path", { fill: "url(#hatch-map)", d: above(column(ends), inside.top) }),
     levels.map(({ crossings }, k) => svg("path", { class: "level", d: line(column(crossings.map((each, j) => (each < ends[j] ? each : NaN)))) })),
     svg("path", { class: "passing", d: line(passing) }),
-    levels.map(({ level, crossings }) => levelLabel(level, crossings, ends, walls, x, y)),
+    spaced(levels.map(({ level, crossings }) => levelLabel(level, crossings, ends, walls, x, y))),
     svg("rect", { class: "frame", x: inside.left, y: inside.top, width: inside.right - inside.left, height: inside.bottom - inside.top }),
     vertical(y, ticks(y.low, y.high, 5), inside.left, { label: "size ratio ξ", shown: (each) => each.toFixed(1) }),
     horizontal(x, WALL_TICKS.filter((each) => each >= x.low && each <= x.high), inside.bottom, { label: "wall ratio η" }),
-    passingLabel(passing, question, inside),
     known && svg("path", { class: "drop-line", d: `M${inside.left} ${y(ratio)}H${x(wall)}V${inside.bottom}` }),
     known && svg("circle", { class: "point", cx: x(wall), cy: y(ratio), r: 7 }),
     known && answer?.critical_pressure_kPa !== null && answer && svg("text", { class: "strong halo", x: x(wall) + 12, y: y(ratio) - 9 }, `${digits(answer.critical_pressure_kPa, 3)} kPa`));
@@ -65,16 +64,17 @@ function shade(k, count) {
 }
 
 function levelLabel(level, crossings, ends, walls, x, y) {
-  const along = (k) => (x(walls[k]) - x(x.low)) * 0.35 + (y(y.low) - y(crossings[k]));
-  const shown = walls.map((_, k) => k).filter((k) => k > 1 && k < walls.length - 2 && crossings[k] < ends[k] - 1e-9 && crossings[k] > y.low + 0.02);
-  if (!shown.length) return null;
-  const at = shown.reduce((best, k) => (Math.abs(along(k) - 0.5 * (x(x.high) - x(x.low))) < Math.abs(along(best) - 0.5 * (x(x.high) - x(x.low))) ? k : best));
-  return svg("text", { class: "halo", x: x(walls[at]), y: y(crossings[at]) + 4, "text-anchor": "middle" }, plain(level));
+  const at = walls.findIndex((each) => x(each) > x(x.low) + 22);
+  if (crossings[at] >= ends[at] - 1e-9 || crossings[at] <= y.low) return null;
+  return { level, x: x(walls[at]), y: y(crossings[at]) + 4 };
 }
 
-function passingLabel(passing, question, inside) {
-  const known = passing.filter(([, y]) => Number.isFinite(y));
-  if (known.length < 2) return null;
-  const [x, y] = known[Math.floor(known.length * 0.55)];
-  return svg("text", { class: "accent halo", x: Math.min(x, inside.right - 90), y: Math.min(y + 22, inside.bottom - 8), "text-anchor": "middle" }, `moves at ${plain(question.limit, 2)} kPa below this line`);
+/** Draw the labels that do not cover one another; they stand in one column, from bottom to top. */
+function spaced(labels) {
+  let last = Infinity;
+  return labels.map((each) => {
+    if (!each || last - each.y < 16) return null;
+    last = each.y;
+    return svg("text", { class: "halo", x: each.x, y: each.y, "text-anchor": "middle" }, plain(each.level));
+  });
 }

@@ -14,11 +14,12 @@ from stonepass.declaration import DeclaredInput, Input, Kind
 from stonepass.inputs.case_record import describe_material
 from stonepass.inputs.catalogue import all_inputs, models_with
 from stonepass.materials.catalogue import CATALOGUE
-from stonepass.materials.constants import constants_of
+from stonepass.materials.constants import ConstantDeclaration, constants_of
+from stonepass.materials.known_laws import KNOWN_LAWS
 from stonepass.studies.surrogates.store import shipped_surrogates
 from stonepass.web.instant.question import STIFFNESS_INPUT
 
-__all__ = ["about", "glossary", "inputs", "materials", "pressure_limits"]
+__all__ = ["about", "glossary", "inputs", "laws", "materials", "pressure_limits"]
 
 UNITS = {Kind.LENGTH: "m", Kind.PRESSURE: "Pa"}
 LINKS = {
@@ -26,6 +27,7 @@ LINKS = {
     "openapi": "/api/v1/openapi.json",
     "inputs": "/api/v1/inputs",
     "materials": "/api/v1/materials",
+    "laws": "/api/v1/laws",
     "pressure_limits": "/api/v1/pressure-limits",
     "glossary": "/api/v1/glossary",
     "instant": "/api/v1/instant",
@@ -88,6 +90,27 @@ def materials() -> list[dict[str, Any]]:
         }
         for name, each in CATALOGUE.items()
     ]  # fmt: skip
+
+
+@lru_cache(maxsize=1)
+def laws() -> list[dict[str, Any]]:
+    """Return the laws that can be fitted, with the declarations of their constants."""
+    return [
+        {"name": name, "constants": [_constant(each) for each in constants_of(law)]}
+        for name, law in KNOWN_LAWS.items()
+    ]
+
+
+def _constant(each: ConstantDeclaration) -> dict[str, Any]:
+    return {
+        "name": each.name,
+        "symbol": each.symbol,
+        "unit": each.unit,
+        "meaning": each.meaning,
+        "allowed": each.allowed,
+        "default": each.default,
+        "held": each.held,
+    }
 
 
 def pressure_limits() -> list[dict[str, Any]]:

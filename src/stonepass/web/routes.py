@@ -35,6 +35,12 @@ def materials() -> Json:
     return Json(information.materials())
 
 
+@router.get("/laws", tags=["information"], summary="Laws that can be fitted")
+def laws() -> Json:
+    """Return the material laws with the declarations of their constants."""
+    return Json(information.laws())
+
+
 @router.get("/pressure-limits", tags=["information"], summary="Published pressure limits")
 def pressure_limits() -> Json:
     """Return the published pressure limits with their sources."""

@@ -40,9 +40,10 @@ export function send(path, body, signal) {
   return request(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), signal });
 }
 
-/** Upload a file as it is. */
-export async function upload(kind, file, type) {
-  const sent = await request(`uploads/${kind}`, { method: "POST", headers: { "Content-Type": type }, body: file });
+/** Upload a file as it is; `format` is the format of a height map, such as "x3p". */
+export async function upload(kind, file, type, format = "") {
+  const query = format ? `?format=${encodeURIComponent(format)}` : "";
+  const sent = await request(`uploads/${kind}${query}`, { method: "POST", headers: { "Content-Type": type }, body: file });
   return sent.json();
 }
 

@@ -3,13 +3,13 @@
 import { Problem } from "./api.js";
 import { h, write } from "./dom.js";
 import { startJob } from "./jobs.js";
+import { partOf, progressBar, setProgress } from "./progress.js";
 
 /** Build the button. `start(body, done, refused)` runs a job; `done(result)` receives its result. */
 export function jobRun(label, hint) {
   const button = h("button", { type: "submit", class: "button first" }, label);
   const cancel = h("button", { type: "button", class: "button", hidden: true }, "Cancel");
-  const bar = h("div");
-  const progress = h("div", { class: "progress", role: "progressbar", "aria-label": "Progress", "aria-valuemin": "0", "aria-valuemax": "100" }, bar);
+  const progress = progressBar();
   const said = h("p", { class: "small quiet run-note", role: "status" }, hint);
   const element = h("div", { class: "run" }, h("div", { class: "row" }, button, cancel), progress, said);
   let stop = () => {};
@@ -19,16 +19,14 @@ export function jobRun(label, hint) {
   function rest(text, bad = false) {
     button.disabled = false;
     cancel.hidden = true;
-    progress.dataset.state = "";
+    setProgress(progress, null);
     said.dataset.state = bad ? "warning" : "";
     write(said, text);
   }
   function show(text, part) {
     button.disabled = true;
     cancel.hidden = false;
-    progress.dataset.state = "running";
-    bar.style.setProperty("--part", Math.max(0.03, part).toFixed(3));
-    progress.setAttribute("aria-valuenow", String(Math.round(100 * part)));
+    setProgress(progress, part);
     said.dataset.state = "";
     write(said, text);
   }
@@ -40,7 +38,7 @@ export function jobRun(label, hint) {
       try {
         stop = await startJob(body, (state) => {
           if (state.status === "queued") show("The question is waiting for a free worker.", 0);
-          else if (state.status === "running") show(state.progress?.sentence || "The question is being answered.", state.progress?.total ? state.progress.done / state.progress.total : 0);
+          else if (state.status === "running") show(state.progress?.sentence || "The question is being answered.", partOf(state));
           else if (state.status === "done") {
             rest("Done.");
             done(state.result);

@@ -34,7 +34,7 @@ function follow(events, place, say, isOver) {
     say(JSON.parse(event.data));
     if (isOver()) stream.close();
   };
-  for (const name of ["message", "queued", "running", "progress", ...ENDED]) stream.addEventListener(name, heard);
+  stream.addEventListener("job", heard);
   // A broken stream is not the end of the job: its state is asked for instead.
   stream.onerror = async () => {
     stream.close();

@@ -3,6 +3,7 @@
 import { startJob } from "./jobs.js";
 import { fill, h, write } from "./dom.js";
 import { term } from "./glossary.js";
+import { partOf, progressBar, setProgress } from "./progress.js";
 import { toCase, toQuery } from "./question.js";
 import { clinical, decimals, digits, withError } from "./units.js";
 import { outcomeWords } from "./verdict.js";
@@ -16,8 +17,7 @@ export function solvePanel(changed) {
   const figure = h("p", { class: "figure" });
   const also = h("p", { class: "also" });
   const detail = h("p", { class: "detail", role: "status" });
-  const bar = h("div");
-  const progress = h("div", { class: "progress", role: "progressbar", "aria-label": "Progress of the solve", "aria-valuemin": "0", "aria-valuemax": "100", hidden: true }, bar);
+  const progress = progressBar();
   const element = h("section", { class: "reading solve" },
     h("h2", {}, "Solved by finite elements"), figure, also, progress, detail,
     h("div", { class: "row solve-row no-print" }, model, start, cancel));
@@ -50,7 +50,7 @@ export function solvePanel(changed) {
 
   function told(asked, state) {
     if (state.status === "queued") working("The solve is waiting for a free worker.", 0);
-    else if (state.status === "running") working(state.progress?.sentence || "The finite elements are being solved.", state.progress?.total ? state.progress.done / state.progress.total : 0.05);
+    else if (state.status === "running") working(state.progress?.sentence || "The finite elements are being solved.", partOf(state));
     else if (state.status === "done") {
       answer = { key: asked.key, record: state.result };
       rest();
@@ -64,9 +64,7 @@ export function solvePanel(changed) {
     start.hidden = true;
     model.disabled = true;
     cancel.hidden = false;
-    progress.hidden = false;
-    bar.style.setProperty("--part", Math.max(0.03, part).toFixed(3));
-    progress.setAttribute("aria-valuenow", Math.round(100 * part));
+    setProgress(progress, part);
     write(detail, text);
   }
   function rest() {
@@ -74,7 +72,7 @@ export function solvePanel(changed) {
     start.hidden = false;
     model.disabled = false;
     cancel.hidden = true;
-    progress.hidden = true;
+    setProgress(progress, null);
   }
   function failed(text) {
     rest();

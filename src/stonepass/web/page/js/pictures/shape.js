@@ -9,8 +9,7 @@ const ROUND = 96; // number of points of an outline
  * `deformed` is false if there is no section, and the wall is then drawn as it is without the stone.
  */
 export function geometry(question, section) {
-  if (!section) return undeformed(question);
-  return { ...outlines(section), deformed: true };
+  return section ? deformed(question.inner / 2, section) : undeformed(question);
 }
 
 function undeformed({ stone, inner, outer, aspect }) {
@@ -26,6 +25,18 @@ function spheroid(radius, aspect) {
   });
 }
 
-function outlines(section) {
-  return section;
+/** The server gives lengths in inner radii. */
+function deformed(radius, section) {
+  const points = ({ z, r }) => z.map((each, k) => [radius * each, radius * r[k]]);
+  return { stone: points(section.stone), inner: points(section.inner), outer: points(section.outer), contact: pressed(points(section.contact), section.contact.pressure_kPa), deformed: true };
+}
+
+/** Return the points of the contact with the normal of the curve through them, away from the axis. */
+function pressed(points, pressures) {
+  return points.map(([z, r], k) => {
+    const [before, after] = [points[Math.max(0, k - 1)], points[Math.min(points.length - 1, k + 1)]];
+    const [dz, dr] = [after[0] - before[0], after[1] - before[1]];
+    const size = Math.hypot(dz, dr) || 1;
+    return { z, r, nz: -dr / size, nr: dz / size, pressure: pressures[k] };
+  });
 }

@@ -39,7 +39,7 @@ export function calculator(query, showLink) {
   const repeat = repeatPanel(() => toQuery(question));
   answers.place(solve.element);
 
-  fill(byId("calculator"), h("div", { class: "calculator" }, answers.element, inputs.element, pictures.element, repeat.element), answers.pinned);
+  fill(byId("calculator-body"), h("div", { class: "calculator" }, answers.element, inputs.element, pictures.element, repeat.element), answers.pinned);
   inputs.show(question, null);
   solve.asked(question);
   ask(toInstant(question, INCLUDE));

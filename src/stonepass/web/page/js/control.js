@@ -4,6 +4,8 @@ import { freshId, h, write } from "./dom.js";
 import { plain, read } from "./units.js";
 import { term } from "./glossary.js";
 
+const EDGE = 5; // px by which the valid range is drawn wider, so that a single value is seen
+
 /**
  * Create the control of a field.
  *
@@ -54,8 +56,8 @@ export function control(field, given, { word = "" } = {}) {
     slider.value = unit(value);
     slider.setAttribute("aria-valuetext", `${plain(value)} ${field.unit}`.trim());
     slider.dataset.state = warning ? "outside" : "";
-    slider.style.setProperty("--low", range ? place(unit(range.low), unit(low), unit(high)) : "0%");
-    slider.style.setProperty("--high", range ? place(unit(range.high), unit(low), unit(high)) : "0%");
+    slider.style.setProperty("--low", range ? place(unit(range.low), unit(low), unit(high), -EDGE) : "0%");
+    slider.style.setProperty("--high", range ? place(unit(range.high), unit(low), unit(high), EDGE) : "0%");
     if (document.activeElement !== box) box.value = plain(value);
     note.dataset.state = warning ? "warning" : "";
     note.title = warning || "";
@@ -70,7 +72,7 @@ function fromSlider(field, at) {
 }
 
 /** Return the place of a value on the track; the centre of the thumb never reaches the ends. */
-function place(value, low, high) {
+function place(value, low, high, edge) {
   const part = Math.max(0, Math.min(1, (value - low) / (high - low || 1)));
-  return `calc(10px + (100% - 20px) * ${part.toFixed(4)})`;
+  return `calc(${10 + edge}px + (100% - 20px) * ${part.toFixed(4)})`;
 }

@@ -13,12 +13,12 @@ export function patientResults(record) {
     h("div", { class: "readings two" }, pressure("The stone starts to move at", record.critical_pressure_kPa), record.present_pressure_kPa ? pressure("Present urine pressure above it", record.present_pressure_kPa) : null),
     statements("Not decided by these measurements", record.cannot_decide),
     statements("Decided", record.decided),
-    statements("Warnings", record.warnings.map((each) => sentence(each.sentence)), "warnings"),
     h("div", { class: "pictures pair-of-pictures" },
       figure("Pressures, with 90 % intervals", (width, height) => rangesPicture(width, height, record), "Bar: 90 % of the simulated cases. Dot: median. Arrow: the interval goes on.", "wide"),
       figure("Stones of other sizes", (width, height) => sizesPicture(width, height, record), `Fraction of the simulated cases in which a stone of this size moves below ${plain(record.inputs.limit_kPa)} kPa.`),
       figure("What matters most", (width, height) => barsPicture(width, height, Object.entries(record.sensitivity)), "Total Sobol’ index of each measurement for the critical pressure.")),
     cohorts(record.cohorts),
+    statements("Warnings", record.warnings.map((each) => each.sentence), "warnings"),
     h("p", { class: "small quiet mark" }, `${record.inputs.samples} simulated cases, seed ${record.inputs.seed}, ${record.accuracy.solves} solved cases, limit ${plain(record.inputs.limit_kPa)} kPa: ${record.inputs.limit_source}. stonepass ${record.version}. ${record.disclaimer}`),
   ];
 }
@@ -50,7 +50,8 @@ function cohorts(rows) {
   if (!rows.length) return null;
   const passed = (row) => (row.passed === null ? "–" : `${decimals(100 * row.passed, 0)} %${row.passed_low === null ? "" : ` (${decimals(100 * row.passed_low, 0)} to ${decimals(100 * row.passed_high, 0)})`}`);
   const model = (row) => (row.model === null ? "–" : row.model.high - row.model.low < 0.005 ? `${decimals(100 * row.model.low, 0)} %` : `${decimals(100 * row.model.low, 0)} to ${decimals(100 * row.model.high, 0)} %`);
-  return h("section", { class: "stack-small" }, h("h3", {}, "Published cohorts beside it"),
+  const apart = rows.filter((row) => /^(more|fewer)/.test(row.comparison)).length;
+  return h("details", {}, h("summary", {}, `Published cohorts beside it: ${rows.length} groups, of which ${apart} contradict the model`),
     h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Published cohorts" }, h("table", {},
       h("thead", {}, h("tr", {}, ["Cohort", "Stones", "Passed", "Moves below the limit", "Comparison"].map((each) => h("th", { scope: "col" }, each)))),
       h("tbody", {}, rows.map((row) => h("tr", {}, h("th", { scope: "row" }, row.cohort, h("div", { class: "small quiet" }, row.source)), h("td", {}, row.group, h("div", { class: "small quiet" }, row.about)), h("td", { class: "number" }, passed(row)), h("td", { class: "number" }, model(row)), h("td", {}, row.comparison)))))));

@@ -55,7 +55,7 @@ export function solvePanel(changed) {
       answer = { key: asked.key, record: state.result };
       rest();
       draw();
-      changed();
+      changed(current());
     } else failed(state.status === "cancelled" ? "The solve was cancelled." : state.problem?.detail ?? "The solve failed.");
     return ["done", "failed", "cancelled"].includes(state.status);
   }

@@ -16,7 +16,7 @@ export function rangesPicture(width, height, record) {
   return svg("svg", { role: "img", "aria-label": rows.map(([name, range]) => `${name}: median ${digits(range.median)} kPa`).join("; ") },
     ticks(0, x.high, 6).map((each) => svg("g", { class: "tick" }, svg("line", { x1: x(each), x2: x(each), y1: inside.top, y2: inside.bottom }))),
     horizontal(x, ticks(0, x.high, width > 520 ? 8 : 5), inside.bottom, { label: "kPa" }),
-    rows.map(([name, range], k) => row(name, range, x, inside.top + (k + 0.62) * step)),
+    rows.map(([name, range], k) => row(name, range, x, inside.top + (k + 0.5) * step)),
     svg("line", { class: "limit", x1: x(limit), x2: x(limit), y1: inside.top - 6, y2: inside.bottom }),
     svg("text", { class: "accent halo", x: x(limit) + 6, y: inside.top - 8 }, `limit ${plain(limit, 2)} kPa`));
 }
@@ -26,11 +26,11 @@ function row(name, range, x, y) {
   const beyond = range.high === null || range.high > x.high;
   const end = Math.min(x(high), x(x.high));
   return svg("g", {},
-    svg("text", { class: "halo", x: x(0), y: y - 15 }, name),
+    svg("text", { class: "halo", x: x(0), y: y - 16 }, name),
     svg("line", { class: "range", x1: x(low), x2: end, y1: y, y2: y }),
     beyond && svg("path", { class: "arrow", d: `M${end + 4} ${y - 5}l6 5l-6 5` }),
     range.median !== null && range.median <= x.high && svg("circle", { class: "median", cx: x(range.median), cy: y, r: 6 }),
-    range.median !== null && svg("text", { class: "strong halo", x: x(Math.min(range.median, x.high)), y: y - 12, "text-anchor": "middle" }, digits(range.median)));
+    range.median !== null && svg("text", { class: "strong halo", x: x(Math.min(range.median, x.high)), y: y + 24, "text-anchor": "middle" }, digits(range.median)));
 }
 
 /** Draw the fraction of cases in which a stone moves below the limit, over its diameter. */

@@ -4,7 +4,7 @@ import { svg } from "../dom.js";
 import { digits, plain } from "../units.js";
 import { area, hatch, horizontal, line, logarithmic, scale, ticks, vertical } from "./axes.js";
 
-const WALL_TICKS = [1.1, 1.2, 1.3, 1.5, 2, 2.5, 3, 4];
+const WALL_TICKS = [1.1, 1.3, 1.5, 2, 2.5, 3, 4];
 const LEVELS = [1, 2, 4, 6, 8, 10, 12, 16, 20, 30, 50]; // kPa
 
 /** Draw the map of a question. */

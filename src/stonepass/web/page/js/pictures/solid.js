@@ -6,7 +6,7 @@ const LIGHT = normal([-0.35, 0.8, 0.55]);
 
 /** Return the faces of a shape: corners as [z, y, x] in mm, kind, and pressure from 0 to 1. */
 export function faces(shape) {
-  const reach = Math.max(...shape.stone.map(([z]) => z)) * 2.1;
+  const reach = Math.max(...shape.stone.map(([z]) => z)) * 1.9;
   const window = ([z]) => Math.abs(z) <= reach;
   const [inner, outer] = [trimmed(shape.inner, reach), trimmed(shape.outer, reach)];
   const peak = Math.max(1e-9, ...shape.contact.map((each) => each.pressure));
@@ -26,7 +26,7 @@ export function faces(shape) {
 
 /** Return the faces as they are seen, from back to front. */
 export function project({ faces: all, size }, { turn, tilt }, canvas) {
-  const scale = Math.min(canvas.clientWidth / 2.15, canvas.clientHeight / 1.3) / size;
+  const scale = Math.min(canvas.clientWidth / 2.1, canvas.clientHeight / 1.55) / size;
   const [ct, st, cp, sp] = [Math.cos(turn), Math.sin(turn), Math.cos(tilt), Math.sin(tilt)];
   const seen = ([z, y, x]) => {
     const [u, depth] = [z * ct + x * st, -z * st + x * ct];

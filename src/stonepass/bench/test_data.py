@@ -288,6 +288,35 @@ def _section(
     return found
 
 
+def table_of_test(path: Path) -> tuple[str, Columns]:
+    """Return the kind of test that a table is from, "tensile" or "inflation", and its columns.
+
+    Parameters
+    ----------
+    path : Path
+        CSV file for `read_tension` or `read_inflation`. Sizes at rest are not needed.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be read, or its columns are those of neither test.
+    """
+    readers: tuple[tuple[str, Callable[[], Columns]], ...] = (
+        ("tensile", lambda: _read_strips(path, "stretch")),
+        ("tensile", lambda: _read_strips(path, "extension_mm")),
+        ("inflation", lambda: _read_tube(path)),
+    )
+    refusals = []
+    for test, read in readers:
+        try:
+            return test, read()
+        except BadInput as problem:
+            refusals.append(problem)
+    # The table is meant for the reader that got farthest: it does not miss its first column.
+    found = [each for each in refusals if each.value != "missing" and each.argument != "file"]
+    raise found[0] if found else refusals[0]
+
+
 def read_inflation(path: str | Path, ureter: Ureter) -> Inflation:
     """Read the inflation test of a tube from a CSV file.
 
@@ -316,13 +345,7 @@ def read_inflation(path: str | Path, ureter: Ureter) -> Inflation:
     docs/bench.md, "The data".
     """
     path = Path(path)
-    columns = read_columns(
-        path,
-        ("pressure_kPa",),
-        ("inner_diameter_mm", "outer_diameter_mm", "axial_stretch"),
-        bounds={"pressure_kPa": (-1e3, 1e4), "inner_diameter_mm": (1e-3, 1e3),
-                "outer_diameter_mm": (1e-3, 1e3), "axial_stretch": (0.5, 3.0)},
-    )  # fmt: skip
+    columns = _read_tube(path)
     names = ("inner_diameter_mm", "outer_diameter_mm")
     given = _one_of(path, columns, "the column of diameters", names)
     if ureter.inner_diameter is None:
@@ -331,3 +354,13 @@ def read_inflation(path: str | Path, ureter: Ureter) -> Inflation:
     ratio = inner_ratio(columns[given], given, ureter, axial)
     check_inflation(path.name, columns, given, ureter, axial)
     return Inflation(ratio, 1e3 * columns["pressure_kPa"], ureter.wall_ratio, axial, columns.lines)
+
+
+def _read_tube(path: Path) -> Columns:
+    return read_columns(
+        path,
+        ("pressure_kPa",),
+        ("inner_diameter_mm", "outer_diameter_mm", "axial_stretch"),
+        bounds={"pressure_kPa": (-1e3, 1e4), "inner_diameter_mm": (1e-3, 1e3),
+                "outer_diameter_mm": (1e-3, 1e3), "axial_stretch": (0.5, 3.0)},
+    )  # fmt: skip

@@ -188,16 +188,14 @@ def command(
 
 
 def _height_range(height_range: str | None, crystal: str | None) -> Length | None:
-    from stonepass.errors import BadInput, require
-    from stonepass.surface.friction import CRYSTAL_DIAGONAL, RELIEF
-    from stonepass.units import Length, length
+    from stonepass.errors import BadInput
+    from stonepass.surface.friction import crystal_height
+    from stonepass.units import length
 
     if height_range is not None and crystal is not None:
         raise BadInput("combination of --height-range and --crystal", "ambiguous", "one of the two")
     if crystal is not None:
-        edge = length(crystal, "--crystal")
-        require(RELIEF[0] < edge <= RELIEF[1] / 2, "--crystal", crystal, "1 nm to 5 mm")
-        return Length(CRYSTAL_DIAGONAL * edge)
+        return crystal_height(crystal, "--crystal")
     return None if height_range is None else length(height_range, "--height-range")
 
 

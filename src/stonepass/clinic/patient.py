@@ -31,7 +31,7 @@ from stonepass.model.ureter import Ureter
 from stonepass.studies.uncertain_quantity import UncertainQuantity, measured_length, measured_number
 from stonepass.units import Length, Pressure, Quantity
 
-__all__ = ["INPUTS", "Patient", "read_patient"]
+__all__ = ["INPUTS", "SHARED_WORDS", "Patient", "PatientFile", "patient_of", "read_patient"]
 
 STIFFNESS = (0.05, 20.0)  # smallest and largest factor on the stiffness of the material
 SAMPLES = (256, 65_536)  # smallest and largest number of samples
@@ -176,7 +176,7 @@ _SHARED: dict[str, Any] = {
     name: (section_model(name), Field(default_factory=section_model(name)))
     for name in ("load", "method")
 }
-_PatientFile = create_model("_PatientFile", __base__=_OwnSections, **_SHARED)
+PatientFile = create_model("PatientFile", __base__=_OwnSections, **_SHARED)
 
 
 def read_patient(path: str | Path) -> Patient:
@@ -198,14 +198,29 @@ def read_patient(path: str | Path) -> Patient:
     docs/assess.md, "The file".
     """
     path = Path(path)
-    parsed = read_toml(path, _PatientFile)
+    parsed = read_toml(path, PatientFile)
     try:
-        return _patient(parsed, path.parent)
+        return patient_of(parsed, path.parent)
     except BadInput as problem:
         raise in_words(problem, SHARED_WORDS).within(path.name) from problem
 
 
-def _patient(parsed: Any, folder: Path) -> Patient:
+def patient_of(parsed: Any, folder: Path = Path()) -> Patient:
+    """Return the patient that a parsed file describes.
+
+    Parameters
+    ----------
+    parsed : PatientFile
+        The sections of a patient file.
+    folder : Path, optional
+        Folder in which relative paths of materials and shapes start.
+
+    Raises
+    ------
+    BadInput
+        A value is out of bounds, or two values contradict each other. The message names the input
+        by its title.
+    """
     stone, ureter, dilated = parsed.stone, parsed.ureter, parsed.dilated
     walls = [ureter.outer_diameter, ureter.wall_thickness]
     if sum(wall is not None for wall in walls) != 1:

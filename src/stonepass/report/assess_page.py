@@ -13,6 +13,7 @@ from stonepass.clinic.assessment import Assessment
 from stonepass.clinic.cohorts import COHORTS, Row
 from stonepass.clinic.decisions import CONTRADICTIONS, decisions, next_measurement
 from stonepass.clinic.pressure_limits import LIMITS, describe_limit
+from stonepass.io.text_file import write_file
 from stonepass.records.assess import CAUTION
 from stonepass.report.assess_figure import (
     cohorts_figure,
@@ -34,9 +35,9 @@ from stonepass.report.assess_report import (
 )
 from stonepass.report.assess_sketch import sketch_figure
 from stonepass.report.assess_style import STYLE
-from stonepass.report.html import inline_svg, write_html
+from stonepass.report.html import inline_svg, page_text
 
-__all__ = ["write_assessment"]
+__all__ = ["assessment_page", "write_assessment"]
 
 TITLE = "A stone in a ureter: which urine pressures may move it"
 MEASURED_ABOVE = "Measured above obstructing stones: 1.9 kPa on average, up to 6.0 kPa."
@@ -44,12 +45,16 @@ _DOI = re.compile(r"doi:(10\.[^\s,;)]+)")
 
 
 def write_assessment(found: Assessment, path: Path, written: date | None = None) -> None:
-    """Write the page.
+    """Write the page to a file; see `assessment_page`."""
+    write_file(path, assessment_page(found, written))
+
+
+def assessment_page(found: Assessment, written: date | None = None) -> str:
+    """Return the page as HTML.
 
     Parameters
     ----------
     found : Assessment
-    path : Path
     written : date, optional
         Date of the report; today by default.
     """
@@ -71,7 +76,7 @@ def write_assessment(found: Assessment, path: Path, written: date | None = None)
         *_sources(found),
         f"<footer><p>{_how(found)}</p><p>{DISCLAIMER}</p></footer>",
     ]
-    write_html(path, name or TITLE, STYLE, "\n".join(body))
+    return page_text(name or TITLE, STYLE, "\n".join(body))
 
 
 def _contradictions(found: Assessment) -> list[str]:

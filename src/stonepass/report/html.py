@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from stonepass.io.text_file import write_file
 from stonepass.report.style import in_style
 
-__all__ = ["inline_svg", "write_html"]
+__all__ = ["inline_svg", "page_text", "svg_of", "write_html"]
 
 _STYLE = """
 :root { color-scheme: light; }
@@ -29,20 +29,29 @@ th { border-bottom: 2px solid #9ca3af; }
 
 
 def write_html(path: Path, title: str, style: str, body: str) -> None:
-    """Write a page; `body` is HTML, and `style` is CSS that is added to that of all pages."""
-    text = (
+    """Write a page; see `page_text`."""
+    write_file(path, page_text(title, style, body))
+
+
+def page_text(title: str, style: str, body: str) -> str:
+    """Return a page; `body` is HTML, and `style` is CSS that is added to that of all pages."""
+    return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f"<title>{escape(title)}</title><style>{_STYLE}{style}</style></head><body>\n"
         f"{body}\n</body></html>\n"
     )
-    write_file(path, text)
 
 
 @in_style
-def inline_svg(figure: Figure, text: str) -> str:
-    """Return an HTML image with the figure in it; `text` describes the figure for readers."""
+def svg_of(figure: Figure) -> str:
+    """Return a figure as the text of an SVG file."""
     drawn = io.BytesIO()
     figure.savefig(drawn, format="svg", metadata={"Date": None})
-    data = base64.b64encode(drawn.getvalue()).decode()
+    return drawn.getvalue().decode()
+
+
+def inline_svg(figure: Figure, text: str) -> str:
+    """Return an HTML image with the figure in it; `text` describes the figure for readers."""
+    data = base64.b64encode(svg_of(figure).encode()).decode()
     return f'<img src="data:image/svg+xml;base64,{data}" alt="{escape(text)}">'

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from stonepass.errors import BadInput
 from stonepass.sandbox.protocol import LONGEST
 
-__all__ = ["serve"]
+__all__ = ["limit_memory", "serve"]
 
 Parsed = tuple[dict[str, Any], memoryview]
 
@@ -55,6 +55,15 @@ def serve(
     return 0
 
 
+def limit_memory(memory: int) -> None:
+    """Set the limit of the data of this process in bytes, if the operating system has one."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return
+    _set(resource, ((resource.RLIMIT_DATA, memory, memory), (resource.RLIMIT_CORE, 0, 0)))
+
+
 def _limit(memory: int, seconds: float) -> None:
     """Set the resource limits of the operating system, if it has them."""
     try:
@@ -70,6 +79,11 @@ def _limit(memory: int, seconds: float) -> None:
         (resource.RLIMIT_FSIZE, 0, 0),
         (resource.RLIMIT_CORE, 0, 0),
     )
+    _set(resource, wanted)
+
+
+def _set(resource: Any, wanted: Iterable[tuple[int, int, int]]) -> None:
+    """Set soft and hard limits, which must not exceed the present hard limits."""
     for which, soft, hard in wanted:
         _, most = resource.getrlimit(which)
         bounds = (soft, hard)

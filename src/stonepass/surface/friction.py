@@ -38,6 +38,7 @@ from stonepass.units import Length, Quantity, length
 __all__ = [
     "CRYSTAL_DIAGONAL",
     "RELIEF",
+    "crystal_height",
     "friction_of_slopes",
     "surface_friction",
 ]
@@ -80,6 +81,26 @@ def friction_of_slopes(k0: float, k1: float) -> float:
         raise BadInput("product of the slopes k0 and k1", f"{k0:.3g} × {k1:.3g}", "below 1",
                        "check the height range and the pixel size")  # fmt: skip
     return (k0 + k1) / (1.0 - k0 * k1)
+
+
+def crystal_height(edge: str | Length | Quantity, argument: str = "crystal") -> Length:
+    """Return the height range of a surface of cubic crystals that stand on a corner.
+
+    Parameters
+    ----------
+    edge : str, Length or pint.Quantity
+        Edge of the crystals, 1 nm to 5 mm.
+    argument : str
+        How the caller names the edge in an error message.
+
+    Raises
+    ------
+    BadInput
+        The edge has no unit or is out of bounds.
+    """
+    read = length(edge, argument)
+    require(RELIEF[0] < read <= RELIEF[1] / 2, argument, edge, "1 nm to 5 mm")
+    return Length(CRYSTAL_DIAGONAL * read)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,15 @@ from stonepass.errors import BadInput
 from stonepass.inputs.build import in_words
 from stonepass.inputs.catalogue import all_inputs
 
-__all__ = ["Json", "Problem", "ProblemError", "field_of", "problem_response", "refused"]
+__all__ = [
+    "Json",
+    "Problem",
+    "ProblemError",
+    "field_of",
+    "problem_document",
+    "problem_response",
+    "refused",
+]
 
 PROBLEM_TYPE = "application/problem+json"
 LONGEST_VALUE = 200  # characters of a refused value that a problem repeats
@@ -22,7 +30,8 @@ TITLES = {
     403: "The request is not allowed",
     404: "There is nothing at this address",
     405: "The method is not allowed here",
-    411: "The length of the request is missing",
+    408: "The request did not arrive in time",
+    410: "What was here is gone",
     413: "The request is too large",
     415: "The content type is not supported",
     421: "The request is addressed to another host",
@@ -36,6 +45,9 @@ SHARED_FIELDS = {
     "size of the ureter": "ureter.inner_diameter",
     "size ratio (stone diameter over inner diameter)": "stone.size_ratio",
     "wall of the ureter": "ureter.wall_thickness",
+    "dilated inner diameter": "dilated.inner_diameter",
+    "dilated outer diameter": "dilated.outer_diameter",
+    "place": "stone.place",
 }
 
 
@@ -111,6 +123,14 @@ def problem_response(
     headers : dict of str to str, optional
         Further headers.
     """
+    document = problem_document(status, detail, field, value)
+    return Json(document, status, headers, PROBLEM_TYPE)
+
+
+def problem_document(
+    status: int, detail: str, field: str | None = None, value: Any = None
+) -> dict[str, Any]:
+    """Return the JSON-ready description of a problem; for the parameters see `problem_response`."""
     document: dict[str, Any] = {
         "type": "about:blank",
         "title": TITLES.get(status, "The request failed"),
@@ -121,7 +141,7 @@ def problem_response(
         document["field"] = field
     if value is not None:
         document["value"] = str(value)[:LONGEST_VALUE]
-    return Json(document, status, headers, PROBLEM_TYPE)
+    return document
 
 
 def field_of(problem: BadInput) -> str | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -11,11 +13,12 @@ from starlette.responses import FileResponse, Response
 from starlette.staticfiles import StaticFiles
 
 from stonepass.about import DISCLAIMER, VERSION
+from stonepass.web import job_routes, routes, upload_routes
 from stonepass.web.answers import Problem, problem_response
 from stonepass.web.guard import Guard
 from stonepass.web.problems import handle_problems
-from stonepass.web.routes import router
 from stonepass.web.settings import ServerSettings
+from stonepass.web.state import ServerState
 
 __all__ = ["create_app"]
 
@@ -35,8 +38,17 @@ def create_app(settings: ServerSettings) -> Guard:
     settings : ServerSettings
         Address, token, folder of the solution cache, and limits.
     """
+
+    @asynccontextmanager
+    async def running(app: FastAPI) -> AsyncIterator[None]:
+        """Hold what the server remembers, and end the worker processes at last."""
+        app.state.server = ServerState.of(settings)
+        yield
+        await app.state.server.book.close()
+
     app = FastAPI(
         title="stonepass",
+        lifespan=running,
         version=VERSION,
         description=DESCRIPTION,
         openapi_url="/api/v1/openapi.json",
@@ -44,7 +56,8 @@ def create_app(settings: ServerSettings) -> Guard:
         redoc_url=None,
     )
     handle_problems(app)
-    app.include_router(router)
+    for part in (routes, job_routes, upload_routes):
+        app.include_router(part.router)
     _add_page(app)
     _describe_problems(app)
     return Guard(app, settings)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from stonepass.clinic.pressure_limits import read_limit
 from stonepass.declaration import read_declared
 from stonepass.web.case_body import CaseBody, case_of
 from stonepass.web.instant.question import STIFFNESS_INPUT, InstantQuestion
+from stonepass.web.strict_body import StrictBody
 
 __all__ = ["InstantBody"]
 
@@ -17,13 +18,7 @@ STIFFNESS_LOW, STIFFNESS_HIGH = STIFFNESS_INPUT.bounds or (0.0, 1.0)
 Part = Literal["curve", "map", "section"]
 
 
-class _Strict(BaseModel):
-    """A body without other keys, whose values are not converted from other types."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-
-class InstantBody(_Strict):
+class InstantBody(StrictBody):
     """The question of an instant answer."""
 
     case: CaseBody = Field(description="the sections of a case file")  # type: ignore[valid-type]

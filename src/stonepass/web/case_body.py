@@ -66,15 +66,27 @@ def values_of_body(body: BaseModel) -> dict[str, Any]:
     return values
 
 
-def case_of(body: BaseModel) -> Case:
+def case_of(body: BaseModel, size_ratio: float | None = None) -> Case:
     """Return the case of a request.
+
+    Parameters
+    ----------
+    body : BaseModel
+        The case of a request.
+    size_ratio : float, optional
+        Size ratio that replaces the size of the stone of the request.
 
     Raises
     ------
     BadInput
         A value names a file, is out of bounds, or contradicts another one.
     """
-    return build_case(values_of_body(body))
+    values = values_of_body(body)
+    if size_ratio is not None:
+        sizes = ("stone.diameter", "stone.size_ratio")
+        values = {key: value for key, value in values.items() if key not in sizes}
+        values["stone.size_ratio"] = size_ratio
+    return build_case(values)
 
 
 def refuse_files(values: dict[str, Any]) -> None:

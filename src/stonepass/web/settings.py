@@ -37,6 +37,8 @@ class Limits:
         Largest number of jobs that wait for a worker process.
     finished : int
         Number of finished jobs whose results are kept.
+    result_seconds : float
+        Time in s for which results are kept.
     job_seconds : float
         Time in s after which a running job is ended.
     job_memory : int
@@ -58,6 +60,7 @@ class Limits:
     connections: int = 256
     waiting: int = 16
     finished: int = 128
+    result_seconds: float = 3600.0
     job_seconds: float = 900.0
     job_memory: int = 4_000_000_000
     idle_seconds: float = 60.0

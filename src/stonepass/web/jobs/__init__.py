@@ -1,0 +1,1 @@
+"""Questions that take seconds: a bounded queue, and worker processes that answer."""

@@ -1,0 +1,238 @@
+"""Bodies of the requests for jobs, one for each kind of job."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BaseModel, Field
+
+from stonepass.clinic.patient import PatientFile, patient_of
+from stonepass.clinic.pressure_limits import read_limit
+from stonepass.declaration import read_declared
+from stonepass.errors import BadInput, require
+from stonepass.inputs.case_record import describe
+from stonepass.inputs.sections import section_values
+from stonepass.materials.catalogue import CATALOGUE
+from stonepass.materials.known_laws import constants_by_name
+from stonepass.model.case import Case
+from stonepass.units import area, length, pressure
+from stonepass.web.case_body import NO_FILES, CaseBody, case_of, refuse_files
+from stonepass.web.instant.question import STIFFNESS_INPUT
+from stonepass.web.stiffness import stiffened
+from stonepass.web.strict_body import StrictBody
+
+__all__ = [
+    "AssessJob",
+    "FitJob",
+    "FrictionJob",
+    "JobBody",
+    "PressureJob",
+    "PushJob",
+    "SizeJob",
+    "solved_case",
+]
+
+STEPS = (2, 61)  # smallest and largest number of pressures of a push
+LOW, HIGH = STIFFNESS_INPUT.bounds or (0.0, 1.0)
+Stiffness = Annotated[
+    float,
+    Field(description=STIFFNESS_INPUT.meaning, json_schema_extra={"minimum": LOW, "maximum": HIGH}),
+]
+Text = Annotated[str, Field(max_length=200)]
+Upload = Annotated[str, Field(pattern="^[0-9a-f]{64}$", description="id of an uploaded file")]
+CASE = "the sections of a case file"
+
+
+def solved_case(body: Any) -> Case:
+    """Return the case of a body, with the stiffness in its material.
+
+    Raises
+    ------
+    BadInput
+        A value is out of bounds, names a file, or contradicts another one.
+    """
+    stiffness = read_declared(STIFFNESS_INPUT, "stiffness", body.stiffness)
+    return stiffened(case_of(body.case), stiffness)
+
+
+def _described(case: Case) -> dict[str, Any]:
+    return describe(case, case.model, case.numerics)
+
+
+class PressureJob(StrictBody):
+    """Solve for the critical pressure by finite elements."""
+
+    UPLOAD: ClassVar[str] = ""
+
+    kind: Literal["pressure"]
+    case: CaseBody = Field(description=CASE)  # type: ignore[valid-type]
+    stiffness: Stiffness = 1.0
+
+    def question(self) -> dict[str, Any]:
+        """Return everything that the answer depends on, with all values checked."""
+        return _described(solved_case(self))
+
+
+class SizeJob(StrictBody):
+    """Solve for the largest stone that moves at a pressure limit; the size of the stone is ignored.
+
+    A stone without a size is therefore allowed.
+    """
+
+    UPLOAD: ClassVar[str] = ""
+
+    kind: Literal["size"]
+    case: CaseBody = Field(description=CASE)  # type: ignore[valid-type]
+    limit: Text = Field(description="pressure limit with its unit", examples=["6 kPa"])
+    stiffness: Stiffness = 1.0
+
+    def question(self) -> dict[str, Any]:
+        """Return everything that the answer depends on, with all values checked."""
+        return _described(self.solved()) | {"limit_Pa": float(read_limit(self.limit))}
+
+    def solved(self) -> Case:
+        """Return the case with a stone of any size."""
+        stiffness = read_declared(STIFFNESS_INPUT, "stiffness", self.stiffness)
+        return stiffened(case_of(self.case, size_ratio=1.0), stiffness)
+
+
+class PushJob(StrictBody):
+    """Follow a held stone by the direct model while the urine pressure rises from zero."""
+
+    UPLOAD: ClassVar[str] = ""
+
+    kind: Literal["push"]
+    case: CaseBody = Field(description=CASE)  # type: ignore[valid-type]
+    stiffness: Stiffness = 1.0
+    to: Text | None = Field(
+        None, description="highest urine pressure with its unit; by default above P_ucr"
+    )
+    steps: int = Field(
+        13,
+        description="number of urine pressures, including 0",
+        json_schema_extra={"minimum": STEPS[0], "maximum": STEPS[1]},
+    )
+
+    def question(self) -> dict[str, Any]:
+        """Return everything that the answer depends on, with all values checked."""
+        low, high = STEPS
+        require(low <= self.steps <= high, "steps", self.steps,
+                f"a whole number from {low} to {high}")  # fmt: skip
+        to = None if self.to is None else float(pressure(self.to, "to"))
+        return _described(solved_case(self)) | {"to_Pa": to, "steps": self.steps}
+
+
+class AssessJob(StrictBody):
+    """Assess the stone of one patient; the patient is the content of a patient file."""
+
+    UPLOAD: ClassVar[str] = ""
+
+    kind: Literal["assess"]
+    patient: PatientFile = Field(description="the sections of a patient file")  # type: ignore[valid-type]
+
+    def question(self) -> dict[str, Any]:
+        """Return everything that the answer depends on, with all values checked."""
+        parsed: Any = self.patient
+        if parsed.ureter.material not in CATALOGUE:
+            raise BadInput("material", parsed.ureter.material, "one of " + ", ".join(CATALOGUE),
+                           NO_FILES)  # fmt: skip
+        if parsed.stone.shape is not None:
+            raise BadInput("shape", parsed.stone.shape, "left out", f"{NO_FILES}; give the aspect")
+        refuse_files(section_values(parsed.method, "method"))
+        patient_of(self.patient)
+        found: dict[str, Any] = parsed.model_dump(mode="json")
+        return found
+
+
+class FitJob(StrictBody):
+    """Fit the constants of a law to an uploaded table of a tensile or an inflation test."""
+
+    UPLOAD: ClassVar[str] = "fit"
+
+    kind: Literal["fit"]
+    upload: Upload
+    test: Literal["tensile", "inflation"]
+    law: Text = Field(description="name of the law", examples=["neo-hookean"])
+    width: Text | None = Field(None, description="width of the strip at rest")
+    thickness: Text | None = Field(None, description="thickness of the strip at rest")
+    section: Text | None = Field(None, description="cross-section of the strip, e.g. '12 mm2'")
+    gauge_length: Text | None = Field(None, description="gauge length of the strip at rest")
+    inner: Text | None = Field(None, description="inner diameter of the tube at rest")
+    outer: Text | None = Field(None, description="outer diameter of the tube at rest")
+    fix: dict[Text, Text | float] = Field(
+        default_factory=dict, max_length=20, description="constants that are known, by name"
+    )
+    free: list[Text] = Field(
+        default_factory=list, max_length=20, description="constants with a default to be fitted"
+    )
+    relative: bool = Field(False, description="errors are proportional to the measured values")
+
+    def question(self) -> dict[str, Any]:
+        """Return everything that the answer depends on, with all values checked."""
+        known = constants_by_name(self.law)
+        for name in (*self.fix, *self.free):
+            if name not in known:
+                raise BadInput("constant", name, "one of " + ", ".join(known))
+        tube, strip = ("inner", "outer"), ("width", "thickness", "section", "gauge_length")
+        needed, other = (tube, strip) if self.test == "inflation" else ((), tube)
+        for name in needed:
+            require(getattr(self, name) is not None, name, "missing", "given for an inflation test")
+        for name in other:
+            require(getattr(self, name) is None, name, getattr(self, name),
+                    f"left out for the test '{self.test}'")  # fmt: skip
+        for name in (*tube, *strip):
+            text = getattr(self, name)
+            if text is not None:
+                (area if name == "section" else length)(text, name)
+        return self.model_dump(mode="json")
+
+
+class FrictionJob(StrictBody):
+    """Compute the friction coefficient from an uploaded picture or height map."""
+
+    UPLOAD: ClassVar[str] = "friction"
+
+    kind: Literal["friction"]
+    upload: Upload
+    pixel: Text | None = Field(None, description="size of a pixel, e.g. '0.5 um'")
+    height_range: Text | None = Field(None, description="height from black to white, e.g. '35 um'")
+    crystal: Text | None = Field(None, description="edge of the cubic crystals on the surface")
+    paths: int | None = Field(None, description="number of horizontal profiles; 6 by default")
+    path: list[Annotated[list[float], Field(min_length=4, max_length=4)]] = Field(
+        default_factory=list,
+        max_length=100,
+        description="ends x0, y0, x1, y1 of profiles in pixels",
+    )
+    area: Annotated[list[int], Field(min_length=4, max_length=4)] | None = Field(
+        None, description="left, top, right and bottom of the surface in pixels"
+    )
+    baseline_order: int = Field(8, description="half waves of the baseline of the mean profile")
+    deviation_order: int | None = Field(None, description="half waves of the second baseline")
+    level: bool = Field(False, description="subtract the least-squares plane first")
+    margin: float = Field(0.5, description="length that is left out at both ends, in waves")
+
+    def question(self) -> dict[str, Any]:
+        """Return everything that the answer depends on, with lengths checked."""
+        for name in ("pixel", "height_range", "crystal"):
+            text = getattr(self, name)
+            if text is not None:
+                length(text, name)
+        if self.height_range is not None and self.crystal is not None:
+            raise BadInput("crystal", self.crystal, "left out if the height range is given")
+        if self.paths is not None and self.path:
+            raise BadInput("paths", self.paths, "left out if the profiles are given")
+        return self.model_dump(mode="json")
+
+
+JobBody = Annotated[
+    PressureJob | SizeJob | PushJob | AssessJob | FitJob | FrictionJob,
+    Field(discriminator="kind"),
+]
+KINDS: dict[str, type[BaseModel]] = {
+    "pressure": PressureJob,
+    "size": SizeJob,
+    "push": PushJob,
+    "assess": AssessJob,
+    "fit": FitJob,
+    "friction": FrictionJob,
+}

@@ -1,0 +1,36 @@
+"""The job that assesses the stone of one patient."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from stonepass.clinic.assess import assess
+from stonepass.clinic.patient import patient_of
+from stonepass.records.assess import assess_record
+from stonepass.report.assess_page import assessment_page
+from stonepass.studies.case_solver import JobSolver
+from stonepass.web.jobs.bodies import AssessJob
+from stonepass.web.jobs.context import Context, Done
+
+__all__ = ["TASKS"]
+
+FILE = "the request"  # stands in the record where the command line has the name of the file
+
+
+def _assess(request: Mapping[str, Any], context: Context) -> Done:
+    """Return the record of the assessment and the report to print."""
+    body = AssessJob.model_validate(request)
+    steps = 0
+
+    def told(done: int, total: int) -> None:
+        nonlocal steps
+        steps = max(steps + 1, done)
+        context.tell(done, total, f"Solving the cases: {done} of {total} are done.")
+
+    found = assess(patient_of(body.patient), JobSolver(None, context.cache_folder, told))
+    context.tell(0, 0, "Writing the report.")
+    return Done(assess_record(found, FILE).to_dict(), assessment_page(found))
+
+
+TASKS = {"assess": _assess}

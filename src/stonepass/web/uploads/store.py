@@ -1,0 +1,122 @@
+"""The uploaded files that the server holds in memory until a job uses them."""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from stonepass.sandbox.sandbox import Limits as SandboxLimits
+from stonepass.sandbox.sandbox import parse_in_child
+from stonepass.web.settings import Limits
+
+__all__ = ["Upload", "UploadStore", "as_file", "read_upload"]
+
+TASK = "stonepass.web.uploads.reader"
+PREVIEW = 16_000_000  # largest number of bytes of a preview
+WHAT = {"fit": "table", "friction": "image"}  # how messages call the file
+
+
+@dataclass(frozen=True)
+class Upload:
+    """An uploaded file.
+
+    Attributes
+    ----------
+    id : str
+        Digest of the kind and the content.
+    kind : str
+        Kind of the job that may use it, ``fit`` or ``friction``.
+    ending : str
+        Ending of the name under which it is read.
+    content : bytes
+    summary : dict
+        What the file contains.
+    preview : bytes
+        The picture as PNG; empty for a table.
+    used : float
+        Time of the last use.
+    """
+
+    id: str
+    kind: str
+    ending: str
+    content: bytes = field(repr=False)
+    summary: dict[str, Any]
+    preview: bytes = field(default=b"", repr=False)
+    used: float = field(default_factory=monotonic)
+
+
+class UploadStore:
+    """Uploaded files by their ids; the oldest are dropped when there are too many bytes."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._held: OrderedDict[str, Upload] = OrderedDict()
+
+    def add(self, upload: Upload) -> None:
+        """Hold a file."""
+        self._held[upload.id] = upload
+        self._held.move_to_end(upload.id)
+        while sum(map(_size, self._held.values())) > self._limits.uploads:
+            self._held.popitem(last=False)
+
+    def get(self, identity: str) -> Upload | None:
+        """Return a file, which is then held for some more time; None if it is not held."""
+        self._drop_old()
+        upload = self._held.get(identity)
+        if upload is not None:
+            self._held[identity] = upload = replace(upload, used=monotonic())
+        return upload
+
+    def drop(self, identity: str) -> bool:
+        """Drop a file; return False if it was not held."""
+        return self._held.pop(identity, None) is not None
+
+    def _drop_old(self) -> None:
+        last = monotonic() - self._limits.upload_seconds
+        for each in [each for each in self._held.values() if each.used < last]:
+            del self._held[each.id]
+
+
+def _size(upload: Upload) -> int:
+    return len(upload.content) + len(upload.preview)
+
+
+def read_upload(kind: str, ending: str, content: bytes) -> Upload:
+    """Read an uploaded file in the sandbox and return it with its summary.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the job that may use it, ``fit`` or ``friction``.
+    ending : str
+        Ending of the name under which it is read, chosen by the server.
+    content : bytes
+
+    Raises
+    ------
+    BadInput
+        The file is damaged, of another kind, or needs too much time or memory.
+    """
+    identity = hashlib.sha256(b"\0".join((kind.encode(), ending.encode(), content))).hexdigest()
+    limits = SandboxLimits(body=PREVIEW)
+    with as_file(ending, content) as path:
+        request = {"kind": kind, "path": str(path)}
+        summary, preview = parse_in_child(TASK, request, limits, WHAT[kind], "the upload")
+    return Upload(identity, kind, ending, content, summary, preview)
+
+
+@contextmanager
+def as_file(ending: str, content: bytes) -> Iterator[Path]:
+    """Yield a file with this content in a private folder, which is removed afterwards."""
+    with tempfile.TemporaryDirectory(prefix="stonepass-") as folder:
+        path = Path(folder) / f"upload{ending}"
+        path.write_bytes(content)
+        yield path

@@ -54,7 +54,7 @@ function showPressure({ figure, also, detail }, answer) {
   const zero = answer.outcome === "LOOSE";
   fill(figure, h("span", { class: "big" }, zero ? "0" : value), h("span", { class: "unit" }, "kPa"), !zero && h("span", { class: "error" }, `${error} kPa`));
   write(also, zero ? "The stone is not held." : clinical(answer.critical_pressure_kPa));
-  write(detail, zero ? "" : `Instant answer; its error is the claimed difference from a solve.${angle(answer)}`);
+  write(detail, zero ? "" : `± is the claimed difference from a solve.${angle(answer)}`);
 }
 
 function angle(answer) {

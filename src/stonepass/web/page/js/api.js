@@ -49,30 +49,36 @@ export async function upload(kind, file, type, format = "") {
 
 /**
  * Ask only for the latest of many questions: while one is on its way, later ones replace each other.
- * `answered(question, answer, problem)` is called once for each question that was sent.
+ *
+ * `bodyOf(question)` is the body of the request. `answered(question, answer, problem, last)` is called
+ * for each question that was sent; `last` is true if no other one is waiting.
  */
-export function latest(path, answered) {
+export function latest(path, bodyOf, answered) {
   let waiting = null;
   let busy = false;
   async function next() {
-    const question = waiting;
-    waiting = null;
+    while (waiting !== null) {
+      const question = waiting;
+      waiting = null;
+      let answer = null;
+      let problem = null;
+      try {
+        answer = await post(path, bodyOf(question));
+      } catch (error) {
+        if (!(error instanceof Problem)) throw error;
+        problem = error;
+      }
+      answered(question, answer, problem, waiting === null);
+    }
+  }
+  return async (question) => {
+    waiting = question;
+    if (busy) return;
     busy = true;
-    let answer = null;
-    let problem = null;
     try {
-      answer = await post(path, question);
-    } catch (error) {
-      if (!(error instanceof Problem)) throw error;
-      problem = error;
+      await next();
     } finally {
       busy = false;
     }
-    answered(question, answer, problem, waiting !== null);
-    if (waiting !== null && !busy) await next();
-  }
-  return (question) => {
-    waiting = question;
-    if (!busy) next();
   };
 }

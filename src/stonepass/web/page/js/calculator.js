@@ -12,66 +12,68 @@ import { solvePanel } from "./solve.js";
 const INCLUDE = ["curve", "map", "section"];
 const LINK_DELAY = 300; // ms; browsers refuse to change the address too often
 
-/** Build the panel. Returns `take(values)`, which takes values over from other panels, and `link()`. */
+/**
+ * Build the panel.
+ *
+ * Returns `take(values)`, which takes values over from other panels, `open(query)`, which shows the
+ * question of a link, and `link()`, the query of the present question.
+ */
 export function calculator(query, showLink) {
   let question = fromQuery(query);
-  let found = null;
+  let found = null; // the last answer, and the question that it belongs to
   let waiting = 0;
+  const root = document.documentElement;
 
-  const ask = latest("instant", (asked, answer, problem, more) => {
-    if (more && problem) return;
-    found = answer ?? found;
-    show(answer, problem);
+  const ask = latest("instant", (asked) => toInstant(asked, INCLUDE), (asked, answer, problem, last) => {
+    if (answer) found = { asked, answer };
+    show(asked, answer, problem);
+    root.dataset.answered = "";
+    if (last) root.dataset.pending = "0";
   });
   const inputs = inputsPanel((values) => {
-    question = changed(question, values);
-    inputs.show(question, found);
-    solve.asked(question);
-    ask(toInstant(question, INCLUDE));
+    renew(changed(question, values));
     clearTimeout(waiting);
     waiting = setTimeout(() => showLink(toQuery(question)), LINK_DELAY);
   });
   const answers = answerPanel();
   const pictures = picturesPanel();
   const solve = solvePanel((solved) => {
-    if (found) pictures.show(question, found, solved);
+    if (found) pictures.show(found.asked, found.answer, solved);
   });
-  const repeat = repeatPanel(() => toQuery(question));
+  const repeat = repeatPanel();
   answers.place(solve.element);
 
   fill(byId("calculator-body"), h("div", { class: "calculator" }, answers.element, inputs.element, pictures.element, repeat.element), answers.pinned);
-  inputs.show(question, null);
-  solve.asked(question);
-  ask(toInstant(question, INCLUDE));
+  renew(question);
   Promise.all([get("materials"), get("pressure-limits")]).then(([materials, limits]) => {
     inputs.know(materials, limits);
-    inputs.show(question, found);
+    inputs.show(question, found?.answer ?? null);
   });
 
-  function show(answer, problem) {
+  function renew(next) {
+    question = next;
+    root.dataset.pending = "1";
+    inputs.show(question, found?.answer ?? null);
+    solve.asked(question);
+    ask(question);
+  }
+
+  function show(asked, answer, problem) {
     inputs.show(question, answer, problem);
-    answers.show(question, answer, problem);
+    answers.show(asked, answer, problem);
     if (!answer) return;
     solve.asked(question, answer.answer?.critical_pressure_kPa ?? null);
-    pictures.show(question, answer, solve.current());
-    repeat.show(question, answer);
-    document.documentElement.dataset.answered = String(Number(document.documentElement.dataset.answered ?? 0) + 1);
+    pictures.show(asked, answer, asked === question ? solve.current() : null);
+    repeat.show(answer);
   }
 
   return {
     take(values) {
-      question = changed(question, values);
-      inputs.show(question, found);
-      solve.asked(question);
-      ask(toInstant(question, INCLUDE));
+      renew(changed(question, values));
       showLink(toQuery(question));
     },
     open(text) {
-      if (text === toQuery(question)) return;
-      question = fromQuery(text);
-      inputs.show(question, found);
-      solve.asked(question);
-      ask(toInstant(question, INCLUDE));
+      if (text !== toQuery(question)) renew(fromQuery(text));
     },
     link: () => toQuery(question),
   };

@@ -28,7 +28,7 @@ export function repeatPanel() {
   function draw() {
     code.textContent = texts[kind] ?? "There is no instant answer to repeat; choose the finite elements.";
   }
-  function show(question, found) {
+  function show(found) {
     texts = found.repeat ?? {};
     fill(mark, `Fingerprint ${found.fingerprint}, stonepass ${found.version}. ${found.notice}`);
     draw();

@@ -8,9 +8,9 @@ export function verdict(question, found) {
   const limit = `${plain(question.limit, 2)} kPa`;
   if (!answer || answer.outside) return ["There is no instant answer for these inputs. Solve by finite elements instead."];
   const pressure = answer.critical_pressure_kPa;
-  if (answer.outcome === "LOOSE") return [{ strong: "This stone is not held." }, " It is not larger than the opening of the ureter, so no pressure is needed to move it."];
+  if (answer.outcome === "LOOSE") return [{ strong: "This stone is not held" }, ": it is not larger than the opening of the ureter."];
   if (answer.outcome === "BEYOND_CLOSURE") {
-    return [{ strong: "The paper’s model has no answer for this stone." }, ` It needs more than ${digits(answer.lower_bound_kPa, 3)} kPa, where the model ends; the direct model of the finite elements goes on.`];
+    return [{ strong: "The paper’s model has no answer here" }, `: more than ${digits(answer.lower_bound_kPa, 3)} kPa. The direct model goes on.`];
   }
   if (pressure === null) return [answer.message];
   const error = answer.critical_pressure_error_kPa ?? 0;

@@ -1,0 +1,225 @@
+"""The calculator of the page, in a real browser against a real server."""
+
+import json
+import re
+import shlex
+
+import pytest
+from page_browser import ANSWERED, SECONDS, settled
+
+from stonepass.cli import run
+
+ASKED = {
+    "case": {
+        "stone": {"diameter": "4.2 mm", "friction": 0.5},
+        "ureter": {"inner_diameter": "3.5 mm", "wall_thickness": "0.52 mm", "material": "ureter"},
+        "load": {"confining_pressure": "0 kPa"},
+    },
+    "limit": "6 kPa",
+}
+
+
+def asked(**stone):
+    return {**ASKED, "case": {**ASKED["case"], "stone": {**ASKED["case"]["stone"], **stone}}}
+
+
+def reading(page, name):
+    """The number of one of the readings, as it is shown."""
+    return page.locator(".reading", has_text=name).locator(".big").inner_text()
+
+
+def pressure(page):
+    return reading(page, "This stone starts to move")
+
+
+def near(number):
+    """A number as it is shown, with at least two decimals."""
+    return pytest.approx(number, abs=0.0051)
+
+
+def test_first_answer_is_that_of_the_api(page, server):
+    found = server.post("instant", ASKED)
+    assert float(pressure(page)) == near(found["answer"]["critical_pressure_kPa"])
+    assert float(reading(page, "largest stone")) == near(found["size"]["critical_diameter_mm"])
+    assert "82.5 mmHg · 112 cmH₂O" in page.locator(".reading").first.inner_text()
+    assert "this stone does not move" in page.locator(".verdict").inner_text()
+    page.wait_for_timeout(900)  # the live region waits until the sliders rest
+    assert "does not move" in page.locator(".answer [aria-live=polite]").inner_text()
+
+
+def test_sliders_change_the_answer_and_the_link_reproduces_it(open_page, server):
+    page = open_page()
+    page.get_by_label("Diameter across the ureter, slider").fill("3.9")
+    page.get_by_label("Friction coefficient, slider").fill("0.3")
+    settled(page)
+    found = server.post("instant", asked(diameter="3.9 mm", friction=0.3))["answer"]
+    assert float(pressure(page)) == near(found["critical_pressure_kPa"])
+    assert "this stone moves" in page.locator(".verdict").inner_text()
+    page.wait_for_timeout(500)
+    link = page.url.split("/", 3)[3]
+    assert "stone=3.9mm" in link
+    again = open_page(link)
+    assert again.get_by_label("Friction coefficient", exact=True).input_value() == "0.3"
+    assert pressure(again) == pressure(page)
+
+
+def test_boxes_accept_the_units_of_the_clinic(page):
+    limit = page.get_by_label("Pressure limit", exact=True)
+    limit.fill("61 cmH2O")
+    limit.blur()
+    settled(page)
+    assert limit.input_value() == "5.9821"
+    limit.fill("45 mmHg")
+    settled(page)
+    assert "45.0 mmHg · 61.2 cmH₂O" in page.locator(".inputs").inner_text()
+    limit.fill("nonsense")
+    assert page.locator(".box[data-state=bad]").count() == 1
+    limit.blur()
+    assert limit.input_value() == "5.9995"  # the last number that could be read
+
+
+def test_wall_by_outer_diameter_is_the_same_wall(page):
+    before = pressure(page)
+    page.get_by_role("button", name="outer diameter").click()
+    settled(page)
+    assert page.get_by_label("Outer diameter", exact=True).input_value() == "4.54"
+    assert pressure(page) == before
+    page.get_by_label("Outer diameter", exact=True).fill("5.5")
+    settled(page)
+    page.get_by_role("button", name="thickness", exact=True).click()
+    settled(page)
+    assert page.get_by_label("Wall thickness", exact=True).input_value() == "1"
+
+
+def test_published_limits_have_their_source(page, server):
+    known = server.get("pressure-limits")
+    box = page.get_by_label("Published limits")
+    assert box.locator("option").count() == len(known) + 1
+    box.select_option("12")
+    settled(page)
+    assert known[-1]["source"].rstrip(".") in page.locator(".inputs").inner_text()
+    assert page.get_by_label("Pressure limit", exact=True).input_value() == "12"
+
+
+@pytest.mark.parametrize(
+    ("diameter", "outcome", "words"),
+    [("3", "LOOSE", "not held"), ("8", "NO_SOLUTION", "no instant answer")],
+)
+def test_outcomes_without_a_pressure_are_told_in_words(page, server, diameter, outcome, words):
+    page.get_by_label("Diameter across the ureter", exact=True).fill(diameter)
+    settled(page)
+    assert server.post("instant", asked(diameter=f"{diameter} mm"))["answer"]["outcome"] == outcome
+    assert words in page.locator(".verdict").inner_text()
+
+
+def test_nothing_is_extrapolated(page):
+    page.get_by_label("Diameter across the ureter", exact=True).fill("6.5")
+    settled(page)
+    first = page.locator(".reading").first
+    assert first.locator(".big").count() == 0
+    assert not re.search(r"\d+ mmHg", first.inner_text())
+    control = page.locator(".control", has=page.get_by_label("Diameter across the ureter, slider"))
+    assert "No instant answer outside" in control.locator(".note").inner_text()
+    assert control.locator(".note").get_attribute("data-state") == "warning"
+
+
+def test_shape_without_a_surrogate_warns_beside_its_slider(page):
+    page.get_by_label("Length over width", exact=True).fill("1.4")
+    settled(page)
+    control = page.locator(".control", has=page.get_by_label("Length over width, slider"))
+    assert control.locator(".note").get_attribute("data-state") == "warning"
+    assert page.locator(".reading").first.locator(".big").count() == 0
+
+
+def test_refused_input_is_named_beside_its_box(page, watched):
+    watched.expected = ("422",)
+    page.get_by_label("Friction coefficient", exact=True).fill("7")
+    settled(page)
+    control = page.locator(".control", has=page.get_by_label("Friction coefficient, slider"))
+    assert control.locator(".note").get_attribute("data-state") == "warning"
+    assert "2" in control.locator(".note").inner_text()  # the largest friction
+
+
+def test_finite_elements_beside_the_instant_answer(page):
+    page.get_by_role("button", name="Solve").click()
+    solved = page.locator(".reading.solve")
+    solved.locator(".big").wait_for(timeout=SECONDS)
+    assert abs(float(solved.locator(".big").inner_text()) - float(pressure(page))) < 0.1
+    assert "from the instant answer" in solved.inner_text()
+    figure = page.locator("figure", has_text="Section through")
+    assert "Solved for exactly these inputs" in figure.inner_text()
+    assert figure.locator(".pressure-fill").count() == 2
+    page.get_by_label("Diameter across the ureter", exact=True).fill("4.1")
+    settled(page)
+    assert solved.locator(".big").count() == 0  # never the number of other inputs
+    assert "earlier inputs" in solved.inner_text()
+
+
+def test_solve_is_cancelled(page):
+    page.get_by_label("Diameter across the ureter", exact=True).fill("4.37")
+    page.get_by_label("Model of the finite elements").select_option("direct")
+    page.get_by_role("button", name="Solve").click()
+    page.get_by_role("button", name="Cancel").click()
+    page.get_by_text("The solve was cancelled.").wait_for()
+    assert page.get_by_role("button", name="Solve").is_enabled()
+
+
+def test_command_line_repeats_the_number(page, capsys):
+    text = page.get_by_label("Text that repeats the answer")
+    words = shlex.split(text.inner_text())
+    assert words[0] == "stonepass"
+    assert run([*words[1:], "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert float(pressure(page)) == near(found[0]["critical_pressure_kPa"])
+    page.get_by_role("button", name="curl").click()
+    assert text.inner_text().startswith("curl")
+    page.get_by_role("button", name="Case file").click()
+    assert "[stone]" in text.inner_text()
+
+
+def test_view_in_three_dimensions_loads_when_it_is_opened_and_turns(page, watched):
+    assert not any("revolved" in url for url in watched.sizes)
+    page.get_by_role("button", name="Turn it in 3-D").click()
+    canvas = page.locator("canvas")
+    canvas.wait_for()
+    page.wait_for_timeout(300)
+    assert any("revolved" in url for url in watched.sizes)
+    before = canvas.screenshot()
+    canvas.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_timeout(200)
+    assert canvas.screenshot() != before
+    page.get_by_role("button", name="Show the section").click()
+    assert canvas.is_hidden()
+
+
+def test_definition_on_demand(page, server):
+    page.get_by_role("button", name="critical pressure").first.click()
+    told = page.get_by_role("dialog")
+    told.wait_for()
+    meaning = server.get("glossary")["critical pressure"]
+    assert meaning.lower() in told.inner_text().lower()
+    page.keyboard.press("Escape")
+    assert told.is_hidden()
+
+
+def test_nothing_moves_while_loading_and_sliding(page):
+    shift = """() => new Promise((resolve) => {
+      let sum = 0;
+      new PerformanceObserver((list) => {
+        for (const each of list.getEntries()) sum += each.value;
+      }).observe({type: "layout-shift", buffered: true});
+      setTimeout(() => resolve(sum), 300);
+    })"""
+    assert page.evaluate(shift) < 0.01
+    slider = page.get_by_label("Diameter across the ureter, slider")
+    for size in ("3.2", "3.6", "4.4", "5", "5.6", "6.4", "4.2"):
+        slider.fill(size)
+        settled(page)
+    assert page.evaluate(shift) < 0.02
+
+
+def test_first_answer_needs_few_bytes(page, watched):
+    assert page.locator(ANSWERED).count() == 1
+    assert len(watched.sizes) > 20  # the files of the page were counted
+    assert sum(watched.sizes.values()) < 1_500_000

@@ -34,6 +34,10 @@ export function jobRun(label, hint) {
   return {
     element,
     async start(body, done, refused = () => {}) {
+      const fail = (problem) => {
+        rest(problem.message, true);
+        refused(problem);
+      };
       show("The question is sent.", 0);
       try {
         stop = await startJob(body, (state) => {
@@ -43,12 +47,11 @@ export function jobRun(label, hint) {
             rest("Done.");
             done(state.result);
           } else if (state.status === "cancelled") rest("The work was cancelled.");
-          else rest(state.problem?.detail ?? "The work failed.", true);
+          else fail(new Problem(state.problem?.status, state.problem ?? { detail: "The work failed." }));
         });
       } catch (error) {
-        rest(error.message, true);
-        if (error instanceof Problem) refused(error);
-        else throw error;
+        if (!(error instanceof Problem)) throw error;
+        fail(error);
       }
     },
   };

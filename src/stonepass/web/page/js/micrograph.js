@@ -27,7 +27,7 @@ export function micrograph() {
     const [width, height] = size ?? [0, 0];
     lines = Array.from({ length: COUNT }, (_, k) => {
       const y = Math.round(((k + 0.5) * height) / COUNT);
-      return [0, y, width, y];
+      return [0, y, width - 1, y];
     });
   }
   function addPath() {
@@ -89,8 +89,8 @@ export function micrograph() {
   }
   function move(k, end, x, y) {
     moved = true;
-    lines[k][2 * end] = Math.round(Math.max(0, Math.min(size[0], x)));
-    lines[k][2 * end + 1] = Math.round(Math.max(0, Math.min(size[1], y)));
+    lines[k][2 * end] = Math.round(Math.max(0, Math.min(size[0] - 1, x)));
+    lines[k][2 * end + 1] = Math.round(Math.max(0, Math.min(size[1] - 1, y)));
     draw([k, end]);
   }
   return { element, open, paths: () => (size && moved ? lines.map((each) => [...each]) : null) };

@@ -10,13 +10,13 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from stonepass.errors import BadInput
 from stonepass.inputs.build import in_words
-from stonepass.inputs.catalogue import all_inputs
+from stonepass.web.problem_fields import field_of
 
 __all__ = [
+    "FAULT",
     "Json",
     "Problem",
     "ProblemError",
-    "field_of",
     "problem_document",
     "problem_response",
     "refused",
@@ -24,6 +24,7 @@ __all__ = [
 
 PROBLEM_TYPE = "application/problem+json"
 LONGEST_VALUE = 200  # characters of a refused value that a problem repeats
+FAULT = "This is an error of stonepass; please report it together with your request."
 TITLES = {
     400: "The request cannot be read",
     401: "The token is missing or wrong",
@@ -38,16 +39,6 @@ TITLES = {
     422: "An input is refused",
     429: "There are too many requests",
     500: "This is an error of stonepass",
-}
-# Inputs that a message about more than one input belongs to.
-SHARED_FIELDS = {
-    "size of the stone": "stone.diameter",
-    "size of the ureter": "ureter.inner_diameter",
-    "size ratio (stone diameter over inner diameter)": "stone.size_ratio",
-    "wall of the ureter": "ureter.wall_thickness",
-    "dilated inner diameter": "dilated.inner_diameter",
-    "dilated outer diameter": "dilated.outer_diameter",
-    "place": "stone.place",
 }
 
 
@@ -142,12 +133,6 @@ def problem_document(
     if value is not None:
         document["value"] = str(value)[:LONGEST_VALUE]
     return document
-
-
-def field_of(problem: BadInput) -> str | None:
-    """Return the key of the input that an error is about, e.g. ``stone.diameter``."""
-    fields = {each.title: key for key, each in all_inputs().items()} | SHARED_FIELDS
-    return fields.get(problem.argument)
 
 
 def refused(problem: BadInput, field: str | None = None) -> Response:

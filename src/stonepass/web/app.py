@@ -56,8 +56,8 @@ def create_app(settings: ServerSettings) -> Guard:
         redoc_url=None,
     )
     handle_problems(app)
-    for part in (routes, job_routes, upload_routes):
-        app.include_router(part.router)
+    for part in (routes.router, job_routes.router, job_routes.reports, upload_routes.router):
+        app.include_router(part)
     _add_page(app)
     _describe_problems(app)
     return Guard(app, settings)

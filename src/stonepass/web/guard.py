@@ -11,6 +11,7 @@ Every request passes these checks before any of its body is read:
 from __future__ import annotations
 
 import asyncio
+import os
 import secrets
 from collections.abc import Awaitable, Callable, Mapping, MutableMapping
 from dataclasses import dataclass
@@ -20,7 +21,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from starlette.responses import RedirectResponse, Response
 
-from stonepass.web.answers import problem_response
+from stonepass.web.answers import FAULT, problem_response
 from stonepass.web.settings import ServerSettings
 
 __all__ = ["COOKIE", "POLICY", "Guard"]
@@ -111,6 +112,10 @@ class Guard:
             refusal = problem_response(
                 408, f"The body of the request did not arrive within {seconds:g} s."
             )
+        except Exception:  # an error of the program; its traceback could contain a request
+            if os.environ.get("STONEPASS_DEBUG"):
+                raise
+            refusal = problem_response(500, FAULT)
         if refusal is not None and not begun:
             refusal.headers["connection"] = "close"  # the rest of the body is not read
             await refusal(scope, receive, send)

@@ -1,4 +1,4 @@
-"""Routes of jobs: ask, follow, cancel."""
+"""Routes of jobs: ask, follow, cancel; and of reports to print, which are jobs too."""
 
 from __future__ import annotations
 
@@ -15,17 +15,20 @@ from starlette.responses import Response, StreamingResponse
 from stonepass.about import VERSION
 from stonepass.web.answers import Json, ProblemError
 from stonepass.web.documented import BUSY, PROBLEMS, JobDocument
-from stonepass.web.jobs.bodies import JobBody
+from stonepass.web.jobs.bodies import JobBody, ReportBody
 from stonepass.web.jobs.book import QueueFull
 from stonepass.web.jobs.job import Job, Status
 from stonepass.web.state import ServerState, client_of, state_of
 from stonepass.web.uploads.store import Upload
 
-__all__ = ["router"]
+__all__ = ["reports", "router"]
 
 EVENTS = "text/event-stream"
 PAUSE = 15.0  # seconds after which a stream of events shows that it is alive
 GONE = "There is no job with this id; ask the question again."
+MEDIA = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
+REPORT = {"content": {each: {} for each in MEDIA.values()}, "description": "the report"}
+reports = APIRouter(prefix="/api/v1", tags=["reports"], responses=PROBLEMS)
 router = APIRouter(prefix="/api/v1/jobs", tags=["jobs"], responses=PROBLEMS)
 Identity = Annotated[str, InPath(description="id of the job", max_length=64)]
 
@@ -38,21 +41,7 @@ async def ask(body: Annotated[JobBody, Body()], request: Request) -> Json:
     The id is the fingerprint of the question, so that a repeated question has the same id and is
     answered at once if the first one has been answered.
     """
-    state = state_of(request)
-    state.rate.take(client_of(request))
-    asked = await asyncio.to_thread(body.question)
-    job = Job(_fingerprint(body.kind, asked), body.kind, body.model_dump(mode="json"))
-    if body.UPLOAD and not _answering(state.book.get(job.id)):
-        job.upload = _upload(state, body.UPLOAD, getattr(body, "upload", ""))
-    try:
-        found = state.book.add(job)
-    except QueueFull as problem:
-        wait = str(problem.retry_after)
-        raise ProblemError(
-            429,
-            f"The queue of jobs is full; ask again in {wait} s.",
-            headers={"retry-after": wait},
-        ) from None
+    found = await _queued(body, request)
     return Json(found.document(), 202, {"location": f"/api/v1/jobs/{found.id}"})
 
 
@@ -86,9 +75,65 @@ async def cancel(identity: Identity, request: Request) -> Json:
     return Json(job.document())
 
 
-def _fingerprint(kind: str, asked: dict[str, Any]) -> str:
+@reports.post("/report", responses=BUSY | {200: REPORT}, response_class=Response,
+              summary="Report to print")  # fmt: skip
+async def report(body: ReportBody, request: Request) -> Response:
+    """Answer a question with a report to print, as one HTML file or as PDF.
+
+    The question is solved by a worker process unless its states are in the solution cache, so that
+    the response may take as long as the job.
+    """
+    job = await _queued(body.question, request, body.kind)
+    await job.ended()
+    if job.problem is not None:
+        problem = job.problem
+        raise ProblemError(problem["status"], problem["detail"], problem.get("field"))
+    if job.status is not Status.DONE:
+        raise ProblemError(410, "The job was cancelled.")
+    name = f"stonepass-{body.question.kind}-{job.id[:8]}.{body.kind}"
+    return Response(
+        job.report,
+        media_type=MEDIA[body.kind],
+        headers={
+            "content-disposition": f'attachment; filename="{name}"',
+            "content-security-policy": "sandbox; default-src 'none'; img-src data:; "
+            "style-src 'unsafe-inline'",
+        },
+    )
+
+
+async def _queued(body: Any, request: Request, form: str = "") -> Job:
+    """Return the job that answers a question, and put it into the queue if it is new.
+
+    Parameters
+    ----------
+    body : JobBody
+    request : Request
+    form : str
+        Format of the report to print; empty for no report.
+    """
+    state = state_of(request)
+    state.rate.take(client_of(request))
+    asked = await asyncio.to_thread(body.question)
+    content = body.model_dump(mode="json")
+    job = Job(_fingerprint(body.kind, asked, form), body.kind, content, format=form)
+    if body.UPLOAD and not _answering(state.book.get(job.id)):
+        job.upload = _upload(state, body.UPLOAD, body.upload)
+    try:
+        return state.book.add(job)
+    except QueueFull as problem:
+        wait = str(problem.retry_after)
+        raise ProblemError(
+            429,
+            f"The queue of jobs is full; ask again in {wait} s.",
+            headers={"retry-after": wait},
+        ) from None
+
+
+def _fingerprint(kind: str, asked: dict[str, Any], form: str) -> str:
     """Return the digest of everything that an answer depends on."""
-    text = json.dumps({"kind": kind, "asked": asked, "version": VERSION}, sort_keys=True)
+    document = {"kind": kind, "asked": asked, "format": form, "version": VERSION}
+    text = json.dumps(document, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 

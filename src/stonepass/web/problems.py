@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -33,7 +32,6 @@ SENTENCES = {
     404: "There is nothing at this address; GET /api/v1 lists the addresses.",
     405: "This method is not allowed at this address; GET /api/v1/openapi.json lists the methods.",
 }
-_LOG = logging.getLogger("stonepass.web")
 
 
 def handle_problems(app: FastAPI) -> None:
@@ -42,7 +40,6 @@ def handle_problems(app: FastAPI) -> None:
     app.add_exception_handler(ProblemError, _problem)
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http)
-    app.add_exception_handler(Exception, _fault)
 
 
 def _bad_input(_: Request, problem: Exception) -> Response:
@@ -82,11 +79,3 @@ def _http(_: Request, problem: Exception) -> Response:
     assert isinstance(problem, HTTPException)
     sentence = SENTENCES.get(problem.status_code, f"{str(problem.detail).rstrip('.')}.")
     return problem_response(problem.status_code, sentence, headers=dict(problem.headers or {}))
-
-
-def _fault(_: Request, problem: Exception) -> Response:
-    """Answer a request that met an error of the program; the log has no content of the request."""
-    _LOG.error("an error of stonepass: %s", type(problem).__name__)
-    return problem_response(
-        500, "This is an error of stonepass; please report it together with your request."
-    )

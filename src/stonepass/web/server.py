@@ -1,16 +1,22 @@
-"""The server process: uvicorn with a limit of the time for headers and of open connections."""
+"""The server process."""
 
 from __future__ import annotations
 
+import logging
+import socket
 import webbrowser
 from typing import Any
 
 import uvicorn
 
+from stonepass.errors import BadInput
 from stonepass.web.app import create_app
+from stonepass.web.protocol import limited_protocol
 from stonepass.web.settings import ServerSettings
 
 __all__ = ["serve"]
+
+BACKLOG = 128  # connections that the system holds before they are accepted
 
 
 def serve(settings: ServerSettings, *, browser: bool = True) -> None:
@@ -22,33 +28,61 @@ def serve(settings: ServerSettings, *, browser: bool = True) -> None:
         Address, token, folder of the solution cache, and limits.
     browser : bool
         True if the page is opened in the user's browser.
+
+    Raises
+    ------
+    BadInput
+        The server cannot listen at the address.
     """
+    listening = _listen(settings)
     config = uvicorn.Config(
         create_app(settings),
-        host=settings.host,
-        port=settings.port,
+        http=limited_protocol(settings.limits),
         access_log=False,  # nothing of a request is kept
-        log_level="warning",
+        log_level=logging.CRITICAL,
         server_header=False,
         ws="none",
         timeout_keep_alive=15,
         timeout_graceful_shutdown=3,
     )
-    _Server(config, browser).run()
+    _Server(config, settings, browser).run([listening])
+
+
+def _listen(settings: ServerSettings) -> socket.socket:
+    """Return a socket that listens at the address of the settings."""
+    host = settings.host.strip("[]")
+    try:
+        found = socket.getaddrinfo(host, settings.port, type=socket.SOCK_STREAM)[0]
+        made = socket.socket(found[0], socket.SOCK_STREAM)
+        if hasattr(socket, "SO_REUSEPORT"):  # not on Windows, where the option means another thing
+            made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        made.bind(found[4])
+        made.listen(BACKLOG)
+    except OSError as problem:
+        address = f"{settings.host}:{settings.port}"
+        allowed = f"an address at which this program can listen ({problem.strerror})"
+        raise BadInput(
+            "address", address, allowed, "choose another with --port or --host"
+        ) from None
+    made.setblocking(False)
+    return made
 
 
 class _Server(uvicorn.Server):
     """A server that says its address once it listens, and opens the page."""
 
-    def __init__(self, config: uvicorn.Config, browser: bool) -> None:
+    def __init__(self, config: uvicorn.Config, settings: ServerSettings, browser: bool) -> None:
         super().__init__(config)
-        self._browser = browser
+        self._settings, self._browser = settings, browser
 
     async def startup(self, sockets: list[Any] | None = None) -> None:
+        """Start the server, then say its address."""
         await super().startup(sockets)
-        if self.started:
-            port = self.servers[0].sockets[0].getsockname()[1]
-            address = f"http://{self.config.host}:{port}/"
-            print(f"stonepass serves {address} (Ctrl-C stops it)", flush=True)
-            if self._browser:
-                webbrowser.open(address)
+        if not self.started or not sockets:
+            return
+        host, token = self._settings.host, self._settings.token
+        name = f"[{host}]" if ":" in host.strip("[]") else host
+        address = f"http://{name}:{sockets[0].getsockname()[1]}/"
+        print(f"stonepass serves {address} (Ctrl-C stops it)", flush=True)
+        if self._browser:
+            webbrowser.open(f"{address}?token={token}" if token else address)

@@ -23,6 +23,7 @@ from stonepass.web.instant.repeat import repeat
 from stonepass.web.instant.size_map import size_map
 from stonepass.web.instant.validity import validity
 from stonepass.web.instant.words import pressure_sentence, size_sentence
+from stonepass.web.section.picture import instant_section
 from stonepass.web.stiffness import stiffened
 
 __all__ = ["instant_answer"]
@@ -83,6 +84,8 @@ def _numbers(question: InstantQuestion, surrogate: Surrogate) -> dict[str, Any]:
     outside = record["outside"]  # the outcome of the surrogate then says nothing about the stone
     known["message"] = known["sentence"] if outside else found.outcomes[0].sentence()
     document: dict[str, Any] = {"answer": record | known}
+    if "section" in question.include:
+        document["section"] = instant_section(case, question.stiffness)
     if not held.inside(surrogate):
         return document
     low, high = surrogate.box.wall_ratio

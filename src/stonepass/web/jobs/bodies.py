@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, Field
+from pydantic import Field
 
 from stonepass.clinic.patient import PatientFile, patient_of
 from stonepass.clinic.pressure_limits import read_limit
@@ -28,6 +28,7 @@ __all__ = [
     "JobBody",
     "PressureJob",
     "PushJob",
+    "ReportBody",
     "SizeJob",
     "solved_case",
 ]
@@ -228,11 +229,10 @@ JobBody = Annotated[
     PressureJob | SizeJob | PushJob | AssessJob | FitJob | FrictionJob,
     Field(discriminator="kind"),
 ]
-KINDS: dict[str, type[BaseModel]] = {
-    "pressure": PressureJob,
-    "size": SizeJob,
-    "push": PushJob,
-    "assess": AssessJob,
-    "fit": FitJob,
-    "friction": FrictionJob,
-}
+
+
+class ReportBody(StrictBody):
+    """The question of a report to print."""
+
+    kind: Literal["html", "pdf"] = Field(description="format of the report")
+    question: Annotated[PressureJob | SizeJob | AssessJob, Field(discriminator="kind")]

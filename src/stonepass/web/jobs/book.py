@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 from collections import OrderedDict, deque
 from contextlib import ExitStack, suppress
 from typing import Any
@@ -150,6 +151,7 @@ class JobBook:
             "body": job.body,
             "cache_folder": None if folder is None else str(folder),
             "file": None,
+            "format": job.format,
             "memory": limits.job_memory,
         }
         try:
@@ -169,7 +171,7 @@ class JobBook:
 
     async def _conclude(self, job: Job, message: dict[str, Any], process: WorkerProcess) -> None:
         if "result" in message:
-            job.result, job.report = message["result"], message["report"]
+            job.result, job.report = message["result"], base64.b64decode(message["report"])
             self._end(job, Status.DONE)
         elif "refused" in message:
             detail, field, value = message["refused"]

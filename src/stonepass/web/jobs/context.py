@@ -24,11 +24,14 @@ class Context:
         Folder of the solution cache.
     file : Path or None
         The uploaded file, under a name of the server.
+    format : str
+        Format of the report to print, ``html`` or ``pdf``; empty for no report.
     """
 
     tell: Tell
     cache_folder: Path | None = None
     file: Path | None = None
+    format: str = ""
 
 
 @dataclass(frozen=True)
@@ -39,9 +42,9 @@ class Done:
     ----------
     result : dict
         The JSON-ready result.
-    report : str
-        The result as an HTML page to print; empty if there is none.
+    page : str
+        The report to print as an HTML page; empty if no report was asked for.
     """
 
     result: dict[str, Any]
-    report: str = ""
+    page: str = ""

@@ -46,9 +46,11 @@ class Job:
     status : Status
     progress : dict
         ``done`` and ``total`` steps (0 if unknown), and a ``sentence``.
+    format : str
+        Format of the report to print, ``html`` or ``pdf``; empty for no report.
     result : dict or None
-    report : str
-        The result as an HTML page; empty if there is none.
+    report : bytes
+        The report; empty if there is none.
     problem : dict or None
         Why the job failed.
     ended_at : float
@@ -59,12 +61,13 @@ class Job:
     kind: str
     body: dict[str, Any]
     upload: Upload | None = None
+    format: str = ""
     status: Status = Status.QUEUED
     progress: dict[str, Any] = field(
         default_factory=lambda: {"done": 0, "total": 0, "sentence": "Waiting for a worker."}
     )
     result: dict[str, Any] | None = None
-    report: str = ""
+    report: bytes = b""
     problem: dict[str, Any] | None = None
     ended_at: float = 0.0
     _changed: asyncio.Event = field(default_factory=asyncio.Event)
@@ -93,6 +96,11 @@ class Job:
         if self.problem is not None:
             found["problem"] = self.problem
         return found
+
+    async def ended(self) -> None:
+        """Wait until the job has ended."""
+        while not self.status.ended:
+            await self._changed.wait()
 
     async def changes(self, pause: float) -> AsyncIterator[dict[str, Any] | None]:
         """Yield the state now and after every change until the job has ended.

@@ -7,25 +7,31 @@ also during a job, so that it never outlives the server.
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 import queue
+import re
 import sys
 import threading
 import warnings
 from collections.abc import Mapping
 from importlib import import_module
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import IO, Any
 
 from pydantic import ValidationError
 
 from stonepass.errors import BadInput
+from stonepass.inputs.build import in_words
 from stonepass.sandbox.worker import limit_memory
 from stonepass.web.jobs.context import Context, Done
+from stonepass.web.problem_fields import field_of
 
 __all__ = ["MODULES", "serve_jobs"]
 
+OPTION = re.compile(r"--([a-z][a-z-]+)")
+LONGEST_VALUE = 200  # characters of a refused value
 # The module of `stonepass.web.jobs.tasks` that does each kind of job.
 MODULES = {
     "pressure": "solve",
@@ -66,10 +72,10 @@ def _answer(request: Mapping[str, Any], writing: IO[bytes]) -> dict[str, Any]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # an answer has warnings of its own
-            done = _run(request, Context(tell, folder, file))
-        return {"result": done.result, "report": done.report}
+            done = _run(request, Context(tell, folder, file, request["format"]))
+            return {"result": done.result, "report": _report(done.page, request["format"])}
     except BadInput as problem:
-        return {"refused": [str(problem), problem.argument, str(problem.value)[:200]]}
+        return {"refused": _refusal(problem)}
     except ValidationError as problem:
         first = problem.errors()[0]
         return {"refused": [f"The request is not valid: {first['msg']}.", "", ""]}
@@ -78,6 +84,30 @@ def _answer(request: Mapping[str, Any], writing: IO[bytes]) -> dict[str, Any]:
     except Exception as problem:
         lacking = any(sign in str(problem).lower() for sign in ("bad_alloc", "allocate"))
         return {"fault": "MemoryError" if lacking else type(problem).__name__}
+
+
+def _refusal(problem: BadInput) -> list[str]:
+    """Return sentence, field and value of an error, in the words of the API."""
+    if isinstance(problem.value, PurePath):  # the name of an upload is that of the server
+        problem = type(problem)(problem.argument, "the upload", problem.allowed, problem.remedy)
+    field = field_of(problem) or problem.argument
+    sentence = str(in_words(problem, {problem.argument: field}))
+    return [_without_options(sentence), field, str(problem.value)[:LONGEST_VALUE]]
+
+
+def _without_options(sentence: str) -> str:
+    """Return a sentence with keys of the API in the place of options of the command line."""
+    return OPTION.sub(lambda found: f"'{found[1].replace('-', '_')}'", sentence)
+
+
+def _report(page: str, form: str) -> str:
+    """Return the report in the base 64; empty if there is none."""
+    if not page:
+        return ""
+    content = page.encode()
+    if form == "pdf":
+        content = import_module("stonepass.report.pdf").pdf_of_page(page)
+    return base64.b64encode(content).decode()
 
 
 def _run(request: Mapping[str, Any], context: Context) -> Done:

@@ -6,18 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from stonepass.array_types import Float
 from stonepass.model.answer import Answer
 from stonepass.model.contact_state import SolvedState
 from stonepass.model.shape import Shape
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.report.section import wall_surface
+from stonepass.web.section.points import EXTENT, contact_points, outline_points
 
 __all__ = ["solved_section", "stone_outline"]
 
-REACH = 2.0  # half the length of the drawn tube, in radii of the stone, in addition to LENGTH
-LENGTH = 1.5  # in inner radii
-DIGITS = 5  # decimals of lengths in inner radii
 ANGLES = 61  # number of points of the outline of the stone and of the contact
 
 
@@ -47,22 +44,16 @@ def solved_section(answer: Answer) -> dict[str, Any] | None:
         z, r = wall_surface(wall, float(radius))
         if mirrored:
             z, r = np.concatenate([-z[:0:-1], z]), np.concatenate([r[:0:-1], r])
-        shown = np.abs(z) <= REACH * case.extent + LENGTH
-        surfaces[name] = _points(z[shown], r[shown])
+        shown = np.abs(z) <= EXTENT[0] * case.extent + EXTENT[1]
+        surfaces[name] = outline_points(z[shown], r[shown])
     theta = np.linspace(contact.contact_angle, contact.downstream_angle, ANGLES)
     rho, z = (case.size_ratio * each for each in case.stone.shape.meridian(theta))
     pressure = contact.pressure_at(theta)
-    peak = int(np.argmax(pressure))
     return {
         "exact": True,
         "stone": stone_outline(answer.case.size_ratio, case.stone.shape),
         **surfaces,
-        "contact": _points(z, rho)
-        | {
-            "theta_deg": np.degrees(theta).round(3).tolist(),
-            "pressure_kPa": (pressure / 1e3).round(DIGITS).tolist(),
-        },
-        "seal": {"z": round(float(z[peak]), DIGITS), "r": round(float(rho[peak]), DIGITS)},
+        **contact_points(theta, z, rho, pressure),
         "urine_pressure_kPa": getattr(contact, "urine_pressure", 0.0) / 1e3,
     }
 
@@ -77,8 +68,4 @@ def stone_outline(size_ratio: float, shape: Shape) -> dict[str, list[float]]:
     shape : Shape
     """
     rho, z = shape.meridian(np.linspace(0.0, np.pi, ANGLES))
-    return _points(size_ratio * z, size_ratio * np.maximum(rho, 0.0))
-
-
-def _points(z: Float[np.ndarray, " n"], r: Float[np.ndarray, " n"]) -> dict[str, list[float]]:
-    return {"z": (z.round(DIGITS) + 0.0).tolist(), "r": (r.round(DIGITS) + 0.0).tolist()}
+    return outline_points(size_ratio * z, size_ratio * np.maximum(rho, 0.0))

@@ -19,18 +19,18 @@ FILE = "the request"  # stands in the record where the command line has the name
 
 
 def _assess(request: Mapping[str, Any], context: Context) -> Done:
-    """Return the record of the assessment and the report to print."""
+    """Return the record of the assessment and, if asked, the report to print."""
     body = AssessJob.model_validate(request)
-    steps = 0
 
     def told(done: int, total: int) -> None:
-        nonlocal steps
-        steps = max(steps + 1, done)
         context.tell(done, total, f"Solving the cases: {done} of {total} are done.")
 
     found = assess(patient_of(body.patient), JobSolver(None, context.cache_folder, told))
-    context.tell(0, 0, "Writing the report.")
-    return Done(assess_record(found, FILE).to_dict(), assessment_page(found))
+    page = ""
+    if context.format:
+        context.tell(0, 0, "Writing the report.")
+        page = assessment_page(found)
+    return Done(assess_record(found, FILE).to_dict(), page)
 
 
 TASKS = {"assess": _assess}

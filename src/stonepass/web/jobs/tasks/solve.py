@@ -20,6 +20,7 @@ from stonepass.model.states.state_solver import StateSolver
 from stonepass.records.answer import answer_record
 from stonepass.records.rising import rising_record
 from stonepass.records.size import size_record
+from stonepass.report.answer_page import pressure_page, size_page
 from stonepass.studies.jobs import state_solver
 from stonepass.studies.rising import raise_pressure
 from stonepass.units import Pressure, pressure
@@ -93,9 +94,10 @@ def _states(context: Context) -> StateSolver:
 
 def _pressure(request: Mapping[str, Any], context: Context) -> Done:
     """Return the record of the critical pressure, and the section through stone and wall."""
-    answer = solve(solved_case(PressureJob.model_validate(request)), states=_states(context))
-    record = answer_record(answer).to_dict()
-    return Done(record | {"section": solved_section(answer)})
+    case = solved_case(PressureJob.model_validate(request))
+    answer = solve(case, states=_states(context))
+    record = answer_record(answer).to_dict() | {"section": solved_section(answer)}
+    return Done(record, pressure_page(answer, case) if context.format else "")
 
 
 def _size(request: Mapping[str, Any], context: Context) -> Done:
@@ -105,11 +107,11 @@ def _size(request: Mapping[str, Any], context: Context) -> Done:
     def tried(size_ratio: float) -> None:
         context.tell(0, 0, f"Trying the size ratio {size_ratio:.4f}.")
 
-    found = critical_size(
-        body.solved(), read_limit(body.limit), progress=tried, states=_states(context)
-    )
+    case, limit = body.solved(), read_limit(body.limit)
+    found = critical_size(case, limit, progress=tried, states=_states(context))
     section = None if found.at_size is None else solved_section(found.at_size)
-    return Done(size_record(found).to_dict() | {"section": section})
+    record = size_record(found).to_dict() | {"section": section}
+    return Done(record, size_page(found, case) if context.format else "")
 
 
 def _push(request: Mapping[str, Any], context: Context) -> Done:

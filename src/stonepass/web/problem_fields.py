@@ -1,0 +1,25 @@
+"""The input of a request that an error is about."""
+
+from __future__ import annotations
+
+from stonepass.errors import BadInput
+from stonepass.inputs.catalogue import all_inputs
+
+__all__ = ["field_of"]
+
+# Inputs that a message about more than one input belongs to.
+SHARED_FIELDS = {
+    "size of the stone": "stone.diameter",
+    "size of the ureter": "ureter.inner_diameter",
+    "size ratio (stone diameter over inner diameter)": "stone.size_ratio",
+    "wall of the ureter": "ureter.wall_thickness",
+    "dilated inner diameter": "dilated.inner_diameter",
+    "dilated outer diameter": "dilated.outer_diameter",
+    "place": "stone.place",
+}
+
+
+def field_of(problem: BadInput) -> str | None:
+    """Return the key of the input that an error is about, e.g. ``stone.diameter``."""
+    fields = {each.title: key for key, each in all_inputs().items()} | SHARED_FIELDS
+    return fields.get(problem.argument)

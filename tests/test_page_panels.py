@@ -62,7 +62,7 @@ def test_assessment_of_a_patient(page):
     assert panel.locator("table tbody tr").count() > 5
     for kind, beginning in (("HTML", b"<!doctype html>"), ("PDF", b"%PDF")):
         with page.expect_download(timeout=SECONDS) as saved:
-            panel.get_by_role("button", name=f"Save the report as {kind}").click()
+            panel.get_by_role("button", name=f"Report as {kind}").click()
         assert Path(saved.value.path()).read_bytes().lower().startswith(beginning.lower())
 
 

@@ -25,6 +25,7 @@ export function control(field, given, { word = "" } = {}) {
     : h("label", { for: boxId }, field.label);
   const element = h("div", { class: "control" }, label, frame, slider, note);
   let current = field.start;
+  let shown = "";
 
   slider.addEventListener("input", () => given(fromSlider(field, Number(slider.value))));
   box.addEventListener("input", () => {
@@ -50,15 +51,21 @@ export function control(field, given, { word = "" } = {}) {
     current = value;
     const [low, high] = [Math.min(field.low, value), Math.max(field.high, value)];
     const unit = field.logarithmic ? Math.log : (each) => each;
+    const from = range ? place(unit(range.low), unit(low), unit(high), -EDGE) : "0%";
+    const to = range ? place(unit(range.high), unit(low), unit(high), EDGE) : "0%";
+    // Most of the controls stay as they are while one of them moves.
+    const state = [value, low, high, from, to, said, warning].join("|");
+    if (document.activeElement !== box) box.value = plain(value);
+    if (state === shown) return;
+    shown = state;
     slider.min = unit(low);
     slider.max = unit(high);
     slider.step = field.logarithmic ? 0.01 : field.step / 5;
     slider.value = unit(value);
     slider.setAttribute("aria-valuetext", `${plain(value)} ${field.unit}`.trim());
     slider.dataset.state = warning ? "outside" : "";
-    slider.style.setProperty("--low", range ? place(unit(range.low), unit(low), unit(high), -EDGE) : "0%");
-    slider.style.setProperty("--high", range ? place(unit(range.high), unit(low), unit(high), EDGE) : "0%");
-    if (document.activeElement !== box) box.value = plain(value);
+    slider.style.setProperty("--low", from);
+    slider.style.setProperty("--high", to);
     note.dataset.state = warning ? "warning" : "";
     note.title = warning || "";
     write(text, warning || said);

@@ -1,10 +1,11 @@
 // The panel of one patient: measurements with their uncertainty, the assessment, the report.
 
-import { get, send } from "./api.js";
+import { get } from "./api.js";
 import { download, fill, h } from "./dom.js";
 import { jobRun } from "./job_run.js";
 import { fileText, patientForm } from "./patient_form.js";
 import { patientResults } from "./patient_results.js";
+import { reportButtons } from "./report.js";
 
 /** Build the panel in its place on the page. */
 export async function patientPanel(place) {
@@ -39,7 +40,8 @@ export async function patientPanel(place) {
     command.firstChild.textContent = fileText(form.sections());
   }
   function done(record) {
-    fill(results, ...patientResults(record), reportButtons(asked));
+    const answered = asked;
+    fill(results, ...patientResults(record), reportButtons(() => ({ kind: "assess", patient: answered })));
     results.querySelector("h2")?.focus();
   }
 }
@@ -52,23 +54,4 @@ function nothing() {
       "which measurement matters most",
       "what happened to such stones in published cohorts, and where measurements and model contradict one another",
     ].map((each) => h("li", {}, each))));
-}
-
-function reportButtons(patient) {
-  const said = h("p", { class: "small quiet", role: "status" });
-  const button = (kind, label) => h("button", { type: "button", class: "button small", onclick: () => report(kind, patient, said) }, label);
-  return h("div", { class: "row no-print" }, button("html", "Save the report as HTML"), button("pdf", "Save the report as PDF"), h("button", { type: "button", class: "button small", onclick: () => window.print() }, "Print this page"), said);
-}
-
-async function report(kind, patient, said) {
-  said.textContent = "The report is being written.";
-  try {
-    const answer = await send("report", { kind, job: { kind: "assess", patient } });
-    const address = URL.createObjectURL(await answer.blob());
-    h("a", { href: address, download: `report.${kind}` }).click();
-    setTimeout(() => URL.revokeObjectURL(address), 30_000);
-    said.textContent = "The report is saved.";
-  } catch (error) {
-    said.textContent = error.message;
-  }
 }

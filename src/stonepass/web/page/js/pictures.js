@@ -32,17 +32,25 @@ export function picturesPanel() {
     if (shown) view.show(shown);
   });
 
+  const drawMap = mapPicture();
+  let map0 = null; // the last map and its text: an equal map is not drawn anew
+
   function show(question, found, solved) {
-    const drawn = { ...found, question, solved };
+    const drawn = { ...found, map: sameMap(found.map), question, solved };
     shown = { question, section: solved?.section ?? found.section, exact: Boolean(solved?.section) };
     section.draw((width, height) => sectionPicture(width, height, shown));
     fill(section.caption, sectionWords(shown));
     fill(map.caption, `Stones below the thick line move at ${plain(question.limit, 2)} kPa. The thin lines are the `, term("critical pressure"), " in kPa; ", term("wall ratio"), " and ", term("size ratio"), " are outer and stone over inner diameter.");
     if (view && !turned.hidden) view.show(shown);
-    for (const [each, make, part] of [[curve, curvePicture, found.curve], [map, mapPicture, found.map]]) {
+    for (const [each, make, part] of [[curve, curvePicture, found.curve], [map, drawMap, found.map]]) {
       each.element.dataset.state = part ? "" : "empty";
       each.draw(part ? (width, height) => make(width, height, drawn) : emptyPicture);
     }
+  }
+  function sameMap(given) {
+    const text = given ? JSON.stringify([given.critical_pressure_kPa, given.critical_size_ratio]) : "";
+    if (map0?.text !== text) map0 = { text, given };
+    return map0.given;
   }
   const element = h("section", { class: "pictures", "aria-label": "Pictures" }, section.element, curve.element, map.element);
   return { element, show };

@@ -5,6 +5,7 @@ import { fill, h, write } from "./dom.js";
 import { term } from "./glossary.js";
 import { partOf, progressBar, setProgress } from "./progress.js";
 import { toCase, toQuery } from "./question.js";
+import { reportButtons } from "./report.js";
 import { clinical, decimals, digits, withError } from "./units.js";
 import { outcomeWords } from "./verdict.js";
 
@@ -20,7 +21,7 @@ export function solvePanel(changed) {
   const progress = progressBar();
   const element = h("section", { class: "reading solve" },
     h("h2", {}, "Solved by finite elements"), figure, also, progress, detail,
-    h("div", { class: "row solve-row no-print" }, model, start, cancel));
+    h("div", { class: "solve-row no-print" }, h("div", { class: "row" }, model, start, cancel), reportButtons(job)));
   let question = null;
   let instant = null;
   let answer = null; // {key, record}
@@ -32,14 +33,12 @@ export function solvePanel(changed) {
   model.addEventListener("change", draw);
 
   async function run() {
-    const asked = { key: keyOf(question), method: { model: model.value } };
+    const asked = { key: keyOf(question) };
     running = asked.key;
-    const body = { kind: "pressure", case: toCase(question, asked.method) };
-    if (question.stiffness !== 1) body.stiffness = question.stiffness;
     working("The solve is waiting for a free worker.", 0);
     let ended = false;
     try {
-      stop = await startJob(body, (state) => {
+      stop = await startJob(job(), (state) => {
         ended = told(asked, state);
       });
       if (ended) running = "";
@@ -48,6 +47,9 @@ export function solvePanel(changed) {
     }
   }
 
+  function job() {
+    return { kind: "pressure", case: toCase(question, { model: model.value }), stiffness: question.stiffness };
+  }
   function told(asked, state) {
     if (state.status === "queued") working("The solve is waiting for a free worker.", 0);
     else if (state.status === "running") working(state.progress?.sentence || "The finite elements are being solved.", partOf(state));

@@ -83,23 +83,25 @@ export function hatch(id) {
 }
 
 /**
- * Return a picture in a frame with a title: its figure, and `draw(make)`, which draws `make(width,
- * height)` again whenever the size changes.
+ * Return `draw(make)`, which draws `make(width, height)` into a canvas, again whenever its size changes.
+ *
+ * The size is that of the last observation: asking for it would make the browser lay out the page anew.
  */
 export function redrawn(canvas) {
   let make = null;
-  let drawn = "";
+  let size = null;
   const paint = () => {
-    const { width, height } = canvas.getBoundingClientRect();
-    if (!make || width < 40) return;
-    drawn = `${Math.round(width)}×${Math.round(height)}`;
-    const made = make(Math.round(width), Math.round(height));
-    made.setAttribute("viewBox", `0 0 ${Math.round(width)} ${Math.round(height)}`);
-    canvas.replaceChildren(made);
+    if (!make || !size || size[0] < 40) return;
+    const [width, height] = size;
+    const made = make(width, height);
+    made.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    if (canvas.firstChild !== made) canvas.replaceChildren(made);
   };
-  new ResizeObserver(() => {
-    const { width, height } = canvas.getBoundingClientRect();
-    if (`${Math.round(width)}×${Math.round(height)}` !== drawn) paint();
+  new ResizeObserver(([{ contentRect }]) => {
+    const seen = [Math.round(contentRect.width), Math.round(contentRect.height)];
+    if (size && seen[0] === size[0] && seen[1] === size[1]) return;
+    size = seen;
+    paint();
   }).observe(canvas);
   return (next) => {
     make = next;

@@ -8,6 +8,8 @@ import { geometry } from "./shape.js";
 
 const BAR = 0.28; // longest bar of the contact pressure, as a fraction of the half height
 
+const APART = 5; // px between bars
+
 /** Draw the section of a question. */
 export function sectionPicture(width, height, { question, section }) {
   const shape = geometry(question, section);
@@ -38,8 +40,9 @@ export function sectionWords({ question, section, exact }) {
   const shape = geometry(question, section);
   const where = ["Urine presses from the left."];
   if (!shape.deformed) return [...where, " Stone and ureter are drawn without deformation: there is no solved state for these inputs."];
-  const peak = digits(most(shape.contact));
-  return [...where, exact ? " Solved for exactly these inputs: " : " Interpolated between solved ", !exact && term("seated state", "seated states"), exact ? "" : ": ", term("contact pressure"), ` up to ${peak} kPa, drawn as bars on the contact.`];
+  if (!shape.contact.length) return [...where, " The stone does not touch the wall all around."];
+  const source = exact ? [" Solved for exactly these inputs: "] : [" Interpolated between solved ", term("seated state", "seated states"), " with friction 0.5: "];
+  return [...where, ...source, term("contact pressure"), ` up to ${digits(most(shape.contact))} kPa, drawn as bars on the contact.`];
 }
 
 function urine(inner, shape, x, y) {
@@ -59,11 +62,22 @@ function touching(inner, stone) {
 function pressureBars(contact, side, { x, y, length, top }) {
   const foot = contact.map(({ z, r }) => [x(z), y(side * r)]);
   const tip = contact.map(({ z, r, nz, nr, pressure }) => [x(z) + (nz * length * pressure) / top, y(side * r) - (side * nr * length * pressure) / top]);
-  const step = Math.max(1, Math.round(contact.length / 24));
-  const bars = foot.map((from, k) => (k % step ? "" : `M${from[0].toFixed(1)} ${from[1].toFixed(1)}L${tip[k][0].toFixed(1)} ${tip[k][1].toFixed(1)}`)).join("");
+  const bars = spread(foot).map((k) => line([foot[k], tip[k]])).join("");
   return svg("g", {},
     svg("path", { class: "pressure-fill", d: `${line([...foot, ...tip.toReversed()])}Z` }),
     svg("path", { class: "pressure-bars", d: bars + line(tip) }));
+}
+
+/** Return indices of points that are at least `APART` from one another along their curve. */
+function spread(points) {
+  let along = 0;
+  return points.map((_, k) => k).filter((k) => {
+    if (k === 0) return true;
+    along += Math.hypot(points[k][0] - points[k - 1][0], points[k][1] - points[k - 1][1]);
+    if (along < APART) return false;
+    along = 0;
+    return true;
+  });
 }
 
 function peakLabel(contact, x, y, width) {

@@ -28,7 +28,7 @@ function spheroid(radius, aspect) {
 /** The server gives lengths in inner radii. */
 function deformed(radius, section) {
   const points = ({ z, r }) => z.map((each, k) => [radius * each, radius * r[k]]);
-  return { stone: points(section.stone), inner: points(section.inner), outer: points(section.outer), contact: pressed(points(section.contact), section.contact.pressure_kPa), deformed: true };
+  return { stone: points(section.stone), inner: points(section.inner), outer: points(section.outer), contact: section.contact ? pressed(points(section.contact), section.contact.pressure_kPa) : [], deformed: true };
 }
 
 /** Return the points of the contact with the normal of the curve through them, away from the axis. */

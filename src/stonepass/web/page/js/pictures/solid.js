@@ -1,6 +1,6 @@
 // Faces of the revolved section, their projection, and their colours on a canvas.
 
-const AROUND = 44; // faces around the axis
+const AROUND = 68; // faces around the axis
 const CUT = [Math.PI * 0.08, Math.PI * 0.62]; // sector that is cut out, as angles around the axis
 const LIGHT = normal([-0.35, 0.8, 0.55]);
 

@@ -8,6 +8,7 @@ open, the one that has waited longest for the head of a request is closed.
 from __future__ import annotations
 
 import asyncio
+import socket
 from typing import Any
 
 import h11
@@ -44,6 +45,9 @@ class _LimitedProtocol(H11Protocol):
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
+        # Head and body of a response are written separately. The system would hold back the body
+        # until the client has acknowledged the head, which takes 40 ms.
+        transport.get_extra_info("socket").setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._await(h11.IDLE)
         if len(self.connections) > self._limits.connections:
             self._make_room()

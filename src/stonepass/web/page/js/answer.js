@@ -58,7 +58,7 @@ function showPressure({ figure, also, detail }, answer) {
 }
 
 function angle(answer) {
-  return answer.contact_angle_deg ? ` Contact begins at α₀ = ${decimals(answer.contact_angle_deg, 1)}°.` : "";
+  return answer.contact_angle_deg ? ` Contact begins at α₀\u00a0=\u00a0${decimals(answer.contact_angle_deg, 1)}°.` : "";
 }
 
 function showSize({ figure, also, detail }, question, size) {

@@ -9,7 +9,12 @@ import { changed, fromQuery, toInstant, toQuery } from "./question.js";
 import { repeatPanel } from "./repeat.js";
 import { solvePanel } from "./solve.js";
 
-const INCLUDE = ["curve", "map", "section"];
+const INCLUDE = ["curve", "section"];
+// The map takes the server longer than all the rest. It is asked for when its inputs rest for a
+// moment, and at least this often while they change.
+const MAP_REST = 80; // ms
+const MAP_LONGEST = 300; // ms
+const MAP_INPUTS = ["friction", "stiffness", "confining", "material", "limit", "aspect"];
 const LINK_DELAY = 300; // ms; browsers refuse to change the address too often
 
 /**
@@ -30,6 +35,10 @@ export function calculator(query, showLink) {
     root.dataset.answered = "";
     if (last) root.dataset.pending = "0";
   });
+  const askMap = latest("instant", (asked) => toInstant(asked, ["map"]), (asked, answer) => {
+    if (answer) pictures.showMap(asked, answer.map ?? null);
+  });
+  const mapWhenAtRest = atRest(askMap, (asked) => JSON.stringify(MAP_INPUTS.map((key) => asked[key])));
   const inputs = inputsPanel((values) => {
     renew(changed(question, values));
     clearTimeout(waiting);
@@ -56,6 +65,7 @@ export function calculator(query, showLink) {
     inputs.show(question, found?.answer ?? null);
     solve.asked(question);
     ask(question);
+    mapWhenAtRest(question);
   }
 
   function show(asked, answer, problem) {
@@ -76,5 +86,24 @@ export function calculator(query, showLink) {
       if (text !== toQuery(question)) renew(fromQuery(text));
     },
     link: () => toQuery(question),
+  };
+}
+
+/** Return a function that passes a question on when its key has changed and then rests for a moment. */
+function atRest(pass, keyOf) {
+  let passed = null;
+  let timer = 0;
+  let since = 0;
+  return (question) => {
+    const key = keyOf(question);
+    if (key === passed) return;
+    clearTimeout(timer);
+    if (!since) since = performance.now();
+    const rest = passed === null ? 0 : Math.max(0, Math.min(MAP_REST, since + MAP_LONGEST - performance.now()));
+    timer = setTimeout(() => {
+      since = 0;
+      passed = key;
+      pass(question);
+    }, rest);
   };
 }

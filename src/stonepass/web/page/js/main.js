@@ -45,6 +45,7 @@ function address() {
 
 function go(name) {
   window.location.hash = name === "calculator" ? `calculator?${chosen.link()}` : name;
+  show(name);
 }
 
 async function show(name) {

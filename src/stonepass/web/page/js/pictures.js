@@ -33,27 +33,32 @@ export function picturesPanel() {
   });
 
   const drawMap = mapPicture();
-  let map0 = null; // the last map and its text: an equal map is not drawn anew
+  let known; // the map, which is answered apart from the rest; undefined before the first one
+  let latest = null; // question, answer and finite elements of the last drawing
 
   function show(question, found, solved) {
-    const drawn = { ...found, map: sameMap(found.map), question, solved };
+    latest = { ...found, question, solved };
     shown = { question, section: solved?.section ?? found.section, exact: Boolean(solved?.section) };
     section.draw((width, height) => sectionPicture(width, height, shown));
     fill(section.caption, sectionWords(shown));
-    fill(map.caption, `Stones below the thick line move at ${plain(question.limit, 2)} kPa. The thin lines are the `, term("critical pressure"), " in kPa; ", term("wall ratio"), " and ", term("size ratio"), " are outer and stone over inner diameter.");
     if (view && !turned.hidden) view.show(shown);
-    for (const [each, make, part] of [[curve, curvePicture, found.curve], [map, drawMap, found.map]]) {
-      each.element.dataset.state = part ? "" : "empty";
-      each.draw(part ? (width, height) => make(width, height, drawn) : emptyPicture);
-    }
+    const drawn = latest;
+    curve.draw(found.curve ? (width, height) => curvePicture(width, height, drawn) : emptyPicture);
+    if (known === undefined) fill(map.caption, mapWords(question));
+    drawPoint();
   }
-  function sameMap(given) {
-    const text = given ? JSON.stringify([given.critical_pressure_kPa, given.critical_size_ratio]) : "";
-    if (map0?.text !== text) map0 = { text, given };
-    return map0.given;
+  /** Draw the point of the last question into the map. */
+  function drawPoint() {
+    const drawn = { ...latest, map: known };
+    if (latest && known !== undefined) map.draw(known ? (width, height) => drawMap(width, height, drawn) : emptyPicture);
+  }
+  function showMap(question, answered) {
+    known = answered;
+    fill(map.caption, mapWords(question));
+    drawPoint();
   }
   const element = h("section", { class: "pictures", "aria-label": "Pictures" }, section.element, curve.element, map.element);
-  return { element, show };
+  return { element, show, showMap };
 }
 
 function picture(title, caption, size = "") {
@@ -62,6 +67,10 @@ function picture(title, caption, size = "") {
   const tools = h("div", { class: "row" });
   const element = h("figure", { class: `picture card ${size}` }, h("div", { class: "head-line" }, h("h2", {}, title), tools), body, words);
   return { element, body, tools, caption: words, draw: redrawn(body) };
+}
+
+function mapWords(question) {
+  return [`Stones below the thick line move at ${plain(question.limit, 2)} kPa. The thin lines are the `, term("critical pressure"), " in kPa; ", term("wall ratio"), " and ", term("size ratio"), " are outer and stone over inner diameter."];
 }
 
 function emptyPicture(width, height) {

@@ -35,7 +35,8 @@ FIRST = """
 new MutationObserver(() => {
   if (!("answered" in document.documentElement.dataset) || window.firstAnswer) return;
   window.firstAnswer = performance.now();
-  requestAnimationFrame(() => requestAnimationFrame(() => { window.firstFrame = performance.now(); }));
+  const shown = () => { window.firstFrame = performance.now(); };
+  requestAnimationFrame(() => requestAnimationFrame(shown));
 }).observe(document, {attributes: true, subtree: true, attributeFilter: ["data-answered"]});
 """
 BYTES = """() => performance.getEntriesByType("resource").concat(

@@ -10,7 +10,7 @@ from pathlib import Path
 import first_call
 import pytest
 from jaxtyping import install_import_hook
-from page_browser import browser, open_page, page, server, watched  # noqa: F401: fixtures
+from page_browser import browser, open_page, page, server, watched  # noqa: F401
 
 SOURCE = Path(__file__).parents[1] / "src"
 # Packages whose modules are checked.

@@ -10,6 +10,7 @@ from stonepass.about import DISCLAIMER, VERSION
 from stonepass.errors import BadInput
 from stonepass.inputs.case_file import values_of
 from stonepass.inputs.case_record import fingerprint
+from stonepass.inputs.catalogue import all_inputs
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.size import SizeAnswer
@@ -111,7 +112,15 @@ def _inputs(case: Case, with_stone: bool) -> list[str]:
     """Return every input of the case as an item of a list, if asked without the stone's size."""
     sizes = () if with_stone else ("stone.diameter", "stone.size_ratio")
     return [
-        f"<li><b>{escape(key)}:</b> {escape(str(value))}</li>"
+        f"<li><b>{escape(_title(key))}:</b> {escape(_shown(value))}</li>"
         for key, value in values_of(case, Path()).items()
         if key not in sizes
     ]
+
+
+def _title(key: str) -> str:
+    return all_inputs()[key].title.replace("_", " ")
+
+
+def _shown(value: object) -> str:
+    return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)

@@ -86,6 +86,8 @@ class _Translator(HTMLParser):
             elif tag in ("td", "th"):
                 span = given.get("colspan", "1")
                 self.spans.append(int(span) if span.isdecimal() else 1)
+            elif tag == "ul":
+                self.boxes.append("columns" if given.get("class") == "inputs" else "")
             elif tag == "a":
                 self.links.append(given.get("href", ""))
             elif tag in ("div", "section", "p"):
@@ -122,6 +124,9 @@ class _Translator(HTMLParser):
             self._say(f"\n#heading(level: {tag[1]})[{inside}]\n")
         elif tag in INLINE:
             self._say(f"#{INLINE[tag]}[{inside}]")
+        elif tag == "ul":
+            wide = self.boxes.pop() == "columns"
+            self._say(f"\n#columns(2)[{inside}]\n" if wide else inside)
         elif tag == "li":
             self._say(f"\n#list.item[{inside}]\n")
         elif tag in ("div", "section", "p"):

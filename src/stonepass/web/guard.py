@@ -59,12 +59,8 @@ HEADERS = {
 }
 
 
-class _TooLarge(Exception):
-    """The body of a request is larger than allowed."""
-
-
-class _TooSlow(Exception):
-    """The body of a request did not arrive in time."""
+class _Unread(Exception):
+    """The body of a request is larger than allowed, or did not arrive in time."""
 
 
 @dataclass(frozen=True)
@@ -96,27 +92,27 @@ class Guard:
         if refusal is not None:
             await refusal(scope, receive, send)
             return
+        body = _LimitedBody(receive, self._most(scope), self.settings.limits.body_seconds)
         begun = False
 
-        async def noted(message: Message) -> None:
+        async def sending(message: Message) -> None:
+            """Send a response, unless it is about a body that was not read to its end."""
             nonlocal begun
-            begun = True
-            await send(message)
+            if begun or not body.failed:
+                begun = True
+                await send(message)
 
         try:
-            await self.app(scope, self._limited(scope, receive), noted)
-        except _TooLarge:
-            refusal = problem_response(413, self._largest(scope))
-        except _TooSlow:
-            seconds = self.settings.limits.body_seconds
-            refusal = problem_response(
-                408, f"The body of the request did not arrive within {seconds:g} s."
-            )
+            await self.app(scope, body.receive, sending)
+        except _Unread:
+            pass
         except Exception:  # an error of the program; its traceback could contain a request
             if os.environ.get("STONEPASS_DEBUG"):
                 raise
-            refusal = problem_response(500, FAULT)
-        if refusal is not None and not begun:
+            if not begun and not body.failed:
+                await problem_response(500, FAULT)(scope, receive, send)
+        if body.failed and not begun:
+            refusal = problem_response(body.failed, self._why(scope, body.failed))
             refusal.headers["connection"] = "close"  # the rest of the body is not read
             await refusal(scope, receive, send)
 
@@ -146,7 +142,7 @@ class Guard:
                     headers={"www-authenticate": "Bearer"})  # fmt: skip
         length = headers.get("content-length", "0")
         if not length.isdecimal() or int(length[:20]) > self._most(scope):
-            refusal = problem_response(413, self._largest(scope))
+            refusal = problem_response(413, self._why(scope, 413))
             refusal.headers["connection"] = "close"
             return refusal
         return None
@@ -180,31 +176,45 @@ class Guard:
         limits = self.settings.limits
         return limits.upload if scope["path"].startswith(UPLOADS) else limits.body
 
-    def _largest(self, scope: Scope) -> str:
-        return f"The body of the request must have at most {self._most(scope)} bytes."
+    def _why(self, scope: Scope, status: int) -> str:
+        if status == 413:
+            return f"The body of the request must have at most {self._most(scope)} bytes."
+        seconds = self.settings.limits.body_seconds
+        return f"The body of the request did not arrive within {seconds:g} s."
 
-    def _limited(self, scope: Scope, receive: Receive) -> Receive:
-        """Return a reader of the body that ends with an error if it is too large or too slow."""
-        most, loop = self._most(scope), asyncio.get_running_loop()
-        last = loop.time() + self.settings.limits.body_seconds
-        count, complete = 0, False
 
-        async def limited() -> Message:
-            nonlocal count, complete
-            if complete:  # what follows is only the end of the connection
-                return await receive()
-            try:
-                message = await asyncio.wait_for(receive(), max(0.0, last - loop.time()))
-            except TimeoutError:
-                raise _TooSlow from None
-            if message["type"] == "http.request":
-                count += len(message.get("body", b""))
-                complete = not message.get("more_body", False)
-            if count > most:
-                raise _TooLarge
-            return message
+class _LimitedBody:
+    """The body of a request, which is read only as far as it is small and in time.
 
-        return limited
+    Attributes
+    ----------
+    failed : int
+        Status of the response if the body is too large or too slow, otherwise 0.
+    """
+
+    def __init__(self, receive: Receive, most: int, seconds: float) -> None:
+        self.failed = 0
+        self._receive, self._most, self._count = receive, most, 0
+        self._last = asyncio.get_running_loop().time() + seconds
+        self._complete = False
+
+    async def receive(self) -> Message:
+        """Return the next part of the body; after the body, wait for the end of the connection."""
+        if self._complete:
+            return await self._receive()
+        left = self._last - asyncio.get_running_loop().time()
+        try:
+            message = await asyncio.wait_for(self._receive(), max(0.0, left))
+        except TimeoutError:
+            self.failed = 408
+            raise _Unread from None
+        if message["type"] == "http.request":
+            self._count += len(message.get("body", b""))
+            self._complete = not message.get("more_body", False)
+        if self._count > self._most:
+            self.failed = 413
+            raise _Unread
+        return message
 
 
 def _headers(scope: Scope) -> dict[str, str]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 from stonepass.errors import BadInput
 from stonepass.inputs.catalogue import all_inputs
 
 __all__ = ["field_of"]
 
+KEY = re.compile(r"[a-z_]+")  # an input that only the API has is named by its key
 # Inputs that a message about more than one input belongs to.
 SHARED_FIELDS = {
     "size of the stone": "stone.diameter",
@@ -22,4 +25,5 @@ SHARED_FIELDS = {
 def field_of(problem: BadInput) -> str | None:
     """Return the key of the input that an error is about, e.g. ``stone.diameter``."""
     fields = {each.title: key for key, each in all_inputs().items()} | SHARED_FIELDS
-    return fields.get(problem.argument)
+    found = fields.get(problem.argument)
+    return problem.argument if found is None and KEY.fullmatch(problem.argument) else found

@@ -12,6 +12,7 @@ from starlette.exceptions import HTTPException
 from stonepass.errors import BadInput, did_you_mean
 from stonepass.inputs.catalogue import sections
 from stonepass.web.answers import ProblemError, problem_response, refused
+from stonepass.web.jobs.worker import MODULES
 
 __all__ = ["handle_problems"]
 
@@ -26,8 +27,9 @@ ALLOWED = {
     "model_type": "an object",
     "model_attributes_type": "an object",
 }
-# Parts of the location of an error that are no keys of the request.
-NO_KEYS = ("body", "query", "path", "str", "dict[str,any]", "case")
+# Parts at the beginning and at the end of the location of an error that are no keys of an input.
+CONTAINERS = ("case", "patient", "question", *MODULES)
+TYPES = ("str", "dict[str,any]", "float")
 SENTENCES = {
     404: "There is nothing at this address; GET /api/v1 lists the addresses.",
     405: "This method is not allowed at this address; GET /api/v1/openapi.json lists the methods.",
@@ -59,7 +61,11 @@ def _invalid(_: Request, problem: Exception) -> Response:
     kind, where = first["type"], first["loc"]
     if kind == "json_invalid":
         return problem_response(400, "The body of the request is not valid JSON.")
-    keys = [str(part) for part in where if part not in NO_KEYS]
+    keys = [str(part) for part in where[1:]]
+    while keys and keys[0] in CONTAINERS:
+        del keys[0]
+    while keys and keys[-1] in TYPES:
+        del keys[-1]
     field = ".".join(keys) or "body"
     value = "missing" if kind == "missing" else first.get("input")
     return refused(BadInput(field, value, _allowed(first, keys)), field)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import socket
 import webbrowser
 from typing import Any
@@ -14,7 +15,7 @@ from stonepass.web.app import create_app
 from stonepass.web.protocol import limited_protocol
 from stonepass.web.settings import ServerSettings
 
-__all__ = ["serve"]
+__all__ = ["make_server", "serve"]
 
 BACKLOG = 128  # connections that the system holds before they are accepted
 
@@ -34,6 +35,14 @@ def serve(settings: ServerSettings, *, browser: bool = True) -> None:
     BadInput
         The server cannot listen at the address.
     """
+    server, listening = make_server(settings, browser=browser)
+    server.run([listening])
+
+
+def make_server(
+    settings: ServerSettings, *, browser: bool = False
+) -> tuple[uvicorn.Server, socket.socket]:
+    """Return a server and the socket at which it will listen; see `serve`."""
     listening = _listen(settings)
     config = uvicorn.Config(
         create_app(settings),
@@ -42,29 +51,32 @@ def serve(settings: ServerSettings, *, browser: bool = True) -> None:
         log_level=logging.CRITICAL,
         server_header=False,
         ws="none",
+        proxy_headers=False,  # a client cannot say that it is another one
         timeout_keep_alive=15,
         timeout_graceful_shutdown=3,
     )
-    _Server(config, settings, browser).run([listening])
+    return _Server(config, settings, browser), listening
 
 
 def _listen(settings: ServerSettings) -> socket.socket:
     """Return a socket that listens at the address of the settings."""
     host = settings.host.strip("[]")
+    made: socket.socket | None = None
     try:
         found = socket.getaddrinfo(host, settings.port, type=socket.SOCK_STREAM)[0]
         made = socket.socket(found[0], socket.SOCK_STREAM)
-        if hasattr(socket, "SO_REUSEPORT"):  # not on Windows, where the option means another thing
+        if os.name == "posix":  # elsewhere the option means that two servers may share a port
             made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         made.bind(found[4])
         made.listen(BACKLOG)
+        made.setblocking(False)
     except OSError as problem:
+        if made is not None:
+            made.close()
         address = f"{settings.host}:{settings.port}"
         allowed = f"an address at which this program can listen ({problem.strerror})"
-        raise BadInput(
-            "address", address, allowed, "choose another with --port or --host"
-        ) from None
-    made.setblocking(False)
+        remedy = "choose another with --port or --host"
+        raise BadInput("address", address, allowed, remedy) from None
     return made
 
 

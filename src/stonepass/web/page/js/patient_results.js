@@ -17,6 +17,7 @@ export function patientResults(record) {
       figure("Pressures, with 90 % intervals", (width, height) => rangesPicture(width, height, record), "Bar: 90 % of the simulated cases. Dot: median. Arrow: the interval goes on.", "wide"),
       figure("Stones of other sizes", (width, height) => sizesPicture(width, height, record), `Fraction of the simulated cases in which a stone of this size moves below ${plain(record.inputs.limit_kPa)} kPa.`),
       figure("What matters most", (width, height) => barsPicture(width, height, Object.entries(record.sensitivity)), "Total Sobol’ index of each measurement for the critical pressure.")),
+    measurements(record.inputs),
     cohorts(record.cohorts),
     statements("Warnings", record.warnings.map((each) => each.sentence), "warnings"),
     h("p", { class: "small quiet mark" }, `${record.inputs.samples} simulated cases, seed ${record.inputs.seed}, ${record.accuracy.solves} solved cases, limit ${plain(record.inputs.limit_kPa)} kPa: ${record.inputs.limit_source}. stonepass ${record.version}. ${record.disclaimer}`),
@@ -44,6 +45,16 @@ function figure(title, make, caption, size = "") {
   const body = h("div", { class: "canvas" });
   drawn(body, make);
   return h("figure", { class: `picture card ${size}` }, h("h3", {}, title), body, h("figcaption", {}, caption));
+}
+
+/** Return the measurements as a table for the printed page, on which the form is not shown. */
+function measurements({ measured, material, place }) {
+  const shown = ({ value, sd, low, high, unit }) => {
+    const [factor, name] = unit === "m" ? [1e3, " mm"] : [1, ""];
+    return sd === null ? `${digits(factor * low)} to ${digits(factor * high)}${name}` : `${digits(factor * value)} ± ${digits(factor * sd, 2)}${name}`;
+  };
+  const rows = [...Object.entries(measured).map(([name, each]) => [name.replaceAll("_", " "), shown(each)]), ["material", material], ["place", place ?? "not known"]];
+  return h("table", { class: "only-print" }, h("tbody", {}, rows.map(([name, value]) => h("tr", {}, h("th", { scope: "row" }, name), h("td", {}, value)))));
 }
 
 function cohorts(rows) {

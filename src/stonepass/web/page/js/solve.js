@@ -90,6 +90,7 @@ export function solvePanel(changed) {
 
   function draw() {
     const record = current();
+    element.dataset.state = record ? "" : "empty";
     if (running) return;
     if (!record) {
       fill(figure, h("span", { class: "words quiet" }, "not solved"));

@@ -29,7 +29,7 @@ export function sectionPicture(width, height, { question, section }) {
     sides.map((side) => svg("path", { class: "wall", d: `${line([...outer, ...inner.toReversed()].map(([z, r]) => [x(z), y(side * r)]))}Z` })),
     svg("path", { class: "axis-line", d: `M0 ${half}H${width}` }),
     top > 0 && sides.map((side) => pressureBars(shape.contact, side, { x, y, perMm, length: BAR * half, top: roundUp(top) })),
-    top > 0 && peakLabel(shape.contact, x, y, width),
+    top > 0 && peakLabel(shape.contact, x, y, (BAR * half) / roundUp(top)),
     arrow(18, half, "urine"),
     svg("text", { class: "halo", x: width - 12, y: half - 8, "text-anchor": "end" }, "to the bladder"),
     scaleBar(width, height, perMm));
@@ -80,9 +80,9 @@ function spread(points) {
   });
 }
 
-function peakLabel(contact, x, y, width) {
+function peakLabel(contact, x, y, perKilopascal) {
   const peak = contact.reduce((best, each) => (each.pressure > best.pressure ? each : best));
-  return svg("text", { class: "accent halo", x: Math.min(x(peak.z), width - 60), y: Math.max(14, y(peak.r) - 44), "text-anchor": "middle" }, `${digits(peak.pressure)} kPa`);
+  return svg("text", { class: "accent halo", x: x(peak.z), y: Math.max(14, y(peak.r) - perKilopascal * peak.pressure - 8), "text-anchor": "middle" }, `${digits(peak.pressure)} kPa`);
 }
 
 function extended(points, reach) {

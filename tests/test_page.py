@@ -223,3 +223,21 @@ def test_first_answer_needs_few_bytes(page, watched):
     assert page.locator(ANSWERED).count() == 1
     assert len(watched.sizes) > 20  # the files of the page were counted
     assert sum(watched.sizes.values()) < 1_500_000
+
+
+def test_beyond_the_closure_only_the_lower_bound_is_told(open_page):
+    page = open_page("#calculator?stone=4.9mm&inner=3.5mm&thickness=0.52mm&friction=0.9&limit=6kPa")
+    assert page.locator(".reading .big").count() == 1  # the largest stone alone
+    assert "more than" in page.locator(".reading").first.inner_text()
+    assert "this stone does not move: it needs more than" in page.locator(".verdict").inner_text()
+
+
+def test_long_warning_is_shown_in_full_on_demand(open_page):
+    page = open_page("#calculator?stone=4.9mm&inner=3.5mm&thickness=0.52mm")
+    note = page.locator(".note[data-state=warning]").first
+    assert "stretches the wall" in note.inner_text()
+    text = note.locator(".note-text")
+    cut = "(each) => each.scrollHeight > each.clientHeight + 1"
+    assert text.evaluate(cut)
+    note.get_by_role("button", name="more").click()
+    assert not text.evaluate(cut)

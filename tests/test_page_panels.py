@@ -87,6 +87,27 @@ def test_fitted_wall_is_taken_over(page):
     assert page.locator(".reading .big").count() == 2
 
 
+def test_wall_with_constants_of_its_own_is_solved_and_linked(page):
+    panel = opened(page, "Laboratory")
+    panel.get_by_label("Drop a CSV file").set_input_files(EXAMPLES / "ureter_tensile.csv")
+    panel.get_by_text("24 rows").wait_for()
+    panel.get_by_label("Material law").select_option("fung")
+    panel.get_by_label("Known constants").fill("G = 12 kPa, a1122 = 0.1856")
+    panel.get_by_role("button", name="Fit", exact=True).click()
+    use = panel.get_by_role("button", name="Use this wall in the calculator")
+    use.wait_for(timeout=SECONDS)
+    use.click()
+    settled(page)
+    assert page.locator(".reading .big").count() == 0  # no surrogate has these constants
+    page.reload()
+    settled(page)
+    assert '"law":"fung"' in page.get_by_label("Material of the wall").first.input_value()
+    page.get_by_role("button", name="Solve").click()
+    page.locator(".reading.solve .big").wait_for(timeout=SECONDS)
+    # the wall of the material 'ureter', which these data resemble, needs 11.0 kPa
+    assert float(page.locator(".reading.solve .big").inner_text()) == pytest.approx(11.0, rel=0.05)
+
+
 def test_fit_without_sizes_is_refused_in_words(page, watched):
     watched.expected = ("422",)
     panel = opened(page, "Laboratory")

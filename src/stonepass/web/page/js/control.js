@@ -1,6 +1,7 @@
 // A slider with a box: the range in which the instant answer is valid, and a note or a warning.
 
-import { freshId, h, write } from "./dom.js";
+import { freshId, h } from "./dom.js";
+import { note } from "./note.js";
 import { plain, read } from "./units.js";
 import { term } from "./glossary.js";
 
@@ -18,12 +19,11 @@ export function control(field, given, { word = "" } = {}) {
   const box = h("input", { id: boxId, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", "aria-describedby": noteId });
   const frame = h("span", { class: "box" }, box, h("span", { class: "unit", "aria-hidden": "true" }, field.unit));
   const slider = h("input", { type: "range", class: "slider", "aria-label": `${field.label}, slider`, "aria-describedby": noteId });
-  const text = h("span");
-  const note = h("p", { class: "note", id: noteId }, text);
+  const below = note(noteId);
   const label = word
     ? h("span", { class: "label" }, h("label", { for: boxId, class: "unseen" }, field.label), term(word, field.label))
     : h("label", { for: boxId }, field.label);
-  const element = h("div", { class: "control" }, label, frame, slider, note);
+  const element = h("div", { class: "control" }, label, frame, slider, below.element);
   let current = field.start;
   let shown = "";
 
@@ -66,9 +66,7 @@ export function control(field, given, { word = "" } = {}) {
     slider.dataset.state = warning ? "outside" : "";
     slider.style.setProperty("--low", from);
     slider.style.setProperty("--high", to);
-    note.dataset.state = warning ? "warning" : "";
-    note.title = warning || "";
-    write(text, warning || said);
+    below.show(said, warning);
   }
   return { element, show, box, slider };
 }

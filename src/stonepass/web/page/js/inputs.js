@@ -3,6 +3,7 @@
 import { control } from "./control.js";
 import { fill, freshId, h } from "./dom.js";
 import { sentence, term } from "./glossary.js";
+import { note } from "./note.js";
 import { FIELDS } from "./question.js";
 import { clinical, decimals, digits, plain } from "./units.js";
 
@@ -12,13 +13,16 @@ const WORDS = { aspect: "aspect", friction: "friction coefficient", stiffness: "
 // Inputs that a warning may name although no slider has exactly this name.
 const ALSO = { "stone.size_ratio": "stone", "ureter.wall_ratio": "thickness", "stone.shape": "aspect" };
 
+// Warnings that the verdict explains in full.
+const SHORTER = { no_surrogate: "No instant answer for this input. Solve by finite elements instead." };
+
 /** Build the inputs; `given(values)` is called with every change. */
 export function inputsPanel(given) {
   const controls = Object.fromEntries(Object.entries(FIELDS).map(([key, field]) => [key, control(field, (value) => given({ [key]: value }), { word: WORDS[key] })]));
   const wall = choice("Wall is given by", [["thickness", "thickness"], ["outer", "outer diameter"]], (value) => given({ wall: value }));
   const materials = select("Material of the wall", (value) => given({ material: value }));
   const presets = select("Published limits", (value) => value && given({ limit: Number(value) }));
-  const source = h("p", { class: "note" }, h("span"));
+  const source = note(freshId("note"));
   let known = { materials: [], limits: [] };
   let own = null; // constants taken over from the laboratory
 
@@ -26,7 +30,7 @@ export function inputsPanel(given) {
     group("Stone", controls.stone.element, controls.aspect.element, controls.friction.element),
     group("Ureter", controls.inner.element, wall.element, controls.thickness.element, controls.outer.element, materials.element, controls.stiffness.element),
     group("Load", controls.confining.element),
-    group("Limit", controls.limit.element, presets.element, source));
+    group("Limit", controls.limit.element, presets.element, source.element));
   element.addEventListener("submit", (event) => event.preventDefault());
 
   function know(catalogue, limits) {
@@ -58,10 +62,10 @@ export function inputsPanel(given) {
     controls.outer.element.hidden = question.wall !== "outer";
     wall.show(question.wall);
     materials.show(typeof question.material === "string" ? question.material : JSON.stringify(question.material));
-    materials.say(warned.material ?? "", Boolean(warned.material));
+    materials.warn(warned.material ?? "");
     const preset = known.limits.find((each) => Math.abs(each.pressure_kPa - question.limit) < 1e-6);
     presets.show(preset ? plain(preset.pressure_kPa, 3) : "");
-    source.firstChild.textContent = preset ? sentence(preset.source) : "Your own limit, without a published source.";
+    source.show(preset ? sentence(preset.source) : "Your own limit, without a published source.");
   }
   return { element, show, know };
 }
@@ -110,7 +114,7 @@ function innerRange({ stone, wall, outer, thickness }, largest, walls) {
 function warnings(found, problem) {
   const warned = {};
   const keyOf = (input) => Object.keys(FIELDS).find((key) => FIELDS[key].input === input) ?? ALSO[input] ?? (input === "ureter.material" ? "material" : "");
-  for (const each of found?.warnings ?? []) warned[keyOf(each.input)] ??= sentence(each.sentence);
+  for (const each of found?.warnings ?? []) warned[keyOf(each.input)] ??= SHORTER[each.code] ?? sentence(each.sentence);
   if (problem?.field) warned[keyOf(problem.field)] = sentence(problem.message);
   return warned;
 }
@@ -127,18 +131,17 @@ function group(title, ...children) {
 function select(label, given) {
   const id = freshId("select");
   const box = h("select", { id });
-  const note = h("p", { class: "note", "aria-live": "off" }, h("span"));
-  const element = h("div", { class: "field" }, h("label", { for: id }, label), box, note);
-  note.hidden = true;
+  const below = note(freshId("note"));
+  const element = h("div", { class: "field" }, h("label", { for: id }, label), box, below.element);
+  below.element.hidden = true;
   box.addEventListener("change", () => given(box.value));
   return {
     element,
     offer: (options) => fill(box, options.map(([value, text]) => h("option", { value }, text))),
     show: (value) => { box.value = value; },
-    say: (text, warning) => {
-      note.hidden = !text;
-      note.dataset.state = warning ? "warning" : "";
-      note.firstChild.textContent = text;
+    warn: (text) => {
+      below.element.hidden = !text;
+      below.show("", text);
     },
   };
 }

@@ -72,7 +72,8 @@ export async function fitSection(take) {
     for (const each of Object.values(fields)) each.mark(false);
     const body = { kind: "fit", test: test.box.value, law: law.box.value, relative: relative.box.checked };
     for (const [name, each] of Object.entries(fields)) if (!each.element.hidden && each.text()) body[name] = each.text();
-    if (fix.text()) body.fix = Object.fromEntries(fix.text().split(/[,;]/).map((each) => each.split("=").map((part) => part.trim())));
+    const known = fix.box.value.split(/[,;]/).filter((each) => each.trim());
+    if (known.length) body.fix = Object.fromEntries(known.map((each) => [0, 1].map((k) => (each.split("=")[k] ?? "").trim())));
     await run.start({ ...body, upload: held.id }, show, (problem) => {
       fields[problem.field]?.mark(true);
       if (problem.status === GONE) choose(file);

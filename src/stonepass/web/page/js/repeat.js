@@ -16,8 +16,8 @@ export function repeatPanel() {
   const mark = h("p", { class: "small quiet mark" });
   const element = h("section", { class: "more stack-small", "aria-label": "Repeat this answer" },
     h("div", { class: "row apart" }, h("h2", {}, "Repeat this answer"), h("div", { class: "row no-print" }, link, print)),
-    h("div", { class: "choice no-print wrap", role: "group", "aria-label": "Way to repeat the answer" }, buttons),
-    h("div", { class: "code" }, h("pre", { tabindex: "0", "aria-label": "Text that repeats the answer" }, code), h("div", { class: "copy no-print" }, copy)),
+    h("div", { class: "row apart no-print" }, h("div", { class: "choice wrap", role: "group", "aria-label": "Way to repeat the answer" }, buttons), copy),
+    h("div", { class: "code" }, h("pre", { tabindex: "0", "aria-label": "Text that repeats the answer" }, code)),
     mark);
 
   function choose(name) {

@@ -10,7 +10,10 @@ export function verdict(question, found) {
   const pressure = answer.critical_pressure_kPa;
   if (answer.outcome === "LOOSE") return [{ strong: "This stone is not held" }, ": it is not larger than the opening of the ureter."];
   if (answer.outcome === "BEYOND_CLOSURE") {
-    return [{ strong: "The paper’s model has no answer here" }, `: more than ${digits(answer.lower_bound_kPa, 3)} kPa. The direct model goes on.`];
+    const bound = digits(answer.lower_bound_kPa, 3);
+    return answer.lower_bound_kPa > question.limit
+      ? [`At ${limit} `, { strong: "this stone does not move" }, `: it needs more than ${bound} kPa, where the paper’s model ends.`]
+      : [`At ${limit} `, { strong: "the paper’s model cannot decide" }, `: it ends at ${bound} kPa. The direct model goes on.`];
   }
   if (pressure === null) return [answer.message];
   const error = answer.critical_pressure_error_kPa ?? 0;
@@ -32,11 +35,11 @@ export function outcomeWords(record) {
   return {
     LOOSE: "not held",
     BEYOND_CLOSURE: "no answer",
-    NO_SOLUTION: "no answer",
+    NO_SOLUTION: "no instant answer",
     BELOW_RANGE: "none",
     BEYOND_RANGE: "no limit found",
     LEAKS: "urine passes first",
-  }[record?.outcome] ?? "no answer";
+  }[record?.outcome] ?? "no instant answer";
 }
 
 /** Return the text of the parts of a sentence. */

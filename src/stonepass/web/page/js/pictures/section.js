@@ -31,7 +31,7 @@ export function sectionPicture(width, height, { question, section }) {
     top > 0 && sides.map((side) => pressureBars(shape.contact, side, { x, y, perMm, length: BAR * half, top: roundUp(top) })),
     top > 0 && peakLabel(shape.contact, x, y, (BAR * half) / roundUp(top)),
     arrow(18, half, "urine"),
-    svg("text", { class: "halo", x: width - 12, y: half - 8, "text-anchor": "end" }, "to the bladder"),
+    svg("text", { class: "halo", x: width - 12, y: half - 8, "text-anchor": "end" }, width < 420 ? "bladder" : "to the bladder"),
     scaleBar(width, height, perMm));
 }
 

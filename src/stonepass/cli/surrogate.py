@@ -248,6 +248,14 @@ def evaluate(
             rich_help_panel=QUESTION,
         ),
     ] = "0 kPa",
+    stiffness: Annotated[
+        float,
+        typer.Option(
+            "--stiffness",
+            help="Factor on all moduli of the material.",
+            rich_help_panel=QUESTION,
+        ),
+    ] = 1.0,
     points: Annotated[
         Path | None,
         typer.Option(
@@ -274,7 +282,7 @@ def evaluate(
 
     writable(out, (".csv",))
     asked = _conditions(xi, eta, friction, confining, points)
-    found = load_surrogate(name, model).evaluate(**asked)
+    found = load_surrogate(name, model).evaluate(**asked, stiffness=stiffness)
     if json:
         print_json([each.to_dict() for each in surrogate_records(found)])
     else:

@@ -25,5 +25,5 @@ SHARED_FIELDS = {
 def field_of(problem: BadInput) -> str | None:
     """Return the key of the input that an error is about, e.g. ``stone.diameter``."""
     fields = {each.title: key for key, each in all_inputs().items()} | SHARED_FIELDS
-    found = fields.get(problem.argument)
+    found = problem.argument if problem.argument in all_inputs() else fields.get(problem.argument)
     return problem.argument if found is None and KEY.fullmatch(problem.argument) else found

@@ -11,7 +11,7 @@ from starlette.exceptions import HTTPException
 
 from stonepass.errors import BadInput, did_you_mean
 from stonepass.inputs.catalogue import sections
-from stonepass.web.answers import ProblemError, problem_response, refused
+from stonepass.web.answers import FAULT, ProblemError, problem_response, refused
 from stonepass.web.jobs.worker import MODULES
 
 __all__ = ["handle_problems"]
@@ -42,6 +42,7 @@ def handle_problems(app: FastAPI) -> None:
     app.add_exception_handler(ProblemError, _problem)
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http)
+    app.add_exception_handler(Exception, _fault)
 
 
 def _bad_input(_: Request, problem: Exception) -> Response:
@@ -85,3 +86,8 @@ def _http(_: Request, problem: Exception) -> Response:
     assert isinstance(problem, HTTPException)
     sentence = SENTENCES.get(problem.status_code, f"{str(problem.detail).rstrip('.')}.")
     return problem_response(problem.status_code, sentence, headers=dict(problem.headers or {}))
+
+
+def _fault(_: Request, problem: Exception) -> Response:
+    """Answer a request that met an error of the program."""
+    return problem_response(500, FAULT)

@@ -11,6 +11,7 @@ from typing import Any
 import uvicorn
 
 from stonepass.errors import BadInput
+from stonepass.fe.core.threads import one_thread
 from stonepass.web.app import create_app
 from stonepass.web.protocol import limited_protocol
 from stonepass.web.settings import ServerSettings
@@ -36,7 +37,8 @@ def serve(settings: ServerSettings, *, browser: bool = True) -> None:
         The server cannot listen at the address.
     """
     server, listening = make_server(settings, browser=browser)
-    server.run([listening])
+    with one_thread():  # the small matrices of an answer gain nothing from several
+        server.run([listening])
 
 
 def make_server(

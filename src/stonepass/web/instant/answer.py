@@ -16,7 +16,7 @@ from stonepass.model.validity import ring_buckling, soft_law, strain_range
 from stonepass.records.surrogate import surrogate_records
 from stonepass.studies.surrogates.surrogate import Surrogate
 from stonepass.units import Pressure
-from stonepass.web.instant.curve import curve
+from stonepass.web.instant.curve import curve, curve_sizes, part_of
 from stonepass.web.instant.passing import Passing, passing_sizes
 from stonepass.web.instant.question import InstantQuestion, obstacles, surrogate_for
 from stonepass.web.instant.repeat import repeat
@@ -76,26 +76,32 @@ def instant_answer(
 def _numbers(question: InstantQuestion, surrogate: Surrogate) -> dict[str, Any]:
     """Return the parts of the answer that the surrogate computes."""
     case, held, limit = question.case, question.held, question.limit
-    found = held.answers(surrogate, case.size_ratio, case.wall_ratio)
-    record = surrogate_records(found)[0].to_dict()
+    low, high = surrogate.box.wall_ratio
+    along = held.inside(surrogate) and low <= case.wall_ratio <= high
+    # The answer and the curve are evaluated at once, which is faster.
+    sizes = curve_sizes(surrogate) if along else np.empty(0)
+    found = held.answers(surrogate, np.append(sizes, case.size_ratio), case.wall_ratio)
+    last = len(sizes)
+    record = surrogate_records(part_of(found, slice(last, None)))[0].to_dict()
+    outcome = found.OUTCOMES[found.outcome[last]]
     name, model = surrogate.case.ureter.material.name, surrogate.case.model.NAME
     known: dict[str, Any] = {"model": model, "material": name, "source": "surrogate"}
-    known["sentence"] = pressure_sentence(found.outcomes[0], record)
+    known["sentence"] = pressure_sentence(outcome, record)
     outside = record["outside"]  # the outcome of the surrogate then says nothing about the stone
-    known["message"] = known["sentence"] if outside else found.outcomes[0].sentence()
+    known["message"] = known["sentence"] if outside else outcome.sentence()
     document: dict[str, Any] = {"answer": record | known}
     if "section" in question.include:
         document["section"] = instant_section(case, question.stiffness)
-    if not held.inside(surrogate):
-        return document
-    low, high = surrogate.box.wall_ratio
-    if low <= case.wall_ratio <= high:
+    if along:
+        others = part_of(found, slice(0, last))
         if limit is not None:
-            passing = passing_sizes(held, limit, surrogate, np.array([case.wall_ratio]))
+            table = (sizes, others.pressure[None, :])
+            walls = np.array([case.wall_ratio])
+            passing = passing_sizes(held, limit, surrogate, walls, table, refinements=2)
             document["size"] = _size(question, limit, passing)
         if "curve" in question.include:
-            document["curve"] = curve(question, surrogate)
-    if "map" in question.include:
+            document["curve"] = curve(question, surrogate, others)
+    if "map" in question.include and held.inside(surrogate):
         document["map"] = size_map(name, model, held, limit)
     return document
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -16,8 +17,7 @@ from stonepass.web.instant.question import Held
 __all__ = ["Passing", "passing_sizes", "tabulated_sizes"]
 
 TABULATED = 33  # number of size ratios of the table
-PIECES = 9  # number of parts into which a refinement divides an interval
-REFINEMENTS = 2
+PIECES = 12  # number of parts into which the interval of the table is divided
 
 
 @dataclass(frozen=True)
@@ -43,12 +43,13 @@ def passing_sizes(
     limit: Pressure,
     surrogate: Surrogate,
     walls: Float[np.ndarray, " n"],
-    coarse: np.ma.MaskedArray | None = None,
+    table: tuple[Float[np.ndarray, " m"], Any],
+    refinements: int = 1,
 ) -> Passing:
     """Find the largest stones that move at a pressure limit.
 
-    The interval in which P_ucr exceeds the limit for the first time is found in a table of coarse
-    size ratios, divided into nine parts twice, and interpolated linearly at last.
+    The interval of the table in which P_ucr exceeds the limit for the first time is divided into
+    twelve parts, once or more often; the critical size is interpolated linearly in the last one.
 
     Parameters
     ----------
@@ -60,29 +61,28 @@ def passing_sizes(
         The surrogate that answers.
     walls : array (n)
         Wall ratios inside the box of the surrogate.
-    coarse : masked array (n, m), optional
-        P_ucr in Pa at the m size ratios `tabulated_sizes` of each wall, if it is known.
+    table : (array (m), masked array (n, m))
+        Rising size ratios from below the lumen to the end of the box, and P_ucr in Pa.
+    refinements : int
+        How often an interval is divided, at least once.
     """
-    sizes = np.tile(tabulated_sizes(surrogate), (len(walls), 1))
-    excess = (
-        _excess(held, limit, surrogate, walls, sizes)
-        if coarse is None
-        else np.ma.filled(coarse, np.inf) - limit
-    )
+    sizes = np.broadcast_to(table[0], table[1].shape)
+    excess = np.ma.filled(table[1], np.inf) - limit
     reached = np.asarray((excess > 0.0).any(axis=1))
-    for _ in range(REFINEMENTS):
+    for _ in range(refinements):
         low, high, _, _ = _bracket(sizes, excess)
         sizes = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, PIECES + 1)
-        excess = _excess(held, limit, surrogate, walls, sizes)
+        answers = held.answers(surrogate, sizes.ravel(), np.repeat(walls, PIECES + 1))
+        excess = answers.pressure.filled(np.inf).reshape(sizes.shape) - limit
     low, high, below, above = _bracket(sizes, excess)
     known = np.isfinite(above)
-    share = np.divide(-below, above - below, out=np.zeros(len(walls)), where=known)
+    part = np.divide(-below, above - below, out=np.zeros(len(walls)), where=known & reached)
     loaded = surrogate.lumen is not None  # P_ucr of a stone as large as the lumen may then jump
     at_lumen = np.asarray((below == -limit) & loaded)
-    found = np.where(reached, low + np.where(at_lumen, 0.0, share) * (high - low),
-                     surrogate.box.size_ratio)  # fmt: skip
+    found = low + np.where(at_lumen, 0.0, part) * (high - low)
     rows = zip(reached.tolist(), known.tolist(), at_lumen.tolist(), strict=True)
-    return Passing(found, [_outcome(*row) for row in rows])
+    outcomes = [_outcome(*row) for row in rows]
+    return Passing(np.where(reached, found, surrogate.box.size_ratio), outcomes)
 
 
 def _outcome(reached: bool, known: bool, at_lumen: bool) -> Outcome:
@@ -97,19 +97,6 @@ def _outcome(reached: bool, known: bool, at_lumen: bool) -> Outcome:
 def tabulated_sizes(surrogate: Surrogate) -> Float[np.ndarray, " n"]:
     """Return coarse size ratios from below every lumen to the end of a surrogate's box."""
     return np.linspace(lowest_size(surrogate), surrogate.box.size_ratio, TABULATED)
-
-
-def _excess(
-    held: Held,
-    limit: Pressure,
-    surrogate: Surrogate,
-    walls: Float[np.ndarray, " n"],
-    sizes: Float[np.ndarray, "n m"],
-) -> Float[np.ndarray, "n m"]:
-    """Return P_ucr minus the limit; infinity beyond the end of the closure."""
-    count = sizes.shape[1]
-    found = held.answers(surrogate, sizes.ravel(), np.repeat(walls, count))
-    return np.asarray(found.pressure.filled(np.inf)).reshape(sizes.shape) - limit
 
 
 def _bracket(

@@ -15,7 +15,7 @@ from stonepass.web.instant.question import Held, named_surrogate
 
 __all__ = ["size_map"]
 
-WALLS = 25  # number of wall ratios
+WALLS = 21  # number of wall ratios
 
 
 @lru_cache(maxsize=32)
@@ -61,7 +61,7 @@ def size_map(material: str, model: str, held: Held, limit: Pressure | None) -> d
     }
     if limit is not None:
         known = found.pressure.reshape(WALLS, count)
-        passing = passing_sizes(held, limit, surrogate, walls, known)
+        passing = passing_sizes(held, limit, surrogate, walls, (sizes, known))
         solved = np.array([each is Outcome.SOLVED for each in passing.outcomes])
         document["critical_size_ratio"] = rounded(np.where(solved, passing.sizes, np.nan))
         document["critical_size_outcome"] = [each.name for each in passing.outcomes]

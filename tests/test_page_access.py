@@ -1,11 +1,15 @@
 """Keyboard, screen reader, phone, print, dark theme, and the policy of the page."""
 
+import re
 from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
 from page_browser import settled
 
+from stonepass import web
+
+SCRIPTS = Path(web.__file__).parent / "page" / "js"
 PANELS = ("calculator", "patient", "laboratory", "about")
 
 
@@ -149,6 +153,24 @@ def test_printed_page_has_inputs_answer_and_notice_without_controls(page):
     assert page.locator("figure svg").count() == 3
     document = page.pdf()
     assert document.startswith(b"%PDF")
+
+
+def imported(module, found):
+    """Add a module and all that it imports at once, in this order."""
+    if module in found:
+        return
+    found.append(module)
+    for name in re.findall(r'^import [^;]*?from "(\.[^"]+)";', module.read_text("utf-8"), re.M):
+        imported((module.parent / name).resolve(), found)
+
+
+def test_modules_of_the_first_answer_are_loaded_together():
+    found = []
+    imported(SCRIPTS / "main.js", found)
+    expected = [f"/assets/js/{each.relative_to(SCRIPTS).as_posix()}" for each in found[1:]]
+    page = (SCRIPTS.parent / "index.html").read_text("utf-8")
+    assert len(expected) > 15
+    assert re.findall(r'rel="modulepreload" href="([^"]+)"', page) == expected
 
 
 def test_policy_is_strict(server):

@@ -15,7 +15,10 @@ export class Problem extends Error {
 export async function request(path, options = {}) {
   let response;
   try {
-    response = await fetch(path.startsWith("/") ? path : `${ROOT}/${path}`, { cache: "no-store", ...options });
+    response = await fetch(path.startsWith("/") ? path : `${ROOT}/${path}`, {
+      cache: "no-store",
+      ...options,
+    });
   } catch (error) {
     if (error.name === "AbortError") throw error;
     throw new Problem(0, { detail: "The server does not answer. Start it again with `stonepass serve`." });
@@ -37,13 +40,22 @@ export async function post(path, body, signal) {
 
 /** POST a JSON document and return the response itself. */
 export function send(path, body, signal) {
-  return request(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), signal });
+  return request(path, {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+    signal,
+  });
 }
 
 /** Upload a file as it is; `format` is the format of a height map, such as "x3p". */
 export async function upload(kind, file, type, format = "") {
   const query = format ? `?format=${encodeURIComponent(format)}` : "";
-  const sent = await request(`uploads/${kind}${query}`, { method: "POST", headers: { "Content-Type": type }, body: file });
+  const sent = await request(`uploads/${kind}${query}`, {
+    method: "POST",
+    headers: { "Content-Type": type },
+    body: file,
+  });
   return sent.json();
 }
 

@@ -29,15 +29,23 @@ export function calculator(query, showLink) {
   let waiting = 0;
   const root = document.documentElement;
 
-  const ask = latest("instant", (asked) => toInstant(asked, INCLUDE), (asked, answer, problem, last) => {
-    if (answer) found = { asked, answer };
-    show(asked, answer, problem);
-    root.dataset.answered = "";
-    if (last) root.dataset.pending = "0";
-  });
-  const askMap = latest("instant", (asked) => toInstant(asked, ["map"]), (asked, answer) => {
-    if (answer) pictures.showMap(asked, answer.map ?? null);
-  });
+  const ask = latest(
+    "instant",
+    (asked) => toInstant(asked, INCLUDE),
+    (asked, answer, problem, last) => {
+      if (answer) found = { asked, answer };
+      show(asked, answer, problem);
+      root.dataset.answered = "";
+      if (last) root.dataset.pending = "0";
+    },
+  );
+  const askMap = latest(
+    "instant",
+    (asked) => toInstant(asked, ["map"]),
+    (asked, answer) => {
+      if (answer) pictures.showMap(asked, answer.map ?? null);
+    },
+  );
   const mapWhenAtRest = atRest(askMap, (asked) => JSON.stringify(MAP_INPUTS.map((key) => asked[key])));
   const inputs = inputsPanel((values) => {
     renew(changed(question, values));
@@ -52,7 +60,11 @@ export function calculator(query, showLink) {
   const repeat = repeatPanel();
   answers.place(solve.element);
 
-  fill(byId("calculator-body"), h("div", { class: "calculator" }, answers.element, inputs.element, pictures.element, repeat.element), answers.pinned);
+  fill(
+    byId("calculator-body"),
+    h("div", { class: "calculator" }, answers.element, inputs.element, pictures.element, repeat.element),
+    answers.pinned,
+  );
   renew(question);
   Promise.all([get("materials"), get("pressure-limits")]).then(([materials, limits]) => {
     inputs.know(materials, limits);
@@ -99,7 +111,8 @@ function atRest(pass, keyOf) {
     if (key === passed) return;
     clearTimeout(timer);
     if (!since) since = performance.now();
-    const rest = passed === null ? 0 : Math.max(0, Math.min(MAP_REST, since + MAP_LONGEST - performance.now()));
+    const rest =
+      passed === null ? 0 : Math.max(0, Math.min(MAP_REST, since + MAP_LONGEST - performance.now()));
     timer = setTimeout(() => {
       since = 0;
       passed = key;

@@ -16,12 +16,34 @@ const EDGE = 5; // px by which the valid range is drawn wider, so that a single 
  */
 export function control(field, given, { word = "" } = {}) {
   const [boxId, noteId] = [freshId("box"), freshId("note")];
-  const box = h("input", { id: boxId, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", "aria-describedby": noteId });
-  const frame = h("span", { class: "box" }, box, h("span", { class: "unit", "aria-hidden": "true" }, field.unit));
-  const slider = h("input", { type: "range", class: "slider", "aria-label": `${field.label}, slider`, "aria-describedby": noteId });
+  const box = h("input", {
+    id: boxId,
+    type: "text",
+    inputmode: "decimal",
+    autocomplete: "off",
+    spellcheck: "false",
+    "aria-describedby": noteId,
+  });
+  const frame = h(
+    "span",
+    { class: "box" },
+    box,
+    h("span", { class: "unit", "aria-hidden": "true" }, field.unit),
+  );
+  const slider = h("input", {
+    type: "range",
+    class: "slider",
+    "aria-label": `${field.label}, slider`,
+    "aria-describedby": noteId,
+  });
   const below = note(noteId);
   const label = word
-    ? h("span", { class: "label" }, h("label", { for: boxId, class: "unseen" }, field.label), term(word, field.label))
+    ? h(
+        "span",
+        { class: "label" },
+        h("label", { for: boxId, class: "unseen" }, field.label),
+        term(word, field.label),
+      )
     : h("label", { for: boxId }, field.label);
   const element = h("div", { class: "control" }, label, frame, slider, below.element);
   let current = field.start;

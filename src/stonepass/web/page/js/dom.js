@@ -14,7 +14,9 @@ export function svg(tag, attributes = {}, ...children) {
 
 /** Replace all children of an element. */
 export function fill(element, ...children) {
-  element.replaceChildren(...children.flat(4).filter((each) => each !== null && each !== undefined && each !== false));
+  element.replaceChildren(
+    ...children.flat(4).filter((each) => each !== null && each !== undefined && each !== false),
+  );
   return element;
 }
 
@@ -51,7 +53,9 @@ export function toast(text) {
   place.hidden = false;
   place.textContent = text;
   clearTimeout(hiding);
-  hiding = setTimeout(() => { place.hidden = true; }, 3000);
+  hiding = setTimeout(() => {
+    place.hidden = true;
+  }, 3000);
 }
 
 function filled(element, attributes, children) {

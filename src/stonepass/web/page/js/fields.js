@@ -6,12 +6,19 @@ import { freshId, h } from "./dom.js";
 export function quantityField(label, unit, value = "") {
   const id = freshId("field");
   const box = h("input", { id, value, type: "text", inputmode: "decimal", autocomplete: "off" });
-  const frame = h("span", { class: "box" }, box, unit && h("span", { class: "unit", "aria-hidden": "true" }, unit));
+  const frame = h(
+    "span",
+    { class: "box" },
+    box,
+    unit && h("span", { class: "unit", "aria-hidden": "true" }, unit),
+  );
   const element = h("div", { class: "field" }, h("label", { for: id }, label), frame);
   return {
     element,
     box,
-    mark: (bad) => { frame.dataset.state = bad ? "bad" : ""; },
+    mark: (bad) => {
+      frame.dataset.state = bad ? "bad" : "";
+    },
     text: () => {
       const typed = box.value.trim().replace(",", ".");
       if (!typed) return null;
@@ -23,7 +30,11 @@ export function quantityField(label, unit, value = "") {
 /** A field with a list of choices. */
 export function listField(label, options, chosen, changed = () => {}) {
   const id = freshId("list");
-  const box = h("select", { id }, options.map(([value, text]) => h("option", { value, selected: value === chosen }, text)));
+  const box = h(
+    "select",
+    { id },
+    options.map(([value, text]) => h("option", { value, selected: value === chosen }, text)),
+  );
   box.addEventListener("change", () => changed(box.value));
   return { element: h("div", { class: "field" }, h("label", { for: id }, label), box), box };
 }

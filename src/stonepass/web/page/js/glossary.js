@@ -7,7 +7,10 @@ let words = null;
 
 /** Return the glossary: definitions by word. It is asked for once. */
 export function glossary() {
-  words ??= get("glossary").catch((error) => { words = null; throw error; });
+  words ??= get("glossary").catch((error) => {
+    words = null;
+    throw error;
+  });
   return words;
 }
 
@@ -26,7 +29,11 @@ async function define(word, beside) {
   } catch (error) {
     found = error.message;
   }
-  fill(place, h("h3", {}, sentence(word).slice(0, -1)), h("p", {}, sentence(found ?? "This word is not in the glossary.")));
+  fill(
+    place,
+    h("h3", {}, sentence(word).slice(0, -1)),
+    h("p", {}, sentence(found ?? "This word is not in the glossary.")),
+  );
   place.showPopover();
   const at = beside.getBoundingClientRect();
   const size = place.getBoundingClientRect();

@@ -2,14 +2,20 @@
 
 import { control } from "./control.js";
 import { fill, freshId, h } from "./dom.js";
-import { sentence, term } from "./glossary.js";
+import { sentence } from "./glossary.js";
 import { note } from "./note.js";
 import { FIELDS } from "./question.js";
 import { clinical, decimals, digits, plain } from "./units.js";
 
 const FRENCH = 3; // 1 mm of diameter is 3 French
 // Words of the glossary that belong to a label.
-const WORDS = { aspect: "aspect", friction: "friction coefficient", stiffness: "stiffness", confining: "confining pressure", limit: "pressure limit" };
+const WORDS = {
+  aspect: "aspect",
+  friction: "friction coefficient",
+  stiffness: "stiffness",
+  confining: "confining pressure",
+  limit: "pressure limit",
+};
 // Inputs that a warning may name although no slider has exactly this name.
 const ALSO = { "stone.size_ratio": "stone", "ureter.wall_ratio": "thickness", "stone.shape": "aspect" };
 
@@ -18,28 +24,59 @@ const SHORTER = { no_surrogate: "No instant answer for this input. Solve by fini
 
 /** Build the inputs; `given(values)` is called with every change. */
 export function inputsPanel(given) {
-  const controls = Object.fromEntries(Object.entries(FIELDS).map(([key, field]) => [key, control(field, (value) => given({ [key]: value }), { word: WORDS[key] })]));
-  const wall = choice("Wall is given by", [["thickness", "thickness"], ["outer", "outer diameter"]], (value) => given({ wall: value }));
+  const controls = Object.fromEntries(
+    Object.entries(FIELDS).map(([key, field]) => [
+      key,
+      control(field, (value) => given({ [key]: value }), { word: WORDS[key] }),
+    ]),
+  );
+  const wall = choice(
+    "Wall is given by",
+    [
+      ["thickness", "thickness"],
+      ["outer", "outer diameter"],
+    ],
+    (value) => given({ wall: value }),
+  );
   const materials = select("Material of the wall", (value) => given({ material: value }));
   const presets = select("Published limits", (value) => value && given({ limit: Number(value) }));
   const source = note(freshId("note"));
   let known = { materials: [], limits: [] };
   let own = null; // constants taken over from the laboratory
 
-  const element = h("form", { class: "inputs", "aria-label": "Inputs" },
+  const element = h(
+    "form",
+    { class: "inputs", "aria-label": "Inputs" },
     group("Stone", controls.stone.element, controls.aspect.element, controls.friction.element),
-    group("Ureter", controls.inner.element, wall.element, controls.thickness.element, controls.outer.element, materials.element, controls.stiffness.element),
+    group(
+      "Ureter",
+      controls.inner.element,
+      wall.element,
+      controls.thickness.element,
+      controls.outer.element,
+      materials.element,
+      controls.stiffness.element,
+    ),
     group("Load", controls.confining.element),
-    group("Limit", controls.limit.element, presets.element, source.element));
+    group("Limit", controls.limit.element, presets.element, source.element),
+  );
   element.addEventListener("submit", (event) => event.preventDefault());
 
   function know(catalogue, limits) {
     known = { materials: catalogue, limits };
     drawMaterials();
-    presets.offer([["", "choose a published limit"], ...known.limits.map((each) => [plain(each.pressure_kPa, 3), `${plain(each.pressure_kPa, 2)} kPa · ${each.meaning}`])]);
+    presets.offer([
+      ["", "choose a published limit"],
+      ...known.limits.map((each) => [
+        plain(each.pressure_kPa, 3),
+        `${plain(each.pressure_kPa, 2)} kPa · ${each.meaning}`,
+      ]),
+    ]);
   }
   function drawMaterials() {
-    const offered = known.materials.filter((each) => each.stable).map((each) => [each.name, `${each.name}, ${each.law}${each.instant ? "" : " (no instant answer)"}`]);
+    const offered = known.materials
+      .filter((each) => each.stable)
+      .map((each) => [each.name, `${each.name}, ${each.law}${each.instant ? "" : " (no instant answer)"}`]);
     if (own) offered.push([JSON.stringify(own), `own constants · ${own.law ?? own.name}`]);
     materials.offer(offered);
   }
@@ -54,14 +91,19 @@ export function inputsPanel(given) {
     const warned = warnings(found, problem);
     for (const [key, each] of Object.entries(controls)) {
       const range = ranges[key];
-      const outside = range && found && (question[key] < range.low * (1 - 1e-9) || question[key] > range.high * (1 + 1e-9));
-      const short = outside ? `No instant answer outside ${digits(range.low)} to ${digits(range.high)}${space(FIELDS[key].unit)}. Solve by finite elements instead.` : "";
+      const outside =
+        range && found && (question[key] < range.low * (1 - 1e-9) || question[key] > range.high * (1 + 1e-9));
+      const short = outside
+        ? `No instant answer outside ${digits(range.low)} to ${digits(range.high)}${space(FIELDS[key].unit)}. Solve by finite elements instead.`
+        : "";
       each.show(question[key], range, said[key], short || warned[key] || "");
     }
     controls.thickness.element.hidden = question.wall === "outer";
     controls.outer.element.hidden = question.wall !== "outer";
     wall.show(question.wall);
-    materials.show(typeof question.material === "string" ? question.material : JSON.stringify(question.material));
+    materials.show(
+      typeof question.material === "string" ? question.material : JSON.stringify(question.material),
+    );
     materials.warn(warned.material ?? "");
     const preset = known.limits.find((each) => Math.abs(each.pressure_kPa - question.limit) < 1e-6);
     presets.show(preset ? plain(preset.pressure_kPa, 3) : "");
@@ -75,8 +117,14 @@ function notes(question) {
   const wall = `Wall ratio η = ${decimals(outer / inner, 3)}`;
   return {
     stone: `Size ratio ξ = ${decimals(stone / inner, 3)}, ${digits(FRENCH * stone)} French`,
-    aspect: question.aspect === 1 ? "A sphere" : question.aspect > 1 ? "Longer along the ureter than across it" : "Shorter along the ureter than across it",
-    friction: "Never measured between a stone and a ureter; 0.5 is the paper’s estimate, wet tissue measures less",
+    aspect:
+      question.aspect === 1
+        ? "A sphere"
+        : question.aspect > 1
+          ? "Longer along the ureter than across it"
+          : "Shorter along the ureter than across it",
+    friction:
+      "Never measured between a stone and a ureter; 0.5 is the paper’s estimate, wet tissue measures less",
     inner: `${digits(FRENCH * inner)} French, without stone and pressure`,
     thickness: `${wall}, outer diameter ${digits(outer)} mm`,
     outer: `${wall}, wall thickness ${digits(thickness)} mm`,
@@ -92,13 +140,20 @@ function validRanges(question, found) {
   const given = found?.validity ?? {};
   for (const [key, { input, si }] of Object.entries(FIELDS)) {
     const each = given[input];
-    ranges[key] = each ? { low: each.low / si, high: each.high / si } : found ? null : { low: FIELDS[key].low, high: FIELDS[key].high };
+    ranges[key] = each
+      ? { low: each.low / si, high: each.high / si }
+      : found
+        ? null
+        : { low: FIELDS[key].low, high: FIELDS[key].high };
   }
   const [sizes, walls] = [given["stone.size_ratio"], given["ureter.wall_ratio"]];
   if (sizes && walls) ranges.inner = innerRange(question, sizes.high, walls);
   if (walls) {
     ranges.outer ??= { low: walls.low * question.inner, high: walls.high * question.inner };
-    ranges.thickness ??= { low: (walls.low - 1) * question.inner / 2, high: (walls.high - 1) * question.inner / 2 };
+    ranges.thickness ??= {
+      low: ((walls.low - 1) * question.inner) / 2,
+      high: ((walls.high - 1) * question.inner) / 2,
+    };
   }
   ranges.aspect = found?.answer || given["stone.aspect"] === undefined ? { low: 1, high: 1 } : ranges.aspect;
   ranges.limit = { low: FIELDS.limit.low, high: FIELDS.limit.high };
@@ -106,15 +161,22 @@ function validRanges(question, found) {
 }
 
 function innerRange({ stone, wall, outer, thickness }, largest, walls) {
-  const [low, high] = wall === "outer" ? [outer / walls.high, outer / walls.low] : [2 * thickness / (walls.high - 1), 2 * thickness / (walls.low - 1)];
+  const [low, high] =
+    wall === "outer"
+      ? [outer / walls.high, outer / walls.low]
+      : [(2 * thickness) / (walls.high - 1), (2 * thickness) / (walls.low - 1)];
   return { low: Math.max(low, stone / largest), high };
 }
 
 /** Return the first warning of each field; a refused input is a warning too. */
 function warnings(found, problem) {
   const warned = {};
-  const keyOf = (input) => Object.keys(FIELDS).find((key) => FIELDS[key].input === input) ?? ALSO[input] ?? (input === "ureter.material" ? "material" : "");
-  for (const each of found?.warnings ?? []) warned[keyOf(each.input)] ??= SHORTER[each.code] ?? sentence(each.sentence);
+  const keyOf = (input) =>
+    Object.keys(FIELDS).find((key) => FIELDS[key].input === input) ??
+    ALSO[input] ??
+    (input === "ureter.material" ? "material" : "");
+  for (const each of found?.warnings ?? [])
+    warned[keyOf(each.input)] ??= SHORTER[each.code] ?? sentence(each.sentence);
   if (problem?.field) warned[keyOf(problem.field)] = sentence(problem.message);
   return warned;
 }
@@ -125,7 +187,12 @@ function space(unit) {
 
 function group(title, ...children) {
   const id = freshId("group");
-  return h("div", { class: "group", role: "group", "aria-labelledby": id }, h("h2", { class: "title", id }, title), children);
+  return h(
+    "div",
+    { class: "group", role: "group", "aria-labelledby": id },
+    h("h2", { class: "title", id }, title),
+    children,
+  );
 }
 
 function select(label, given) {
@@ -137,8 +204,14 @@ function select(label, given) {
   box.addEventListener("change", () => given(box.value));
   return {
     element,
-    offer: (options) => fill(box, options.map(([value, text]) => h("option", { value }, text))),
-    show: (value) => { box.value = value; },
+    offer: (options) =>
+      fill(
+        box,
+        options.map(([value, text]) => h("option", { value }, text)),
+      ),
+    show: (value) => {
+      box.value = value;
+    },
     warn: (text) => {
       below.element.hidden = !text;
       below.show("", text);
@@ -147,7 +220,18 @@ function select(label, given) {
 }
 
 function choice(label, options, given) {
-  const buttons = options.map(([value, text]) => h("button", { type: "button", "aria-pressed": "false", onclick: () => given(value) }, text));
-  const element = h("div", { class: "row apart" }, h("span", { class: "small quiet" }, label), h("div", { class: "choice", role: "group", "aria-label": label }, buttons));
-  return { element, show: (value) => buttons.forEach((each, k) => each.setAttribute("aria-pressed", String(options[k][0] === value))) };
+  const buttons = options.map(([value, text]) =>
+    h("button", { type: "button", "aria-pressed": "false", onclick: () => given(value) }, text),
+  );
+  const element = h(
+    "div",
+    { class: "row apart" },
+    h("span", { class: "small quiet" }, label),
+    h("div", { class: "choice", role: "group", "aria-label": label }, buttons),
+  );
+  return {
+    element,
+    show: (value) =>
+      buttons.forEach((each, k) => each.setAttribute("aria-pressed", String(options[k][0] === value))),
+  };
 }

@@ -42,7 +42,8 @@ export function jobRun(label, hint) {
       try {
         stop = await startJob(body, (state) => {
           if (state.status === "queued") show("The question is waiting for a free worker.", 0);
-          else if (state.status === "running") show(state.progress?.sentence || "The question is being answered.", partOf(state));
+          else if (state.status === "running")
+            show(state.progress?.sentence || "The question is being answered.", partOf(state));
           else if (state.status === "done") {
             rest("Done.");
             done(state.result);

@@ -44,7 +44,10 @@ function follow(events, place, say, isOver) {
       } catch (error) {
         say({ status: "failed", problem: { detail: error.message } });
       }
-      if (!isOver()) await new Promise((resolve) => { setTimeout(resolve, 700); });
+      if (!isOver())
+        await new Promise((resolve) => {
+          setTimeout(resolve, 700);
+        });
     }
   };
 }

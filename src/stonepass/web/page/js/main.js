@@ -24,7 +24,8 @@ document.querySelector(".tabs").addEventListener("keydown", (event) => {
   if (!step) return;
   event.preventDefault();
   const at = TABS.indexOf(address()[0]);
-  const next = Math.abs(step) > 1 ? (step > 0 ? TABS.length - 1 : 0) : (at + step + TABS.length) % TABS.length;
+  const next =
+    Math.abs(step) > 1 ? (step > 0 ? TABS.length - 1 : 0) : (at + step + TABS.length) % TABS.length;
   go(TABS[next]);
   byId(`tab-${TABS[next]}`).focus();
 });
@@ -35,7 +36,9 @@ window.addEventListener("hashchange", () => {
 });
 theme();
 show(firstTab);
-get("").then((about) => write(byId("version"), `stonepass ${about.version}`)).catch(() => {});
+get("")
+  .then((about) => write(byId("version"), `stonepass ${about.version}`))
+  .catch(() => {});
 
 /** Return the tab and the query of the address; both stand after "#" and are never sent to a server. */
 function address() {
@@ -68,7 +71,10 @@ async function show(name) {
 function theme() {
   const button = byId("theme");
   const root = document.documentElement;
-  const dark = () => (root.dataset.theme ? root.dataset.theme === "dark" : window.matchMedia("(prefers-color-scheme: dark)").matches);
+  const dark = () =>
+    root.dataset.theme
+      ? root.dataset.theme === "dark"
+      : window.matchMedia("(prefers-color-scheme: dark)").matches;
   const tell = () => button.setAttribute("aria-pressed", String(dark()));
   button.addEventListener("click", () => {
     root.dataset.theme = dark() ? "light" : "dark";

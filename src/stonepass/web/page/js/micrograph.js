@@ -9,8 +9,25 @@ export function micrograph() {
   const frame = h("div", { class: "micrograph" });
   const said = h("p", { class: "small quiet", role: "status" });
   const add = h("button", { type: "button", class: "button small", onclick: addPath }, "Add a path");
-  const reset = h("button", { type: "button", class: "button small", onclick: () => { even(); draw(); } }, "Six even paths");
-  const element = h("div", { class: "stack-small" }, frame, h("div", { class: "row no-print" }, add, reset), said);
+  const reset = h(
+    "button",
+    {
+      type: "button",
+      class: "button small",
+      onclick: () => {
+        even();
+        draw();
+      },
+    },
+    "Six even paths",
+  );
+  const element = h(
+    "div",
+    { class: "stack-small" },
+    frame,
+    h("div", { class: "row no-print" }, add, reset),
+    said,
+  );
   let size = null; // [width, height] in pixels
   let address = "";
   let lines = [];
@@ -43,18 +60,38 @@ export function micrograph() {
       return;
     }
     const [width, height] = size;
-    const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "Image with the paths along which heights are read" },
+    const picture = svg(
+      "svg",
+      {
+        viewBox: `0 0 ${width} ${height}`,
+        role: "group",
+        "aria-label": "Image with the paths along which heights are read",
+      },
       svg("image", { href: address, width, height }),
-      lines.map((each) => [["path-halo"], ["path-line"]].map(([name]) => svg("line", { class: name, x1: each[0], y1: each[1], x2: each[2], y2: each[3] }))),
-      lines.map((_, k) => [0, 1].map((end) => handle(k, end))));
+      lines.map((each) =>
+        [["path-halo"], ["path-line"]].map(([name]) =>
+          svg("line", { class: name, x1: each[0], y1: each[1], x2: each[2], y2: each[3] }),
+        ),
+      ),
+      lines.map((_, k) => [0, 1].map((end) => handle(k, end))),
+    );
     fill(frame, picture);
     if (focus) frame.querySelector(`[data-path="${focus[0]}"][data-end="${focus[1]}"]`)?.focus();
   }
   function handle(k, end) {
     const [x, y] = lines[k].slice(2 * end, 2 * end + 2);
     const radius = Math.max(4, size[0] / 110);
-    const circle = svg("circle", { class: "handle", cx: x, cy: y, r: radius, tabindex: "0", role: "button", "data-path": k, "data-end": end,
-      "aria-label": `Path ${k + 1}, ${end ? "end" : "start"}, at x ${Math.round(x)}, y ${Math.round(y)}. Arrow keys move it, Delete removes the path.` });
+    const circle = svg("circle", {
+      class: "handle",
+      cx: x,
+      cy: y,
+      r: radius,
+      tabindex: "0",
+      role: "button",
+      "data-path": k,
+      "data-end": end,
+      "aria-label": `Path ${k + 1}, ${end ? "end" : "start"}, at x ${Math.round(x)}, y ${Math.round(y)}. Arrow keys move it, Delete removes the path.`,
+    });
     circle.addEventListener("keydown", (event) => pressed(event, k, end));
     circle.addEventListener("pointerdown", (event) => {
       event.preventDefault();
@@ -64,7 +101,9 @@ export function micrograph() {
   }
   function pressed(event, k, end) {
     const step = event.shiftKey ? 1 : Math.max(1, Math.round(size[0] / 100));
-    const way = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[event.key];
+    const way = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[
+      event.key
+    ];
     if (way) {
       event.preventDefault();
       move(k, end, lines[k][2 * end] + way[0], lines[k][2 * end + 1] + way[1]);
@@ -78,7 +117,12 @@ export function micrograph() {
   function dragged(k, end) {
     const follow = (event) => {
       const box = frame.firstChild.getBoundingClientRect();
-      move(k, end, ((event.clientX - box.left) / box.width) * size[0], ((event.clientY - box.top) / box.height) * size[1]);
+      move(
+        k,
+        end,
+        ((event.clientX - box.left) / box.width) * size[0],
+        ((event.clientY - box.top) / box.height) * size[1],
+      );
     };
     const stop = () => {
       window.removeEventListener("pointermove", follow);

@@ -11,8 +11,14 @@ import { reportButtons } from "./report.js";
 export async function patientPanel(place) {
   const [limits, materials] = await Promise.all([get("pressure-limits"), get("materials")]);
   const results = h("div", { class: "stack" });
-  const form = patientForm(limits, materials.filter((each) => each.stable));
-  const run = jobRun("Assess", "About fifty cases are solved, which takes about half a minute; a repeated question is answered at once.");
+  const form = patientForm(
+    limits,
+    materials.filter((each) => each.stable),
+  );
+  const run = jobRun(
+    "Assess",
+    "About fifty cases are solved, which takes about half a minute; a repeated question is answered at once.",
+  );
   const command = h("pre", { tabindex: "0", "aria-label": "Patient file" }, h("code"));
   let asked = null;
 
@@ -21,37 +27,76 @@ export async function patientPanel(place) {
     event.preventDefault();
     form.refuse("", "");
     asked = form.sections();
-    run.start({ kind: "assess", patient: asked }, done, (problem) => form.refuse(problem.field, problem.message));
+    run.start({ kind: "assess", patient: asked }, done, (problem) =>
+      form.refuse(problem.field, problem.message),
+    );
   });
   form.element.addEventListener("input", redraw);
   redraw();
   fill(results, nothing());
-  fill(place,
-    h("div", { class: "lead" },
+  fill(
+    place,
+    h(
+      "div",
+      { class: "lead" },
       h("h1", {}, "What do the measurements of a patient say about the stone?"),
-      h("p", {}, "Every measurement is uncertain, so every answer is an interval or a fraction of simulated cases. A fraction is not the chance that the stone passes. Nothing that you enter is stored or leaves this computer.")),
+      h(
+        "p",
+        {},
+        "Every measurement is uncertain, so every answer is an interval or a fraction of simulated cases. A fraction is not the chance that the stone passes. Nothing that you enter is stored or leaves this computer.",
+      ),
+    ),
     h("div", { class: "columns" }, form.element, results),
-    h("section", { class: "stack-small file no-print" },
-      h("div", { class: "row apart" }, h("h2", {}, "The same on the command line"), h("button", { type: "button", class: "button small", onclick: () => download("patient.toml", fileText(form.sections()), "text/plain") }, "Save patient.toml")),
+    h(
+      "section",
+      { class: "stack-small file no-print" },
+      h(
+        "div",
+        { class: "row apart" },
+        h("h2", {}, "The same on the command line"),
+        h(
+          "button",
+          {
+            type: "button",
+            class: "button small",
+            onclick: () => download("patient.toml", fileText(form.sections()), "text/plain"),
+          },
+          "Save patient.toml",
+        ),
+      ),
       h("p", { class: "small quiet" }, h("code", {}, "stonepass assess patient.toml --html report.html")),
-      h("div", { class: "code" }, command)));
+      h("div", { class: "code" }, command),
+    ),
+  );
 
   function redraw() {
     command.firstChild.textContent = fileText(form.sections());
   }
   function done(record) {
     const answered = asked;
-    fill(results, ...patientResults(record), reportButtons(() => ({ kind: "assess", patient: answered })));
+    fill(
+      results,
+      ...patientResults(record),
+      reportButtons(() => ({ kind: "assess", patient: answered })),
+    );
     results.querySelector("h2")?.focus();
   }
 }
 
 function nothing() {
-  return h("div", { class: "card empty" }, h("h2", {}, "What you will see"),
-    h("ul", { class: "bullets" }, [
-      "the critical pressure of the stone and the present urine pressure above it, each with its 90 % interval",
-      "the fraction of the simulated cases in which the stone moves below the pressure limit, also for other sizes",
-      "which measurement matters most",
-      "what happened to such stones in published cohorts, and where measurements and model contradict one another",
-    ].map((each) => h("li", {}, each))));
+  return h(
+    "div",
+    { class: "card empty" },
+    h("h2", {}, "What you will see"),
+    h(
+      "ul",
+      { class: "bullets" },
+      [
+        "the critical pressure of the stone and the present urine pressure above it, each with its 90 % interval",
+        "the fraction of the simulated cases in which the stone moves below the pressure limit, also for other sizes",
+        "which measurement matters most",
+        "what happened to such stones in published cohorts, and where measurements and model contradict one another",
+      ].map((each) => h("li", {}, each)),
+    ),
+  );
 }

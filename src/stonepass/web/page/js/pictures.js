@@ -11,10 +11,19 @@ import { sectionPicture, sectionWords } from "./pictures/section.js";
 /** Build the panel of the pictures. */
 export function picturesPanel() {
   const section = picture("Section through ureter and stone, to scale", [], "wide");
-  const curve = picture(["Size of the stone and ", term("critical pressure")], ["The thin band is the error of the instant answer. The shaded area holds the stones that move at the limit."]);
+  const curve = picture(
+    ["Size of the stone and ", term("critical pressure")],
+    [
+      "The thin band is the error of the instant answer. The shaded area holds the stones that move at the limit.",
+    ],
+  );
   const map = picture(["Thickness of the wall and size"], []);
   const turned = h("div", { class: "canvas", hidden: true });
-  const turn = h("button", { type: "button", class: "button small no-print", "aria-expanded": "false" }, "Turn it in 3-D");
+  const turn = h(
+    "button",
+    { type: "button", class: "button small no-print", "aria-expanded": "false" },
+    "Turn it in 3-D",
+  );
   section.tools.append(turn);
   section.body.after(turned);
   let view = null;
@@ -50,14 +59,21 @@ export function picturesPanel() {
   /** Draw the point of the last question into the map. */
   function drawPoint() {
     const drawn = { ...latest, map: known };
-    if (latest && known !== undefined) map.draw(known ? (width, height) => drawMap(width, height, drawn) : emptyPicture);
+    if (latest && known !== undefined)
+      map.draw(known ? (width, height) => drawMap(width, height, drawn) : emptyPicture);
   }
   function showMap(question, answered) {
     known = answered;
     fill(map.caption, mapWords(question));
     drawPoint();
   }
-  const element = h("section", { class: "pictures", "aria-label": "Pictures" }, section.element, curve.element, map.element);
+  const element = h(
+    "section",
+    { class: "pictures", "aria-label": "Pictures" },
+    section.element,
+    curve.element,
+    map.element,
+  );
   return { element, show, showMap };
 }
 
@@ -65,14 +81,36 @@ function picture(title, caption, size = "") {
   const body = h("div", { class: "canvas" });
   const words = h("figcaption", {}, caption);
   const tools = h("div", { class: "row" });
-  const element = h("figure", { class: `picture card ${size}` }, h("div", { class: "head-line" }, h("h2", {}, title), tools), body, words);
+  const element = h(
+    "figure",
+    { class: `picture card ${size}` },
+    h("div", { class: "head-line" }, h("h2", {}, title), tools),
+    body,
+    words,
+  );
   return { element, body, tools, caption: words, draw: redrawn(body) };
 }
 
 function mapWords(question) {
-  return [`Stones below the thick line move at ${plain(question.limit, 2)} kPa. The thin lines are the `, term("critical pressure"), " in kPa; ", term("wall ratio"), " and ", term("size ratio"), " are outer and stone over inner diameter."];
+  return [
+    `Stones below the thick line move at ${plain(question.limit, 2)} kPa. The thin lines are the `,
+    term("critical pressure"),
+    " in kPa; ",
+    term("wall ratio"),
+    " and ",
+    term("size ratio"),
+    " are outer and stone over inner diameter.",
+  ];
 }
 
 function emptyPicture(width, height) {
-  return svg("svg", {}, svg("text", { x: width / 2, y: height / 2, "text-anchor": "middle" }, "There is no instant answer for these inputs."));
+  return svg(
+    "svg",
+    {},
+    svg(
+      "text",
+      { x: width / 2, y: height / 2, "text-anchor": "middle" },
+      "There is no instant answer for these inputs.",
+    ),
+  );
 }

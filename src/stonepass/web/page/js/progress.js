@@ -4,7 +4,17 @@ import { h } from "./dom.js";
 
 /** Create the bar; it is invisible until `setProgress`, and its place is reserved. */
 export function progressBar() {
-  return h("div", { class: "progress", role: "progressbar", "aria-label": "Progress", "aria-valuemin": "0", "aria-valuemax": "100" }, h("div"));
+  return h(
+    "div",
+    {
+      class: "progress",
+      role: "progressbar",
+      "aria-label": "Progress",
+      "aria-valuemin": "0",
+      "aria-valuemax": "100",
+    },
+    h("div"),
+  );
 }
 
 /** Return the finished part of a job from 0 to 1; 0 if it is unknown. */

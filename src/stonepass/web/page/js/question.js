@@ -7,15 +7,97 @@ import { plain, read } from "./units.js";
  * the server accepts. `input` is the name of the input in case files, `si` the factor to SI units.
  */
 export const FIELDS = {
-  stone: { label: "Diameter across the ureter", unit: "mm", low: 0.5, high: 10, step: 0.05, input: "stone.diameter", si: 1e-3, start: 4.2 },
-  aspect: { label: "Length over width", unit: "", low: 0.5, high: 2, step: 0.05, input: "stone.aspect", si: 1, start: 1 },
-  friction: { label: "Friction coefficient", unit: "", low: 0, high: 1.2, step: 0.01, input: "stone.friction", si: 1, start: 0.5 },
-  inner: { label: "Inner diameter", unit: "mm", low: 0.5, high: 8, step: 0.05, input: "ureter.inner_diameter", si: 1e-3, start: 3.5 },
-  thickness: { label: "Wall thickness", unit: "mm", low: 0.1, high: 4, step: 0.02, input: "ureter.wall_thickness", si: 1e-3, start: 0.52 },
-  outer: { label: "Outer diameter", unit: "mm", low: 0.6, high: 14, step: 0.05, input: "ureter.outer_diameter", si: 1e-3, start: 4.54 },
-  stiffness: { label: "Stiffness, multiple of the material", unit: "×", low: 0.25, high: 4, step: 0.01, input: "stiffness", si: 1, start: 1, logarithmic: true },
-  confining: { label: "Confining pressure", unit: "kPa", low: 0, high: 12, step: 0.1, input: "load.confining_pressure", si: 1e3, start: 0 },
-  limit: { label: "Pressure limit", unit: "kPa", low: 0.5, high: 20, step: 0.1, input: "limit", si: 1e3, start: 6 },
+  stone: {
+    label: "Diameter across the ureter",
+    unit: "mm",
+    low: 0.5,
+    high: 10,
+    step: 0.05,
+    input: "stone.diameter",
+    si: 1e-3,
+    start: 4.2,
+  },
+  aspect: {
+    label: "Length over width",
+    unit: "",
+    low: 0.5,
+    high: 2,
+    step: 0.05,
+    input: "stone.aspect",
+    si: 1,
+    start: 1,
+  },
+  friction: {
+    label: "Friction coefficient",
+    unit: "",
+    low: 0,
+    high: 1.2,
+    step: 0.01,
+    input: "stone.friction",
+    si: 1,
+    start: 0.5,
+  },
+  inner: {
+    label: "Inner diameter",
+    unit: "mm",
+    low: 0.5,
+    high: 8,
+    step: 0.05,
+    input: "ureter.inner_diameter",
+    si: 1e-3,
+    start: 3.5,
+  },
+  thickness: {
+    label: "Wall thickness",
+    unit: "mm",
+    low: 0.1,
+    high: 4,
+    step: 0.02,
+    input: "ureter.wall_thickness",
+    si: 1e-3,
+    start: 0.52,
+  },
+  outer: {
+    label: "Outer diameter",
+    unit: "mm",
+    low: 0.6,
+    high: 14,
+    step: 0.05,
+    input: "ureter.outer_diameter",
+    si: 1e-3,
+    start: 4.54,
+  },
+  stiffness: {
+    label: "Stiffness, multiple of the material",
+    unit: "×",
+    low: 0.25,
+    high: 4,
+    step: 0.01,
+    input: "stiffness",
+    si: 1,
+    start: 1,
+    logarithmic: true,
+  },
+  confining: {
+    label: "Confining pressure",
+    unit: "kPa",
+    low: 0,
+    high: 12,
+    step: 0.1,
+    input: "load.confining_pressure",
+    si: 1e3,
+    start: 0,
+  },
+  limit: {
+    label: "Pressure limit",
+    unit: "kPa",
+    low: 0.5,
+    high: 20,
+    step: 0.1,
+    input: "limit",
+    si: 1e3,
+    start: 6,
+  },
 };
 
 /** Return the question that is shown first. */
@@ -39,7 +121,10 @@ export function toQuery(question) {
     if (key === (question.wall === "outer" ? "thickness" : "outer")) continue;
     query.set(key, plain(question[key], 6) + (field.unit === "×" ? "" : field.unit));
   }
-  query.set("material", typeof question.material === "string" ? question.material : JSON.stringify(question.material));
+  query.set(
+    "material",
+    typeof question.material === "string" ? question.material : JSON.stringify(question.material),
+  );
   return query.toString();
 }
 
@@ -58,7 +143,10 @@ export function fromQuery(text) {
 
 /** Return the sections of a case file. */
 export function toCase(question, method = null) {
-  const wall = question.wall === "outer" ? { outer_diameter: quantity(question.outer, "mm") } : { wall_thickness: quantity(question.thickness, "mm") };
+  const wall =
+    question.wall === "outer"
+      ? { outer_diameter: quantity(question.outer, "mm") }
+      : { wall_thickness: quantity(question.thickness, "mm") };
   const found = {
     stone: { diameter: quantity(question.stone, "mm"), friction: question.friction },
     ureter: { inner_diameter: quantity(question.inner, "mm"), ...wall, material: question.material },
@@ -71,7 +159,12 @@ export function toCase(question, method = null) {
 
 /** Return the body of a request for an instant answer. */
 export function toInstant(question, include) {
-  return { case: toCase(question), stiffness: question.stiffness, limit: quantity(question.limit, "kPa"), include };
+  return {
+    case: toCase(question),
+    stiffness: question.stiffness,
+    limit: quantity(question.limit, "kPa"),
+    include,
+  };
 }
 
 /** Return the text of a number with its unit. */

@@ -6,7 +6,12 @@ import { h } from "./dom.js";
 /** Return buttons that save the report of a question; `question()` returns the body of its job. */
 export function reportButtons(question) {
   const said = h("span", { class: "small quiet", role: "status" });
-  const button = (kind) => h("button", { type: "button", class: "button small", onclick: () => save(kind) }, `Report as ${kind.toUpperCase()}`);
+  const button = (kind) =>
+    h(
+      "button",
+      { type: "button", class: "button small", onclick: () => save(kind) },
+      `Report as ${kind.toUpperCase()}`,
+    );
   const buttons = [button("html"), button("pdf")];
   return h("div", { class: "row no-print" }, buttons, said);
 

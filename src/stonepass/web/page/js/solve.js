@@ -11,17 +11,33 @@ import { outcomeWords } from "./verdict.js";
 
 /** Build the reading of the finite elements; `solved()` is called when an answer has come or gone. */
 export function solvePanel(changed) {
-  const model = h("select", { "aria-label": "Model of the finite elements" },
-    h("option", { value: "paper" }, "model of the paper"), h("option", { value: "direct" }, "direct model"));
+  const model = h(
+    "select",
+    { "aria-label": "Model of the finite elements" },
+    h("option", { value: "paper" }, "model of the paper"),
+    h("option", { value: "direct" }, "direct model"),
+  );
   const start = h("button", { type: "button", class: "button first small" }, "Solve");
   const cancel = h("button", { type: "button", class: "button small", hidden: true }, "Cancel");
   const figure = h("p", { class: "figure" });
   const also = h("p", { class: "also" });
   const detail = h("p", { class: "detail", role: "status" });
   const progress = progressBar();
-  const element = h("section", { class: "reading solve" },
-    h("h2", {}, "Solved by finite elements"), figure, also, progress, detail,
-    h("div", { class: "solve-row no-print" }, h("div", { class: "row" }, model, start, cancel), reportButtons(job)));
+  const element = h(
+    "section",
+    { class: "reading solve" },
+    h("h2", {}, "Solved by finite elements"),
+    figure,
+    also,
+    progress,
+    detail,
+    h(
+      "div",
+      { class: "solve-row no-print" },
+      h("div", { class: "row" }, model, start, cancel),
+      reportButtons(job),
+    ),
+  );
   let question = null;
   let instant = null;
   let answer = null; // {key, record}
@@ -48,17 +64,27 @@ export function solvePanel(changed) {
   }
 
   function job() {
-    return { kind: "pressure", case: toCase(question, { model: model.value }), stiffness: question.stiffness };
+    return {
+      kind: "pressure",
+      case: toCase(question, { model: model.value }),
+      stiffness: question.stiffness,
+    };
   }
   function told(asked, state) {
     if (state.status === "queued") working("The solve is waiting for a free worker.", 0);
-    else if (state.status === "running") working(state.progress?.sentence || "The finite elements are being solved.", partOf(state));
+    else if (state.status === "running")
+      working(state.progress?.sentence || "The finite elements are being solved.", partOf(state));
     else if (state.status === "done") {
       answer = { key: asked.key, record: state.result };
       rest();
       draw();
       changed(current());
-    } else failed(state.status === "cancelled" ? "The solve was cancelled." : state.problem?.detail ?? "The solve failed.");
+    } else
+      failed(
+        state.status === "cancelled"
+          ? "The solve was cancelled."
+          : (state.problem?.detail ?? "The solve failed."),
+      );
     return ["done", "failed", "cancelled"].includes(state.status);
   }
 
@@ -94,24 +120,50 @@ export function solvePanel(changed) {
     if (running) return;
     if (!record) {
       fill(figure, h("span", { class: "words quiet" }, "not solved"));
-      write(also, answer ? `Solved for earlier inputs: ${reading(answer.record)}` : "A solve takes a few seconds and covers all inputs.");
-      fill(detail, "The ", term("push-through", "direct"), " model has no closure and goes beyond the paper’s.");
+      write(
+        also,
+        answer
+          ? `Solved for earlier inputs: ${reading(answer.record)}`
+          : "A solve takes a few seconds and covers all inputs.",
+      );
+      fill(
+        detail,
+        "The ",
+        term("push-through", "direct"),
+        " model has no closure and goes beyond the paper’s.",
+      );
       return;
     }
     const [value, error] = withError(record.critical_pressure_kPa, record.critical_pressure_error_kPa);
-    if (record.critical_pressure_kPa === null) fill(figure, h("span", { class: "words" }, outcomeWords(record)));
-    else fill(figure, h("span", { class: "big" }, value), h("span", { class: "unit" }, "kPa"), error && h("span", { class: "error" }, `${error} kPa`));
-    write(also, record.critical_pressure_kPa === null ? record.message : clinical(record.critical_pressure_kPa));
-    const warned = record.warnings?.length ? ` ${record.warnings.map((each) => each.sentence).join(" ")}` : "";
+    if (record.critical_pressure_kPa === null)
+      fill(figure, h("span", { class: "words" }, outcomeWords(record)));
+    else
+      fill(
+        figure,
+        h("span", { class: "big" }, value),
+        h("span", { class: "unit" }, "kPa"),
+        error && h("span", { class: "error" }, `${error} kPa`),
+      );
+    write(
+      also,
+      record.critical_pressure_kPa === null ? record.message : clinical(record.critical_pressure_kPa),
+    );
+    const warned = record.warnings?.length
+      ? ` ${record.warnings.map((each) => each.sentence).join(" ")}`
+      : "";
     write(detail, `${difference(record)}${warned}`);
   }
   function reading(record) {
-    return record.critical_pressure_kPa === null ? outcomeWords(record) : `${digits(record.critical_pressure_kPa, 4)} kPa`;
+    return record.critical_pressure_kPa === null
+      ? outcomeWords(record)
+      : `${digits(record.critical_pressure_kPa, 4)} kPa`;
   }
   function difference(record) {
     if (!instant || record.critical_pressure_kPa === null) return "";
     const part = (100 * (record.critical_pressure_kPa - instant)) / instant;
-    return record.model === "paper" ? `${decimals(part, 2)} % from the instant answer.` : `${decimals(part, 1)} % from the instant answer of the paper’s model.`;
+    return record.model === "paper"
+      ? `${decimals(part, 2)} % from the instant answer.`
+      : `${decimals(part, 1)} % from the instant answer of the paper’s model.`;
   }
 
   return {

@@ -2,7 +2,7 @@
 // lengths in mm and pressures in kPa, and converts at these two doors only.
 
 export const KILOPASCAL_PER = { kPa: 1, Pa: 1e-3, MPa: 1e3, mmHg: 0.133322387415, cmH2O: 0.0980665 };
-export const MILLIMETRE_PER = { mm: 1, cm: 10, m: 1e3, um: 1e-3, "µm": 1e-3 };
+export const MILLIMETRE_PER = { mm: 1, cm: 10, m: 1e3, um: 1e-3, µm: 1e-3 };
 
 /** Return a number with so many significant digits, without an exponent, with a true minus sign. */
 export function digits(value, count = 3) {
@@ -48,6 +48,10 @@ export function read(text, unit) {
   const given = parts[2].replace("₂", "2");
   if (!given) return number;
   const factors = unit === "kPa" ? KILOPASCAL_PER : unit === "mm" ? MILLIMETRE_PER : {};
-  const known = Object.keys(factors).find((each) => each.toLowerCase() === given.toLowerCase() && (each === given || !["mpa", "m"].includes(given.toLowerCase())));
+  const known = Object.keys(factors).find(
+    (each) =>
+      each.toLowerCase() === given.toLowerCase() &&
+      (each === given || !["mpa", "m"].includes(given.toLowerCase())),
+  );
   return known ? number * factors[known] : null;
 }

@@ -6,24 +6,46 @@ import { decimals, digits, plain } from "./units.js";
 export function verdict(question, found) {
   const { answer } = found;
   const limit = `${plain(question.limit, 2)} kPa`;
-  if (!answer || answer.outside) return ["There is no instant answer for these inputs. Solve by finite elements instead."];
+  if (!answer || answer.outside)
+    return ["There is no instant answer for these inputs. Solve by finite elements instead."];
   const pressure = answer.critical_pressure_kPa;
-  if (answer.outcome === "LOOSE") return [{ strong: "This stone is not held" }, ": it is not larger than the opening of the ureter."];
+  if (answer.outcome === "LOOSE")
+    return [{ strong: "This stone is not held" }, ": it is not larger than the opening of the ureter."];
   if (answer.outcome === "BEYOND_CLOSURE") {
     const bound = digits(answer.lower_bound_kPa, 3);
     return answer.lower_bound_kPa > question.limit
-      ? [`At ${limit} `, { strong: "this stone does not move" }, `: it needs more than ${bound} kPa, where the paper’s model ends.`]
-      : [`At ${limit} `, { strong: "the paper’s model cannot decide" }, `: it ends at ${bound} kPa. The direct model goes on.`];
+      ? [
+          `At ${limit} `,
+          { strong: "this stone does not move" },
+          `: it needs more than ${bound} kPa, where the paper’s model ends.`,
+        ]
+      : [
+          `At ${limit} `,
+          { strong: "the paper’s model cannot decide" },
+          `: it ends at ${bound} kPa. The direct model goes on.`,
+        ];
   }
   if (pressure === null) return [answer.message];
   const error = answer.critical_pressure_error_kPa ?? 0;
   if (Math.abs(pressure - question.limit) <= error) {
-    return [`At ${limit} `, { strong: "the instant answer cannot decide" }, " whether this stone moves: the difference is smaller than its error."];
+    return [
+      `At ${limit} `,
+      { strong: "the instant answer cannot decide" },
+      " whether this stone moves: the difference is smaller than its error.",
+    ];
   }
   if (pressure < question.limit) {
-    return [`At ${limit} `, { strong: "this stone moves" }, `: it needs ${digits(pressure, 3)} kPa, which is ${share(pressure / question.limit)} of the limit.`];
+    return [
+      `At ${limit} `,
+      { strong: "this stone moves" },
+      `: it needs ${digits(pressure, 3)} kPa, which is ${share(pressure / question.limit)} of the limit.`,
+    ];
   }
-  return [`At ${limit} `, { strong: "this stone does not move" }, `: it needs ${digits(pressure, 3)} kPa, which is ${share(pressure / question.limit)} the limit.`];
+  return [
+    `At ${limit} `,
+    { strong: "this stone does not move" },
+    `: it needs ${digits(pressure, 3)} kPa, which is ${share(pressure / question.limit)} the limit.`,
+  ];
 }
 
 function share(ratio) {
@@ -32,14 +54,16 @@ function share(ratio) {
 
 /** Return the words of an outcome without a number, for the place of the number. */
 export function outcomeWords(record) {
-  return {
-    LOOSE: "not held",
-    BEYOND_CLOSURE: "no answer",
-    NO_SOLUTION: "no instant answer",
-    BELOW_RANGE: "none",
-    BEYOND_RANGE: "no limit found",
-    LEAKS: "urine passes first",
-  }[record?.outcome] ?? "no instant answer";
+  return (
+    {
+      LOOSE: "not held",
+      BEYOND_CLOSURE: "no answer",
+      NO_SOLUTION: "no instant answer",
+      BELOW_RANGE: "none",
+      BEYOND_RANGE: "no limit found",
+      LEAKS: "urine passes first",
+    }[record?.outcome] ?? "no instant answer"
+  );
 }
 
 /** Return the text of the parts of a sentence. */

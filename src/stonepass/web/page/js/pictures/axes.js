@@ -29,7 +29,8 @@ export function ticks(low, high, count = 5) {
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 2.5, 5, 10].map((each) => each * power).find((each) => each >= rough * 0.999);
   const found = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(Number((k * step).toPrecision(10)));
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1)
+    found.push(Number((k * step).toPrecision(10)));
   return found;
 }
 
@@ -48,18 +49,48 @@ export function area(width, height, margin = {}) {
 /** Draw the axis at the bottom or the top. */
 export function horizontal(x, values, y, { label, shown = plain, above = false }) {
   const down = above ? -1 : 1;
-  return svg("g", { class: "tick" },
-    values.map((value) => svg("text", { x: x(value), y: y + down * (above ? 7 : 17), "text-anchor": "middle" }, shown(value))),
-    label && svg("text", { class: "axis-label", x: above ? x(x.high) : (x(x.low) + x(x.high)) / 2, y: y + down * (above ? 20 : 35), "text-anchor": above ? "end" : "middle" }, label));
+  return svg(
+    "g",
+    { class: "tick" },
+    values.map((value) =>
+      svg("text", { x: x(value), y: y + down * (above ? 7 : 17), "text-anchor": "middle" }, shown(value)),
+    ),
+    label &&
+      svg(
+        "text",
+        {
+          class: "axis-label",
+          x: above ? x(x.high) : (x(x.low) + x(x.high)) / 2,
+          y: y + down * (above ? 20 : 35),
+          "text-anchor": above ? "end" : "middle",
+        },
+        label,
+      ),
+  );
 }
 
 /** Draw the axis at the left or at the right; `lines` continues the ticks through the diagram. */
 export function vertical(y, values, x, { label, shown = plain, right = false, lines = null }) {
   const side = right ? 1 : -1;
-  return svg("g", { class: "tick" },
+  return svg(
+    "g",
+    { class: "tick" },
     lines && values.map((value) => svg("line", { x1: lines[0], x2: lines[1], y1: y(value), y2: y(value) })),
-    values.map((value) => svg("text", { x: x + side * 8, y: y(value) + 4, "text-anchor": right ? "start" : "end" }, shown(value))),
-    label && svg("text", { class: "axis-label", x: x + side * (right ? -2 : 40), y: y(y.high) - 12, "text-anchor": right ? "end" : "start" }, label));
+    values.map((value) =>
+      svg("text", { x: x + side * 8, y: y(value) + 4, "text-anchor": right ? "start" : "end" }, shown(value)),
+    ),
+    label &&
+      svg(
+        "text",
+        {
+          class: "axis-label",
+          x: x + side * (right ? -2 : 40),
+          y: y(y.high) - 12,
+          "text-anchor": right ? "end" : "start",
+        },
+        label,
+      ),
+  );
 }
 
 /** Return the path through points, broken where a value is missing. */
@@ -79,7 +110,15 @@ export function line(points) {
 
 /** Return the pattern of areas without an answer; its name must be unique on the page. */
 export function hatch(id) {
-  return svg("defs", {}, svg("pattern", { id, width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, svg("line", { class: "hatch-line", x1: 0, x2: 0, y1: 0, y2: 7 })));
+  return svg(
+    "defs",
+    {},
+    svg(
+      "pattern",
+      { id, width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+      svg("line", { class: "hatch-line", x1: 0, x2: 0, y1: 0, y2: 7 }),
+    ),
+  );
 }
 
 /**

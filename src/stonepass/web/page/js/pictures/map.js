@@ -33,23 +33,60 @@ function ground(width, height, map) {
   const x = logarithmic(walls[0], walls[walls.length - 1], inside.left, inside.right);
   const y = scale(Math.max(1, sizes[0]), sizes[sizes.length - 1], inside.bottom, inside.top);
   const ends = map.critical_pressure_kPa.map((row) => lastKnown(row, sizes));
-  const levels = LEVELS.map((level) => ({ level, crossings: map.critical_pressure_kPa.map((row, k) => crossing(row, sizes, level, ends[k])) }))
-    .filter(({ crossings }) => crossings.some((each) => each < sizes[sizes.length - 1]));
-  const passing = map.critical_size_ratio?.map((each, k) => [x(walls[k]), each === null ? NaN : y(each)]) ?? [];
+  const levels = LEVELS.map((level) => ({
+    level,
+    crossings: map.critical_pressure_kPa.map((row, k) => crossing(row, sizes, level, ends[k])),
+  })).filter(({ crossings }) => crossings.some((each) => each < sizes[sizes.length - 1]));
+  const passing =
+    map.critical_size_ratio?.map((each, k) => [x(walls[k]), each === null ? NaN : y(each)]) ?? [];
   const column = (values) => walls.map((each, k) => [x(each), y(values[k])]);
-  const picture = svg("svg", { role: "img", "aria-label": "Critical pressure over the wall ratio and the size ratio, with the line of the largest stones that move at the limit." },
+  const picture = svg(
+    "svg",
+    {
+      role: "img",
+      "aria-label":
+        "Critical pressure over the wall ratio and the size ratio, with the line of the largest stones that move at the limit.",
+    },
     hatch("hatch-map"),
-    svg("rect", { x: inside.left, y: inside.top, width: inside.right - inside.left, height: inside.bottom - inside.top, fill: shade(0, levels.length) }),
-    levels.map(({ crossings }, k) => svg("path", { fill: shade(k + 1, levels.length), d: above(column(crossings), inside.top) })),
+    svg("rect", {
+      x: inside.left,
+      y: inside.top,
+      width: inside.right - inside.left,
+      height: inside.bottom - inside.top,
+      fill: shade(0, levels.length),
+    }),
+    levels.map(({ crossings }, k) =>
+      svg("path", { fill: shade(k + 1, levels.length), d: above(column(crossings), inside.top) }),
+    ),
     svg("path", { fill: "var(--raised)", d: above(column(ends), inside.top) }),
     svg("path", { fill: "url(#hatch-map)", d: above(column(ends), inside.top) }),
-    svg("path", { class: "level", d: levels.map(({ crossings }) => line(column(crossings.map((each, j) => (each < ends[j] ? each : NaN))))).join("") }),
+    svg("path", {
+      class: "level",
+      d: levels
+        .map(({ crossings }) => line(column(crossings.map((each, j) => (each < ends[j] ? each : NaN)))))
+        .join(""),
+    }),
     svg("path", { class: "passing", d: line(passing) }),
     spaced(levels.map(({ level, crossings }) => levelLabel(level, crossings, ends, walls, x, y))),
-    svg("rect", { class: "frame", x: inside.left, y: inside.top, width: inside.right - inside.left, height: inside.bottom - inside.top }),
-    vertical(y, ticks(y.low, y.high, 5), inside.left, { label: "size ratio ξ", shown: (each) => each.toFixed(1) }),
-    horizontal(x, WALL_TICKS.filter((each) => each >= x.low && each <= x.high), inside.bottom, { label: "wall ratio η" }),
-    svg("g"));
+    svg("rect", {
+      class: "frame",
+      x: inside.left,
+      y: inside.top,
+      width: inside.right - inside.left,
+      height: inside.bottom - inside.top,
+    }),
+    vertical(y, ticks(y.low, y.high, 5), inside.left, {
+      label: "size ratio ξ",
+      shown: (each) => each.toFixed(1),
+    }),
+    horizontal(
+      x,
+      WALL_TICKS.filter((each) => each >= x.low && each <= x.high),
+      inside.bottom,
+      { label: "wall ratio η" },
+    ),
+    svg("g"),
+  );
   return { picture, x, y, inside };
 }
 
@@ -59,10 +96,23 @@ function here({ x, y, inside }, question, answer) {
   if (wall < x.low || wall > x.high || ratio < y.low || ratio > y.high) return svg("g");
   const pressure = answer?.critical_pressure_kPa ?? null;
   const left = x(wall) > (inside.left + 2 * inside.right) / 3;
-  return svg("g", {},
+  return svg(
+    "g",
+    {},
     svg("path", { class: "drop-line", d: `M${inside.left} ${y(ratio)}H${x(wall)}V${inside.bottom}` }),
     svg("circle", { class: "point", cx: x(wall), cy: y(ratio), r: 7 }),
-    pressure !== null && svg("text", { class: "strong halo", x: x(wall) + (left ? -12 : 12), y: y(ratio) - 9, "text-anchor": left ? "end" : "start" }, `${digits(pressure, 3)} kPa`));
+    pressure !== null &&
+      svg(
+        "text",
+        {
+          class: "strong halo",
+          x: x(wall) + (left ? -12 : 12),
+          y: y(ratio) - 9,
+          "text-anchor": left ? "end" : "start",
+        },
+        `${digits(pressure, 3)} kPa`,
+      ),
+  );
 }
 
 /** Return the size ratio at which a row of pressures crosses a level, by linear interpolation. */

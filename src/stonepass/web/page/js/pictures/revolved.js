@@ -31,7 +31,9 @@ export function revolvedView(container) {
     move((event.clientX - held[0]) / 160, (event.clientY - held[1]) / 160);
     held = [event.clientX, event.clientY];
   });
-  canvas.addEventListener("pointerup", () => { held = null; });
+  canvas.addEventListener("pointerup", () => {
+    held = null;
+  });
   canvas.addEventListener("keydown", (event) => {
     if (event.key === "Home") view = { ...START };
     else if (!KEYS[event.key]) return;
@@ -74,7 +76,10 @@ export function revolvedView(container) {
       const shape = geometry(question, section);
       solid = faces(shape);
       const peak = Math.max(0, ...shape.contact.map((each) => each.pressure));
-      canvas.setAttribute("aria-label", `Stone and ureter in three dimensions, cut open${peak ? `; contact pressure up to ${digits(peak)} kPa` : ""}.`);
+      canvas.setAttribute(
+        "aria-label",
+        `Stone and ureter in three dimensions, cut open${peak ? `; contact pressure up to ${digits(peak)} kPa` : ""}.`,
+      );
       later();
     },
   };

@@ -23,26 +23,55 @@ export function sectionPicture(width, height, { question, section }) {
   const outer = extended(shape.outer, reach);
   const top = most(shape.contact);
   const sides = [1, -1];
-  return svg("svg", { role: "img", "aria-label": described(question, shape) },
+  return svg(
+    "svg",
+    { role: "img", "aria-label": described(question, shape) },
     svg("path", { class: "urine", d: urine(inner, shape, x, y) }),
-    svg("path", { class: "stone", d: `${line([...shape.stone, ...mirrored(shape.stone)].map(([z, r]) => [x(z), y(r)]))}Z` }),
-    sides.map((side) => svg("path", { class: "wall", d: `${line([...outer, ...inner.toReversed()].map(([z, r]) => [x(z), y(side * r)]))}Z` })),
+    svg("path", {
+      class: "stone",
+      d: `${line([...shape.stone, ...mirrored(shape.stone)].map(([z, r]) => [x(z), y(r)]))}Z`,
+    }),
+    sides.map((side) =>
+      svg("path", {
+        class: "wall",
+        d: `${line([...outer, ...inner.toReversed()].map(([z, r]) => [x(z), y(side * r)]))}Z`,
+      }),
+    ),
     svg("path", { class: "axis-line", d: `M0 ${half}H${width}` }),
-    top > 0 && sides.map((side) => pressureBars(shape.contact, side, { x, y, perMm, length: BAR * half, top: roundUp(top) })),
+    top > 0 &&
+      sides.map((side) =>
+        pressureBars(shape.contact, side, { x, y, perMm, length: BAR * half, top: roundUp(top) }),
+      ),
     top > 0 && peakLabel(shape.contact, x, y, (BAR * half) / roundUp(top)),
     arrow(18, half, "urine"),
-    svg("text", { class: "halo", x: width - 12, y: half - 8, "text-anchor": "end" }, width < 420 ? "bladder" : "to the bladder"),
-    scaleBar(width, height, perMm));
+    svg(
+      "text",
+      { class: "halo", x: width - 12, y: half - 8, "text-anchor": "end" },
+      width < 420 ? "bladder" : "to the bladder",
+    ),
+    scaleBar(width, height, perMm),
+  );
 }
 
 /** Return the words below the picture. */
 export function sectionWords({ question, section, exact }) {
   const shape = geometry(question, section);
   const where = ["Urine presses from the left."];
-  if (!shape.deformed) return [...where, " Stone and ureter are drawn without deformation: there is no solved state for these inputs."];
+  if (!shape.deformed)
+    return [
+      ...where,
+      " Stone and ureter are drawn without deformation: there is no solved state for these inputs.",
+    ];
   if (!shape.contact.length) return [...where, " The stone does not touch the wall all around."];
-  const source = exact ? [" Solved for exactly these inputs: "] : [" Interpolated between solved ", term("seated state", "seated states"), " with friction 0.5: "];
-  return [...where, ...source, term("contact pressure"), ` up to ${digits(most(shape.contact))} kPa, drawn as bars on the contact.`];
+  const source = exact
+    ? [" Solved for exactly these inputs: "]
+    : [" Interpolated between solved ", term("seated state", "seated states"), " with friction 0.5: "];
+  return [
+    ...where,
+    ...source,
+    term("contact pressure"),
+    ` up to ${digits(most(shape.contact))} kPa, drawn as bars on the contact.`,
+  ];
 }
 
 function urine(inner, shape, x, y) {
@@ -61,28 +90,47 @@ function touching(inner, stone) {
 
 function pressureBars(contact, side, { x, y, length, top }) {
   const foot = contact.map(({ z, r }) => [x(z), y(side * r)]);
-  const tip = contact.map(({ z, r, nz, nr, pressure }) => [x(z) + (nz * length * pressure) / top, y(side * r) - (side * nr * length * pressure) / top]);
-  const bars = spread(foot).map((k) => line([foot[k], tip[k]])).join("");
-  return svg("g", {},
+  const tip = contact.map(({ z, r, nz, nr, pressure }) => [
+    x(z) + (nz * length * pressure) / top,
+    y(side * r) - (side * nr * length * pressure) / top,
+  ]);
+  const bars = spread(foot)
+    .map((k) => line([foot[k], tip[k]]))
+    .join("");
+  return svg(
+    "g",
+    {},
     svg("path", { class: "pressure-fill", d: `${line([...foot, ...tip.toReversed()])}Z` }),
-    svg("path", { class: "pressure-bars", d: bars + line(tip) }));
+    svg("path", { class: "pressure-bars", d: bars + line(tip) }),
+  );
 }
 
 /** Return indices of points that are at least `APART` from one another along their curve. */
 function spread(points) {
   let along = 0;
-  return points.map((_, k) => k).filter((k) => {
-    if (k === 0) return true;
-    along += Math.hypot(points[k][0] - points[k - 1][0], points[k][1] - points[k - 1][1]);
-    if (along < APART) return false;
-    along = 0;
-    return true;
-  });
+  return points
+    .map((_, k) => k)
+    .filter((k) => {
+      if (k === 0) return true;
+      along += Math.hypot(points[k][0] - points[k - 1][0], points[k][1] - points[k - 1][1]);
+      if (along < APART) return false;
+      along = 0;
+      return true;
+    });
 }
 
 function peakLabel(contact, x, y, perKilopascal) {
   const peak = contact.reduce((best, each) => (each.pressure > best.pressure ? each : best));
-  return svg("text", { class: "accent halo", x: x(peak.z), y: Math.max(14, y(peak.r) - perKilopascal * peak.pressure - 8), "text-anchor": "middle" }, `${digits(peak.pressure)} kPa`);
+  return svg(
+    "text",
+    {
+      class: "accent halo",
+      x: x(peak.z),
+      y: Math.max(14, y(peak.r) - perKilopascal * peak.pressure - 8),
+      "text-anchor": "middle",
+    },
+    `${digits(peak.pressure)} kPa`,
+  );
 }
 
 function extended(points, reach) {
@@ -100,17 +148,30 @@ function most(contact) {
 }
 
 function arrow(x, y, text) {
-  return svg("g", {},
+  return svg(
+    "g",
+    {},
     svg("text", { class: "halo", x, y: y - 8 }, text),
-    svg("path", { class: "arrow", d: `M${x} ${y}h36m-6 -4l6 4l-6 4` }));
+    svg("path", { class: "arrow", d: `M${x} ${y}h36m-6 -4l6 4l-6 4` }),
+  );
 }
 
 function scaleBar(width, height, perMm) {
   const size = [0.5, 1, 2, 5, 10, 20].find((each) => each * perMm >= 44) ?? 20;
   const x = width - 16 - size * perMm;
-  return svg("g", {},
-    svg("path", { class: "scale-bar", d: `M${x} ${height - 10}h${size * perMm}m0 -4v8M${x} ${height - 14}v8` }),
-    svg("text", { class: "halo", x: x + (size * perMm) / 2, y: height - 17, "text-anchor": "middle" }, `${plain(size)} mm`));
+  return svg(
+    "g",
+    {},
+    svg("path", {
+      class: "scale-bar",
+      d: `M${x} ${height - 10}h${size * perMm}m0 -4v8M${x} ${height - 14}v8`,
+    }),
+    svg(
+      "text",
+      { class: "halo", x: x + (size * perMm) / 2, y: height - 17, "text-anchor": "middle" },
+      `${plain(size)} mm`,
+    ),
+  );
 }
 
 function described(question, shape) {

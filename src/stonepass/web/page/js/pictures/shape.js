@@ -14,8 +14,17 @@ export function geometry(question, section) {
 
 function undeformed({ stone, inner, outer, aspect }) {
   const half = 2 * Math.max(stone * aspect, outer);
-  const wall = (radius) => [[-half, radius], [half, radius]];
-  return { stone: spheroid(stone / 2, aspect), inner: wall(inner / 2), outer: wall(outer / 2), contact: [], deformed: false };
+  const wall = (radius) => [
+    [-half, radius],
+    [half, radius],
+  ];
+  return {
+    stone: spheroid(stone / 2, aspect),
+    inner: wall(inner / 2),
+    outer: wall(outer / 2),
+    contact: [],
+    deformed: false,
+  };
 }
 
 function spheroid(radius, aspect) {
@@ -28,7 +37,13 @@ function spheroid(radius, aspect) {
 /** The server gives lengths in inner radii. */
 function deformed(radius, section) {
   const points = ({ z, r }) => z.map((each, k) => [radius * each, radius * r[k]]);
-  return { stone: points(section.stone), inner: points(section.inner), outer: points(section.outer), contact: section.contact ? pressed(points(section.contact), section.contact.pressure_kPa) : [], deformed: true };
+  return {
+    stone: points(section.stone),
+    inner: points(section.inner),
+    outer: points(section.outer),
+    contact: section.contact ? pressed(points(section.contact), section.contact.pressure_kPa) : [],
+    deformed: true,
+  };
 }
 
 /** Return the points of the contact with the normal of the curve through them, away from the axis. */

@@ -18,7 +18,11 @@ export function faces(shape) {
   ];
   for (const angle of CUT) {
     for (let k = 1; k < Math.min(inner.length, outer.length); k += 1) {
-      found.push({ kind: "cut", pressure: 0, corners: [at(inner[k - 1], angle), at(inner[k], angle), at(outer[k], angle), at(outer[k - 1], angle)] });
+      found.push({
+        kind: "cut",
+        pressure: 0,
+        corners: [at(inner[k - 1], angle), at(inner[k], angle), at(outer[k], angle), at(outer[k - 1], angle)],
+      });
     }
   }
   return { faces: found, size: Math.max(reach, ...outer.map(([, r]) => r)) };
@@ -32,17 +36,24 @@ export function project({ faces: all, size }, { turn, tilt }, canvas) {
     const [u, depth] = [z * ct + x * st, -z * st + x * ct];
     return [u, y * cp - depth * sp, y * sp + depth * cp];
   };
-  return all.map((face) => {
-    const corners = face.corners.map(seen);
-    const facing = normal(cross(minus(corners[2], corners[0]), minus(corners[3] ?? corners[1], corners[1])));
-    const light = Math.abs(facing[0] * LIGHT[0] + facing[1] * LIGHT[1] + facing[2] * LIGHT[2]);
-    return {
-      ...face,
-      light,
-      depth: corners.reduce((sum, each) => sum + each[2], 0) / corners.length,
-      corners: corners.map(([u, v]) => [canvas.clientWidth / 2 + u * scale, canvas.clientHeight / 2 - v * scale]),
-    };
-  }).sort((one, other) => one.depth - other.depth);
+  return all
+    .map((face) => {
+      const corners = face.corners.map(seen);
+      const facing = normal(
+        cross(minus(corners[2], corners[0]), minus(corners[3] ?? corners[1], corners[1])),
+      );
+      const light = Math.abs(facing[0] * LIGHT[0] + facing[1] * LIGHT[1] + facing[2] * LIGHT[2]);
+      return {
+        ...face,
+        light,
+        depth: corners.reduce((sum, each) => sum + each[2], 0) / corners.length,
+        corners: corners.map(([u, v]) => [
+          canvas.clientWidth / 2 + u * scale,
+          canvas.clientHeight / 2 - v * scale,
+        ]),
+      };
+    })
+    .sort((one, other) => one.depth - other.depth);
 }
 
 /** Prepare a canvas for the resolution of the screen and return its empty context. */
@@ -61,14 +72,30 @@ export function clear(canvas) {
 export function colours(canvas) {
   const probe = document.createElement("span");
   canvas.after(probe);
-  const base = Object.fromEntries([["stone", "--stone"], ["inner", "--wall"], ["outer", "--wall"], ["cut", "--wall-line"], ["accent", "--accent"]].map(([kind, name]) => {
-    probe.style.color = `var(${name})`;
-    return [kind, getComputedStyle(probe).color.match(/[\d.]+/g).slice(0, 3).map(Number)];
-  }));
+  const base = Object.fromEntries(
+    [
+      ["stone", "--stone"],
+      ["inner", "--wall"],
+      ["outer", "--wall"],
+      ["cut", "--wall-line"],
+      ["accent", "--accent"],
+    ].map(([kind, name]) => {
+      probe.style.color = `var(${name})`;
+      return [
+        kind,
+        getComputedStyle(probe)
+          .color.match(/[\d.]+/g)
+          .slice(0, 3)
+          .map(Number),
+      ];
+    }),
+  );
   probe.remove();
   return (kind, light, pressure) => {
     const strength = kind === "cut" ? 0.9 : 0.55 + 0.5 * light;
-    const mixed = base[kind].map((each, k) => (each * (1 - 0.85 * pressure) + base.accent[k] * 0.85 * pressure) * strength);
+    const mixed = base[kind].map(
+      (each, k) => (each * (1 - 0.85 * pressure) + base.accent[k] * 0.85 * pressure) * strength,
+    );
     return `rgb(${mixed.map((each) => Math.round(Math.min(255, each))).join(" ")})`;
   };
 }
@@ -79,7 +106,11 @@ function revolved(points, from, to, kind, pressure) {
   for (let k = 1; k < points.length; k += 1) {
     for (let j = 0; j < count; j += 1) {
       const [one, other] = [j, j + 1].map((each) => from + ((to - from) * each) / count);
-      found.push({ kind, pressure: pressure((points[k - 1][0] + points[k][0]) / 2), corners: [at(points[k - 1], one), at(points[k], one), at(points[k], other), at(points[k - 1], other)] });
+      found.push({
+        kind,
+        pressure: pressure((points[k - 1][0] + points[k][0]) / 2),
+        corners: [at(points[k - 1], one), at(points[k], one), at(points[k], other), at(points[k - 1], other)],
+      });
     }
   }
   return found;
@@ -91,7 +122,10 @@ function at([z, r], angle) {
 
 function pressureAt(contact, z) {
   if (!contact.length || z < contact[0].z || z > contact[contact.length - 1].z) return 0;
-  const k = Math.max(1, contact.findIndex((each) => each.z >= z));
+  const k = Math.max(
+    1,
+    contact.findIndex((each) => each.z >= z),
+  );
   const [one, other] = [contact[k - 1], contact[k]];
   return one.pressure + ((z - one.z) / (other.z - one.z || 1)) * (other.pressure - one.pressure);
 }

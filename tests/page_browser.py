@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import dataclass, field
+from pathlib import Path
 from urllib.request import Request, urlopen
 
 import pytest
@@ -153,6 +154,21 @@ def open_page(browser, server, watched):
 def page(open_page):
     """The page on a desktop, with its first answer."""
     return open_page()
+
+
+def faults_of_access(page):
+    """What axe-core finds on the page as it is, except for minor faults."""
+    import axe_playwright_python
+
+    script = Path(axe_playwright_python.__file__).parent / "axe.min.js"
+    page.evaluate(script.read_text("utf-8"))  # unlike a script element, the policy allows this
+    found = page.evaluate("() => axe.run(document, {resultTypes: ['violations']})")
+    assert len(found["passes"]) > 15  # the rules were applied
+    return [
+        f"{each['id']}: {each['help']}: {each['nodes'][0]['html'][:200]}"
+        for each in found["violations"]
+        if each["impact"] != "minor"
+    ]
 
 
 def settled(page):

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from page_browser import SECONDS, settled
+from page_browser import SECONDS, faults_of_access, settled
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -58,6 +58,7 @@ def test_assessment_of_a_patient(page):
     assert "not probabilities of passage" in told
     assert panel.locator(".reading .big").count() == 2
     assert panel.locator("figure svg").count() == 3
+    assert not faults_of_access(page)
     panel.get_by_text("Published cohorts beside it").click()
     assert panel.locator("table tbody tr").count() > 5
     for kind, beginning in (("HTML", b"<!doctype html>"), ("PDF", b"%PDF")):
@@ -78,6 +79,7 @@ def test_fitted_wall_is_taken_over(page):
     use.wait_for(timeout=SECONDS)
     assert panel.locator("figure circle").count() == 15
     assert "C10" in panel.locator("table").inner_text()
+    assert not faults_of_access(page)
     use.click()
     settled(page)
     assert page.get_by_label("Material of the wall").first.input_value() == "latex"
@@ -154,6 +156,7 @@ def test_friction_with_a_path_moved_by_keys_is_taken_over(page):
     shown = float(panel.locator(".reading .big").inner_text())
     assert shown == pytest.approx(0.52, abs=0.02)  # the slopes 0.38 and 0.12 of the picture
     assert "of 5 paths" in panel.inner_text()
+    assert not faults_of_access(page)
     use.click()
     settled(page)
     assert float(page.get_by_label("Friction coefficient", exact=True).first.input_value()) == shown

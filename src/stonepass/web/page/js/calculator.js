@@ -42,8 +42,9 @@ export function calculator(query, showLink) {
   const askMap = latest(
     "instant",
     (asked) => toInstant(asked, ["map"]),
-    (asked, answer) => {
+    (asked, answer, problem, last) => {
       if (answer) pictures.showMap(asked, answer.map ?? null);
+      if (last) root.dataset.map = "0";
     },
   );
   const mapWhenAtRest = atRest(askMap, (asked) => JSON.stringify(MAP_INPUTS.map((key) => asked[key])));
@@ -77,7 +78,7 @@ export function calculator(query, showLink) {
     inputs.show(question, found?.answer ?? null);
     solve.asked(question);
     ask(question);
-    mapWhenAtRest(question);
+    if (mapWhenAtRest(question)) root.dataset.map = "1";
   }
 
   function show(asked, answer, problem) {
@@ -101,15 +102,21 @@ export function calculator(query, showLink) {
   };
 }
 
-/** Return a function that passes a question on when its key has changed and then rests for a moment. */
+/**
+ * Return a function that passes a question on when its key has changed and then rests for a moment.
+ * It returns true if the question will be passed on.
+ */
 function atRest(pass, keyOf) {
   let passed = null;
   let timer = 0;
   let since = 0;
   return (question) => {
     const key = keyOf(question);
-    if (key === passed) return;
     clearTimeout(timer);
+    if (key === passed) {
+      since = 0;
+      return false;
+    }
     if (!since) since = performance.now();
     const rest =
       passed === null ? 0 : Math.max(0, Math.min(MAP_REST, since + MAP_LONGEST - performance.now()));
@@ -118,5 +125,6 @@ function atRest(pass, keyOf) {
       passed = key;
       pass(question);
     }, rest);
+    return true;
   };
 }

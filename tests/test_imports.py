@@ -43,6 +43,12 @@ SURROGATE = (
 )
 
 
+SERVER = (
+    "from stonepass.web.app import create_app; from stonepass.web.settings import ServerSettings; "
+    "create_app(ServerSettings())"
+)
+
+
 @pytest.mark.parametrize(
     ("statement", "absent"),
     [
@@ -53,6 +59,9 @@ SURROGATE = (
         (refusal("assess none.toml"), (*HEAVY, "scipy")),
         (refusal("sweep none.toml --out none"), (*HEAVY, "pyarrow", "distributed", "xarray")),
         (refusal("results none"), (*HEAVY, "pyarrow", "xarray")),
+        (refusal("serve --host 192.0.2.7"), (*HEAVY, "plotly", "typst", "autograd")),
+        (SERVER, (*HEAVY, "plotly", "typst")),
+        ("import stonepass.web.jobs.worker", (*HEAVY, "scipy.optimize", "fastapi", "uvicorn")),
         ("import stonepass; stonepass.read_sweep", (*HEAVY, "pyarrow", "distributed")),
         ("import stonepass", (*HEAVY, "numpy", "scipy", "pint", "pydantic", "typer", "autograd")),
         (door("--help"), (*HEAVY, "numpy", "scipy", "pint", "pydantic", "autograd", "rich")),

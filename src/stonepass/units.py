@@ -27,6 +27,7 @@ __all__ = [
     "format_pressure",
     "length",
     "pressure",
+    "text_pattern",
     "unit_ratio",
 ]
 
@@ -179,6 +180,17 @@ def format_length(value: float) -> str:
 def format_pressure(value: float) -> str:
     """Write pascals in kilopascals: ``format_pressure(12000.0) == '12 kPa'``."""
     return f"{value / PASCAL_PER['kPa']:.12g} kPa"
+
+
+def text_pattern(kind: type[Length] | type[Pressure]) -> str:
+    """Return a regular expression that the text of a length or of a pressure matches.
+
+    >>> import re
+    >>> [bool(re.search(text_pattern(Length), text)) for text in ("4.2 mm", "4,2mm", "4 kPa")]
+    [True, False, False]
+    """
+    units = "|".join(re.escape(unit) for unit in _FACTORS[kind])
+    return rf"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*({units})\s*$"
 
 
 def unit_ratio(unit: str, other: str) -> float | None:

@@ -6,6 +6,7 @@ from typing import Any
 
 from stonepass.declaration import DeclaredInput, Kind
 from stonepass.inputs.catalogue import models_with, sections
+from stonepass.units import Length, Pressure, text_pattern
 
 __all__ = ["case_schema", "property_schema"]
 
@@ -16,6 +17,10 @@ _TYPES: dict[Kind, Any] = {
     Kind.SHAPE: ["string", "object"],
     Kind.MATERIAL: ["string", "object"],
     Kind.OPENING_CURVE: ["string", "object"],
+}
+_QUANTITIES: dict[Kind, type[Length] | type[Pressure]] = {
+    Kind.LENGTH: Length,
+    Kind.PRESSURE: Pressure,
 }
 
 
@@ -48,6 +53,8 @@ def property_schema(each: DeclaredInput) -> dict[str, Any]:
         "type": _TYPES.get(declaration.kind, "string"),
         "description": _description(each),
     }
+    if declaration.kind in _QUANTITIES:
+        found["pattern"] = text_pattern(_QUANTITIES[declaration.kind])
     if declaration.choices:
         found["enum"] = list(declaration.choices)
     if declaration.bounds is not None and declaration.kind in (Kind.NUMBER, Kind.WHOLE):

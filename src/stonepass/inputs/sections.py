@@ -38,7 +38,7 @@ def section_model(section: str) -> type[FileSection]:
         schema = property_schema(each)
         meaning = schema.pop("description")
         extra: dict[str, Any] = {
-            key: schema[key] for key in ("enum", "minimum", "maximum") if key in schema
+            key: schema[key] for key in ("enum", "minimum", "maximum", "pattern") if key in schema
         }
         field = Field(None, description=meaning, json_schema_extra=extra)
         keys[name] = (_TYPES.get(each.declaration.kind, str) | None, field)

@@ -32,6 +32,7 @@ TITLES = {
     404: "There is nothing at this address",
     405: "The method is not allowed here",
     408: "The request did not arrive in time",
+    409: "The job ended without an answer",
     410: "What was here is gone",
     413: "The request is too large",
     415: "The content type is not supported",

@@ -163,9 +163,9 @@ class JobBook:
                     message = await process.run(request, lambda told: job.change(progress=told))
         except TimeoutError:
             await process.end()
-            self._fail(job, TOO_LONG.format(seconds=limits.job_seconds))
+            self._fail(job, TOO_LONG.format(seconds=limits.job_seconds), 422)
         except WorkerEnded as problem:
-            self._fail(job, ENDED.format(how=problem.how))
+            self._fail(job, ENDED.format(how=problem.how), 409)
         else:
             await self._conclude(job, message, process)
 
@@ -179,13 +179,11 @@ class JobBook:
         elif message["fault"] == "MemoryError":
             await process.end()  # what is left of its memory may not be enough for the next job
             memory = self._settings.limits.job_memory // 1_000_000
-            self._fail(job, NO_MEMORY.format(memory=memory))
+            self._fail(job, NO_MEMORY.format(memory=memory), 422)
         else:
-            self._fail(job, FAULT.format(name=message["fault"]))
+            self._fail(job, FAULT.format(name=message["fault"]), 500)
 
-    def _fail(
-        self, job: Job, detail: str, status: int = 500, field: str = "", value: str = ""
-    ) -> None:
+    def _fail(self, job: Job, detail: str, status: int, field: str = "", value: str = "") -> None:
         job.problem = problem_document(status, detail, field or None, value or None)
         self._end(job, Status.FAILED)
 

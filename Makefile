@@ -53,8 +53,8 @@ bench: $(VENV)/.dev ## timings against their targets
 
 lock: ## renew the lock files (needs uv)
 	uv pip compile pyproject.toml --group build --universal --generate-hashes --no-annotate --no-header -o requirements.lock
-	uv pip compile pyproject.toml --group dev --extra imaging --extra cluster --universal --generate-hashes --no-annotate --no-header -o requirements-dev.lock
-	uv pip compile pyproject.toml --group build --group test --extra imaging --extra cluster --resolution lowest-direct --python-version 3.11 --generate-hashes --no-annotate --no-header -o requirements-lowest.lock
+	uv pip compile pyproject.toml --group dev --extra imaging --extra cluster --extra web --universal --generate-hashes --no-annotate --no-header -o requirements-dev.lock
+	uv pip compile pyproject.toml --group build --group test --extra imaging --extra cluster --extra web --resolution lowest-direct --python-version 3.11 --generate-hashes --no-annotate --no-header -o requirements-lowest.lock
 
 clean: ## remove the environment and caches
 	rm -rf $(VENV) docs/_build docs/generated .pytest_cache .mypy_cache .ruff_cache .hypothesis

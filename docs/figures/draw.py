@@ -155,6 +155,7 @@ def _pressures():
 MEANINGS = {
     "__main__": "python -m stonepass",
     "cli": "command line: one sub-command per file",
+    "web": "HTTP API and page in the browser",
     "paper": "the published figures and claims",
     "report": "figures, tables, HTML",
     "records": "results as typed, versioned records",

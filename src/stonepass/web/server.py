@@ -6,6 +6,7 @@ import logging
 import os
 import socket
 import webbrowser
+from contextlib import suppress
 from typing import Any
 
 import uvicorn
@@ -37,7 +38,11 @@ def serve(settings: ServerSettings, *, browser: bool = True) -> None:
         The server cannot listen at the address.
     """
     server, listening = make_server(settings, browser=browser)
-    with one_thread():  # the small matrices of an answer gain nothing from several
+    # Ctrl-C is the usual way to stop a server.
+    with (
+        suppress(KeyboardInterrupt),
+        one_thread(),
+    ):  # the small matrices of an answer gain nothing from several
         server.run([listening])
 
 

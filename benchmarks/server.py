@@ -104,12 +104,19 @@ def memory(process: subprocess.Popen[str]) -> float:
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
+def processor(process: subprocess.Popen[str]) -> float:
+    """Processor time in s that a process has used."""
+    fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def started() -> list[Row]:
     """Time from the command to the first answer, and memory after a first instant answer."""
-    times, megabytes = [], []
+    times, spent, megabytes = [], [], []
     for _ in range(STARTS):
         with running() as (process, address, seconds):
             times.append(seconds)
+            spent.append(processor(process))
             httpx.post(f"{address}/api/v1/instant", json={"case": CASE} | ALL).raise_for_status()
             time.sleep(0.5)
             megabytes.append(memory(process))
@@ -117,6 +124,7 @@ def started() -> list[Row]:
         Row(
             SECTION, "start, until the first response (median)", statistics.median(times), "s", 1.5
         ),
+        Row(SECTION, "start, processor time", statistics.median(spent), "s", 1.5),
         Row(SECTION, "memory of the idle server (largest)", max(megabytes), "MB", 150.0),
     ]
 
@@ -124,12 +132,12 @@ def started() -> list[Row]:
 def latency() -> list[Row]:
     """Time of an instant answer with everything, one client, as a slider moves."""
     rows = []
-    with running() as (_, address, _), httpx.Client(base_url=address) as client:
+    with running() as (process, address, _), httpx.Client(base_url=address) as client:
         for what, section, name, low in (
             ("size of the stone changes", "stone", "diameter", 3.6),
             ("friction changes", "stone", "friction", 0.2),
         ):
-            times = []
+            times, before = [], processor(process)
             for k in range(LATENCIES):
                 value = low + 0.5 * k / LATENCIES
                 case = {**CASE, section: CASE[section] | {name: value}}
@@ -138,12 +146,14 @@ def latency() -> list[Row]:
                 began = time.perf_counter()
                 client.post("/api/v1/instant", json={"case": case} | ALL).raise_for_status()
                 times.append(1e3 * (time.perf_counter() - began))
+            spent = 1e3 * (processor(process) - before) / LATENCIES
             times.sort()
             p95 = times[int(0.95 * LATENCIES)]
             name = f"instant answer with curve, map and section; {what}"
             rows += [
                 Row(SECTION, f"{name}, median", statistics.median(times), "ms", 50.0),
                 Row(SECTION, f"{name}, 95th percentile", p95, "ms", 100.0),
+                Row(SECTION, f"{name}, processor time of the server", spent, "ms", 15.0),
             ]
     return rows
 

@@ -38,11 +38,9 @@ def serve(settings: ServerSettings, *, browser: bool = True) -> None:
         The server cannot listen at the address.
     """
     server, listening = make_server(settings, browser=browser)
-    # Ctrl-C is the usual way to stop a server.
-    with (
-        suppress(KeyboardInterrupt),
-        one_thread(),
-    ):  # the small matrices of an answer gain nothing from several
+    # Ctrl-C is the usual way to stop a server. The small matrices of an answer gain nothing from
+    # several threads.
+    with suppress(KeyboardInterrupt), one_thread():
         server.run([listening])
 
 

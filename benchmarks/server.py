@@ -56,9 +56,11 @@ def main() -> None:
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 60.0
     requests = int(sys.argv[2]) if len(sys.argv) > 2 else 5000
     load = os.getloadavg()[0]
-    rows = [*started(), *latency(), *jobs(), *loaded(seconds), *fuzzed(requests)]
-    for row in rows:
-        print(f"{row.what:<72} {row.value:>9.4g} {row.unit}", flush=True)
+    rows: list[Row] = []
+    for measure in (started, latency, jobs, lambda: loaded(seconds), lambda: fuzzed(requests)):
+        for row in measure():
+            rows.append(row)
+            print(f"{row.what:<72} {row.value:>9.4g} {row.unit}", flush=True)
     document = {
         "date": f"{date.today():%Y-%m-%d}",
         "machine": {

@@ -13,6 +13,7 @@ from stonepass.cli import run
 from stonepass.inputs.catalogue import all_inputs
 from stonepass.studies.sensitivity.evaluator import OUTCOMES, Evaluations
 from stonepass.studies.sensitivity.size_search import search_sizes
+from stonepass.web.documented import InstantDocument
 from stonepass.web.instant.answer import CAUSES
 from stonepass.web.instant.question import named_surrogate
 from stonepass.web.section.build import case_of_section, section_of
@@ -30,6 +31,7 @@ def asking():
 def instant(asking, case=CASE, **more):
     found = asking.post("/api/v1/instant", json={"case": case} | more)
     assert found.status_code == 200, found.text
+    InstantDocument.model_validate(found.json())  # as the description of the API says
     return found.json()
 
 

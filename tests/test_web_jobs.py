@@ -10,6 +10,8 @@ from web_server import CASE, LONG, QUICK, Limits, client, ended, running
 
 from stonepass.inputs.build import build_case
 from stonepass.model.critical import solve
+from stonepass.web.answers import Problem
+from stonepass.web.documented import JobDocument, UploadDocument
 from stonepass.web.jobs.bodies import JobBody, PressureJob
 from stonepass.web.jobs.worker import MODULES
 
@@ -28,6 +30,7 @@ def asking(tmp_path_factory):
 def ask(asking, body, status=202):
     found = asking.post("/api/v1/jobs", json=body)
     assert found.status_code == status, found.text
+    (JobDocument if status == 202 else Problem).model_validate(found.json())
     return found.json()
 
 
@@ -229,6 +232,7 @@ def upload(asking, kind, name, content_type, status=201, **query):
     headers = {"content-type": content_type}
     found = asking.post(f"/api/v1/uploads/{kind}", content=content, headers=headers, params=query)
     assert found.status_code == status, found.text
+    (UploadDocument if status == 201 else Problem).model_validate(found.json())
     return found.json()
 
 

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from stonepass.web.answers import PROBLEM_TYPE, TITLES, Problem
 
-__all__ = ["BUSY", "PROBLEMS", "JobDocument", "UploadDocument"]
+__all__ = ["BUSY", "PROBLEMS", "InstantDocument", "JobDocument", "UploadDocument"]
 
 _SCHEMA = {"$ref": "#/components/schemas/Problem"}
 
@@ -67,3 +67,57 @@ class UploadDocument(BaseModel):
         "a picture: width, height, pixel size, area of the surface and notes"
     )
     links: dict[str, str]
+
+
+class WarningDocument(BaseModel):
+    """A warning about the inputs of an answer."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    code: str = Field(description="code of the warning, which does not change with its sentence")
+    sentence: str
+    input: str = Field(description="key of the input that causes it")
+
+
+class RangeDocument(BaseModel):
+    """The range of an input within which the instant answer exists, in SI units."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    low: float
+    high: float
+    value: float
+    inside: bool
+    sentence: str
+
+
+class InstantDocument(BaseModel):
+    """The answer of a surrogate."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    answer: dict[str, Any] | None = Field(
+        description="the record of `stonepass surrogate evaluate` with message, sentence, model, "
+        "material and source; null if no surrogate describes the case"
+    )
+    size: dict[str, Any] | None = Field(
+        description="the largest stone that moves at the limit: outcome, message, sentence, "
+        "critical size ratio and diameter, or lower bounds; null without a limit"
+    )
+    curve: dict[str, list[Any]] | None = Field(
+        None, description="lists over the size of the stone; numbers that do not exist are null"
+    )
+    map: dict[str, Any] | None = Field(
+        None, description="grid of size ratio and wall ratio, and the passing line at the limit"
+    )
+    section: dict[str, Any] | None = Field(
+        None, description="outlines of stone and wall in inner radii, and the contact pressure"
+    )
+    validity: dict[str, RangeDocument] = Field(description="valid range of each input by its key")
+    warnings: list[WarningDocument]
+    repeat: dict[str, str | None] = Field(
+        description="command line, Python code and request that repeat the answer and the solve"
+    )
+    notice: str
+    version: str
+    fingerprint: str = Field(description="digest of the case")

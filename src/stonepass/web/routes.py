@@ -9,7 +9,7 @@ from fastapi import APIRouter, Request
 from stonepass.web import information
 from stonepass.web.answers import Json
 from stonepass.web.bodies import InstantBody
-from stonepass.web.documented import PROBLEMS
+from stonepass.web.documented import PROBLEMS, InstantDocument
 from stonepass.web.instant.answer import instant_answer
 
 __all__ = ["router"]
@@ -53,7 +53,12 @@ def glossary() -> Json:
     return Json(information.glossary())
 
 
-@router.post("/instant", tags=["answers"], summary="Answer of a surrogate")
+@router.post(
+    "/instant",
+    tags=["answers"],
+    summary="Answer of a surrogate",
+    responses={200: {"model": InstantDocument}},
+)
 def instant(body: InstantBody, request: Request) -> Json:
     """Answer by a surrogate within milliseconds, with curve, map and section if asked.
 

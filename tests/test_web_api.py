@@ -173,6 +173,7 @@ def test_a_loose_stone_and_one_beyond_the_closure_have_a_sentence(asking):
             {"ureter": {"inner_diameter": "3.5 mm", "outer_diameter": "3.7 mm"}},
             "ureter.outer_diameter",
         ),
+        ({"load": {"confining_pressure": "8 kPa"}}, "load.confining_pressure"),
         ({"load": {"confining_pressure": "90 kPa"}}, "load.confining_pressure"),
     ],
 )
@@ -213,7 +214,7 @@ def test_the_ranges_hold_for_the_surrogate_itself(asking):
 @pytest.mark.parametrize(
     ("case", "key"),
     [
-        (CASE | {"method": {"model": "direct"}}, "method.model"),
+        (CASE | {"method": {"model": "beam", "secant_stretch": 1.2}}, "method.model"),
         (CASE | {"method": {"as_printed": True}}, "method.model"),
         (CASE | {"stone": {"diameter": "4 mm", "aspect": 1.3}}, "stone.aspect"),
         (CASE | {"load": {"prestretch": 1.1}}, "load.prestretch"),
@@ -302,7 +303,9 @@ def test_the_command_and_the_python_code_repeat_the_answer(asking, capsys, stiff
     assert code == 0
     again = json.loads(out)[0]
     assert again.pop("outcome") == answer["outcome"]
-    assert again == {key: pytest.approx(answer[key], rel=1e-9) for key in again}
+    known = {key: each for key, each in again.items() if answer[key] is not None}
+    assert known == {key: pytest.approx(answer[key], rel=1e-9) for key in known}
+    assert all(again[key] is None for key in again.keys() - known.keys())
     exec(found["repeat"]["python"], {})
     again = eval(capsys.readouterr().out, {})
     assert again["critical_pressure_kPa"] == pytest.approx(

@@ -43,7 +43,7 @@ def answers(port):
         (b"GET /api/v1 HTTP/1.1\r\nHost: a\r\nHost: 127.0.0.1\r\n\r\n", b"4"),
         (b"GET /api/v1 HTTP/1.0\r\n\r\n", b"4"),
         (b"GET /" + b"a" * 70_000 + b" HTTP/1.1\r\nHost: localhost\r\n\r\n", b"4"),
-        (b"GET / HTTP/1.1\r\nHost: localhost\r\n" + b"X: y\r\n" * 20_000 + b"\r\n", b"4"),
+        (b"GET / HTTP/1.1\r\nHost: localhost\r\n" + b"X: y\r\n" * 20_000 + b"\r\n", b"431"),
         (b"POST /api/v1/instant HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n"
          b"Content-Length: 6\r\n\r\n{}", b"4"),
         (b"POST /api/v1/instant HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"

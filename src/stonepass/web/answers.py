@@ -39,6 +39,7 @@ TITLES = {
     421: "The request is addressed to another host",
     422: "An input is refused",
     429: "There are too many requests",
+    431: "The headers of the request are too large",
     500: "This is an error of stonepass",
 }
 

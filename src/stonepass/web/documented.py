@@ -23,7 +23,7 @@ def _documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
     }
 
 
-PROBLEMS = _documented(400, 401, 403, 404, 405, 408, 413, 415, 421, 422)
+PROBLEMS = _documented(400, 401, 403, 404, 405, 408, 413, 415, 421, 422, 431)
 BUSY = _documented(409, 410, 429)
 assert Problem.__name__ == _SCHEMA["$ref"].rpartition("/")[2]
 

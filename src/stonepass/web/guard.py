@@ -118,6 +118,11 @@ class Guard:
 
     def _refusal(self, scope: Scope, headers: Mapping[str, str]) -> Response | None:
         """Return the response to a request that must not be answered, else None."""
+        most = self.settings.limits.head
+        if sum(len(name) + len(value) for name, value in scope["headers"]) > most:
+            return problem_response(
+                431, f"The headers of a request must have at most {most} bytes."
+            )
         host = headers.get("host", "")
         if _name_of(host) not in self.settings.allowed_hosts:
             return problem_response(

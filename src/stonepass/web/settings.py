@@ -21,6 +21,8 @@ class Limits:
 
     Attributes
     ----------
+    head : int
+        Largest number of bytes of the headers of a request.
     body : int
         Largest number of bytes of a JSON request.
     upload : int
@@ -51,6 +53,7 @@ class Limits:
         Largest number of open streams of events.
     """
 
+    head: int = 32_768
     body: int = 256_000
     upload: int = 32_000_000
     uploads: int = 128_000_000

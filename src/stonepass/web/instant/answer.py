@@ -76,8 +76,7 @@ def instant_answer(
 def _numbers(question: InstantQuestion, surrogate: Surrogate) -> dict[str, Any]:
     """Return the parts of the answer that the surrogate computes."""
     case, held, limit = question.case, question.held, question.limit
-    low, high = surrogate.box.wall_ratio
-    along = held.inside(surrogate) and low <= case.wall_ratio <= high
+    along = held.inside(surrogate, case.wall_ratio)
     # The answer and the curve are evaluated at once, which is faster.
     sizes = curve_sizes(surrogate) if along else np.empty(0)
     found = held.answers(surrogate, np.append(sizes, case.size_ratio), case.wall_ratio)

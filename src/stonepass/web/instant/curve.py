@@ -51,7 +51,7 @@ def curve(question: InstantQuestion, surrogate: Surrogate, found: SurrogateAnswe
 
 def lowest_size(surrogate: Surrogate) -> float:
     """Return a multiple of 0.05 that is smaller than the narrowest lumen of a surrogate."""
-    return max(SIZE_RATIO[0], float(np.ceil(20.0 * surrogate.narrowest) - 1.0) / 20.0)
+    return max(SIZE_RATIO[0], float(np.ceil(20.0 * surrogate.stable.narrowest) - 1.0) / 20.0)
 
 
 def answers_by_column(found: SurrogateAnswers) -> Columns:

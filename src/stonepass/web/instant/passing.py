@@ -76,7 +76,9 @@ def passing_sizes(
         excess = answers.pressure.filled(np.inf).reshape(sizes.shape) - limit
     low, high, below, above = _bracket(sizes, excess)
     known = np.isfinite(above)
-    part = np.divide(-below, above - below, out=np.zeros(len(walls)), where=known & reached)
+    known &= np.isfinite(below)  # a wall that is not covered has no pressure at all
+    change = np.subtract(above, below, out=np.ones(len(walls)), where=known)
+    part = np.where(known & reached, -below / change, 0.0)
     loaded = surrogate.lumen is not None  # P_ucr of a stone as large as the lumen may then jump
     at_lumen = np.asarray((below == -limit) & loaded)
     found = low + np.where(at_lumen, 0.0, part) * (high - low)

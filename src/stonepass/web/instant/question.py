@@ -6,6 +6,8 @@ from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from stonepass.clinic.patient import STIFFNESS
 from stonepass.declaration import Input, Kind
 from stonepass.model.case import Case
@@ -19,6 +21,7 @@ __all__ = [
     "Held",
     "InstantQuestion",
     "Obstacle",
+    "largest_load",
     "named_surrogate",
     "obstacles",
     "surrogate_for",
@@ -55,11 +58,17 @@ class Held:
         """Return the answers of a surrogate for numbers or arrays of sizes."""
         return surrogate.evaluate(size_ratio=size_ratio, wall_ratio=wall_ratio, **asdict(self))
 
-    def inside(self, surrogate: Surrogate) -> bool:
-        """Return True if these inputs are in the box of a surrogate."""
+    def inside(self, surrogate: Surrogate, wall_ratio: float | None = None) -> bool:
+        """Return True if these inputs are in the box of a surrogate, for one wall or for some."""
         low, high = surrogate.box.friction
-        most = self.stiffness * float(surrogate.case.load.confining_pressure)
-        return low <= self.friction <= high and self.confining_pressure <= most
+        thin, thick = surrogate.box.wall_ratio
+        wall = thick if wall_ratio is None else wall_ratio
+        most = self.stiffness * largest_load(surrogate, wall)
+        return (
+            low <= self.friction <= high
+            and thin <= wall <= thick
+            and (self.confining_pressure <= most)
+        )
 
 
 @dataclass(frozen=True)
@@ -109,6 +118,12 @@ def surrogate_for(case: Case) -> Surrogate | None:
     """Return the surrogate of the package for the material and the model of a case, or None."""
     name = (case.ureter.material.reference, case.model.NAME)
     return named_surrogate(*name) if name in shipped_surrogates() else None
+
+
+def largest_load(surrogate: Surrogate, wall_ratio: float) -> float:
+    """Return the largest confining pressure in Pa for a wall with the stiffness of the material."""
+    factor = float(surrogate.stable(np.array([wall_ratio]))[0])
+    return factor * float(surrogate.case.load.confining_pressure)
 
 
 @lru_cache(maxsize=16)
@@ -164,10 +179,11 @@ def _without_surrogate(case: Case) -> Obstacle:
             f"The instant answer exists for the model {words} only; solve by finite elements "
             "instead.",
         )
-    words = " and ".join(f"'{each}'" for each in materials)
+    words = "material" if len(materials) == 1 else "materials"
+    words += " " + " and ".join(f"'{each}'" for each in materials)
     name = f"'{material}'" if material else "your own constants"
     return Obstacle(
         "ureter.material",
-        f"The instant answer exists for the materials {words} only, and not for {name}; solve by "
-        "finite elements instead.",
+        f"With the model '{model}' the instant answer exists for the {words} only, and not for "
+        f"{name}; solve by finite elements instead.",
     )

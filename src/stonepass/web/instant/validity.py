@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from stonepass.studies.surrogates.surrogate import Surrogate
-from stonepass.units import format_length, format_pressure
-from stonepass.web.instant.question import STIFFNESS_INPUT, InstantQuestion
+from stonepass.web.instant.question import STIFFNESS_INPUT, InstantQuestion, largest_load
 
 __all__ = ["validity"]
 
@@ -30,14 +31,15 @@ def validity(question: InstantQuestion, surrogate: Surrogate) -> dict[str, dict[
         and pressures in Pa.
     """
     case, box = question.case, surrogate.box
-    most = question.stiffness * surrogate.case.load.confining_pressure
+    most = question.stiffness * largest_load(surrogate, case.wall_ratio)
     confining = float(case.load.confining_pressure)
+    low_wall, high_wall = _walls(question, surrogate)
     found = {
         "stone.size_ratio": _range(0.0, box.size_ratio, case.size_ratio, "The size ratio"),
-        "ureter.wall_ratio": _range(*box.wall_ratio, case.wall_ratio, "The wall ratio"),
+        "ureter.wall_ratio": _range(low_wall, high_wall, case.wall_ratio, "The wall ratio"),
         "stone.friction": _range(*box.friction, case.stone.friction, "The friction coefficient"),
         "load.confining_pressure": _range(
-            0.0, most, confining, "The confining pressure", format_pressure
+            0.0, most, confining, "The confining pressure", _kilopascals
         ),
         "stiffness": _stiffness(question, surrogate),
     }
@@ -45,29 +47,47 @@ def validity(question: InstantQuestion, surrogate: Surrogate) -> dict[str, dict[
     diameter = case.stone_diameter
     if inner is not None and diameter is not None:
         found["stone.diameter"] = _range(
-            0.0, box.size_ratio * inner, diameter, "The diameter of the stone", format_length
+            0.0, box.size_ratio * inner, diameter, "The diameter of the stone", _millimetres
         )
-        low, high = (float(inner) * each for each in box.wall_ratio)
+        low, high = (float(inner) * each for each in (low_wall, high_wall))
         if case.ureter.outer_diameter is not None:
             outer = float(case.ureter.outer_diameter)
             found["ureter.outer_diameter"] = _range(
-                low, high, outer, "The outer diameter of the ureter", format_length
+                low, high, outer, "The outer diameter of the ureter", _millimetres
             )
             walls = [(each - inner) / 2.0 for each in (low, high, outer)]
             found["ureter.wall_thickness"] = _range(
-                walls[0], walls[1], walls[2], "The thickness of the wall", format_length
+                walls[0], walls[1], walls[2], "The thickness of the wall", _millimetres
             )
     return found
+
+
+def _kilopascals(pressure: float) -> str:
+    return f"{pressure / 1e3:.4g} kPa"
+
+
+def _millimetres(length: float) -> str:
+    return f"{1e3 * length:.4g} mm"
 
 
 def _stiffness(question: InstantQuestion, surrogate: Surrogate) -> dict[str, Any]:
     """Return the range of the stiffness; a load needs a wall that is stiff enough."""
     low, high = STIFFNESS_INPUT.bounds or (0.0, 1.0)
     confining = float(question.case.load.confining_pressure)
-    most = float(surrogate.case.load.confining_pressure)
+    most = largest_load(surrogate, question.case.wall_ratio)
     if confining > 0.0 and most > 0.0:
         low = max(low, confining / most)
     return _range(low, high, question.stiffness, "The stiffness factor of the wall")
+
+
+def _walls(question: InstantQuestion, surrogate: Surrogate) -> tuple[float, float]:
+    """Return the range of the wall ratio; a load needs a wall that does not buckle."""
+    low, high = surrogate.box.wall_ratio
+    confining = float(question.case.load.confining_pressure) / question.stiffness
+    most, stable = float(surrogate.case.load.confining_pressure), surrogate.stable
+    if confining <= most * stable.factor[0]:
+        return low, high
+    return float(np.interp(confining / most, stable.factor, stable.wall_ratio)), high
 
 
 def _range(low: float, high: float, value: float, name: str, shown: Any = None) -> dict[str, Any]:

@@ -55,9 +55,15 @@ export function patientResults(record) {
     h(
       "p",
       { class: "small quiet mark" },
-      `${record.inputs.samples} simulated cases, seed ${record.inputs.seed}, ${record.accuracy.solves} solved cases, limit ${plain(record.inputs.limit_kPa)} kPa: ${record.inputs.limit_source}. stonepass ${record.version}. ${record.disclaimer}`,
+      `${record.inputs.samples} simulated cases, seed ${record.inputs.seed}, ${solved(record.accuracy)}, limit ${plain(record.inputs.limit_kPa)} kPa: ${record.inputs.limit_source}. stonepass ${record.version}. ${record.disclaimer}`,
     ),
   ];
+}
+
+function solved(accuracy) {
+  return accuracy.solves === 0
+    ? "pressures by a surrogate of the package"
+    : `${accuracy.solves} solved cases`;
 }
 
 function pressure(title, range) {

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import stonepass as sp
 
-EXTRAS = {"SurfaceTopography"}  # the extra `imaging`, not installed here
+# Libraries of the extras `imaging` and `web`, which are not installed here.
+EXTRAS = {"SurfaceTopography", "fastapi", "h11", "starlette", "uvicorn"}
 MODULES = 100  # at least; fewer means that a package was left out of the wheel
 
 
@@ -30,7 +31,8 @@ def main() -> None:
     """Fail with a traceback where something is missing."""
     home, checkout = Path(sp.__file__).resolve(), Path(sys.argv[1]).resolve()
     assert not home.is_relative_to(checkout / "src"), f"the sources were imported: {home}"
-    assert (home.parent / "py.typed").is_file()
+    for name in ("py.typed", "web/page/index.html", "web/page/js/main.js"):
+        assert (home.parent / name).is_file(), name
     found = modules()
     assert found >= MODULES, found
     for name in sp.__all__:

@@ -17,7 +17,7 @@ export function verdict(question, found) {
       ? [
           `At ${limit} `,
           { strong: "this stone does not move" },
-          `: it needs more than ${bound} kPa, where the paper’s model ends.`,
+          `: it needs more than ${bound} kPa (end of the model).`,
         ]
       : [
           `At ${limit} `,
@@ -31,7 +31,7 @@ export function verdict(question, found) {
     return [
       `At ${limit} `,
       { strong: "the instant answer cannot decide" },
-      " whether this stone moves: the difference is smaller than its error.",
+      ": the difference is within its error.",
     ];
   }
   if (pressure < question.limit) {

@@ -11,6 +11,7 @@ const LATER = {
 };
 const TABS = ["calculator", ...Object.keys(LATER)];
 const opened = new Set(["calculator"]);
+let written = ""; // the address that this page has written last, until its event has come
 
 const [firstTab, firstQuery] = address();
 const chosen = calculator(firstQuery, (query) => {
@@ -31,7 +32,9 @@ document.querySelector(".tabs").addEventListener("keydown", (event) => {
 });
 window.addEventListener("hashchange", () => {
   const [tab, query] = address();
-  if (tab === "calculator" && query) chosen.open(query);
+  // The event of an address that this page has written comes late: inputs may have changed since.
+  if (tab === "calculator" && query && window.location.hash !== written) chosen.open(query);
+  written = "";
   show(tab);
 });
 theme();
@@ -47,7 +50,8 @@ function address() {
 }
 
 function go(name) {
-  window.location.hash = name === "calculator" ? `calculator?${chosen.link()}` : name;
+  written = `#${name === "calculator" ? `calculator?${chosen.link()}` : name}`;
+  window.location.hash = written;
   show(name);
 }
 

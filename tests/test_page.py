@@ -123,6 +123,18 @@ def test_nothing_is_extrapolated(page):
     assert control.locator(".note").get_attribute("data-state") == "warning"
 
 
+@pytest.mark.parametrize("material", ["ureter", "latex"])
+def test_loads_are_answered_or_refused_beside_their_slider(open_page, material):
+    """No surrogate reaches 60 kPa, and each answers without a load."""
+    page = open_page(f"#calculator?stone=4.2mm&inner=3.5mm&thickness=0.52mm&material={material}")
+    assert page.locator(".reading .big").count() == 2
+    page.get_by_label("Confining pressure", exact=True).fill("60")
+    settled(page)
+    assert page.locator(".reading").first.locator(".big").count() == 0
+    control = page.locator(".control", has=page.get_by_label("Confining pressure, slider"))
+    assert control.locator(".note").get_attribute("data-state") == "warning"
+
+
 def test_shape_without_a_surrogate_warns_beside_its_slider(page):
     page.get_by_label("Length over width", exact=True).fill("1.4")
     settled(page)

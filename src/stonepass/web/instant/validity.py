@@ -85,7 +85,8 @@ def _walls(question: InstantQuestion, surrogate: Surrogate) -> tuple[float, floa
     low, high = surrogate.box.wall_ratio
     confining = float(question.case.load.confining_pressure) / question.stiffness
     most, stable = float(surrogate.case.load.confining_pressure), surrogate.stable
-    if confining <= most * stable.factor[0]:
+    # Without a load in the box, no wall ratio would help: the load itself is out of range.
+    if most == 0.0 or confining <= most * stable.factor[0]:
         return low, high
     return float(np.interp(confining / most, stable.factor, stable.wall_ratio)), high
 

@@ -93,9 +93,7 @@ export function inputsPanel(given) {
       const range = ranges[key];
       const outside =
         range && found && (question[key] < range.low * (1 - 1e-9) || question[key] > range.high * (1 + 1e-9));
-      const short = outside
-        ? `No instant answer outside ${digits(range.low)} to ${digits(range.high)}${space(FIELDS[key].unit)}. Solve by finite elements instead.`
-        : "";
+      const short = outside ? outsideWords(range, FIELDS[key].unit) : "";
       each.show(question[key], range, said[key], short || warned[key] || "");
     }
     controls.thickness.element.hidden = question.wall === "outer";
@@ -179,6 +177,11 @@ function warnings(found, problem) {
     warned[keyOf(each.input)] ??= SHORTER[each.code] ?? sentence(each.sentence);
   if (problem?.field) warned[keyOf(problem.field)] = sentence(problem.message);
   return warned;
+}
+
+function outsideWords({ low, high }, unit) {
+  const valid = low === high ? `Only ${digits(low)}` : `Only ${digits(low)} to ${digits(high)}`;
+  return `${valid}${space(unit)} has an instant answer. Solve by finite elements instead.`;
 }
 
 function space(unit) {

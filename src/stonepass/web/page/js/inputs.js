@@ -180,8 +180,8 @@ function warnings(found, problem) {
 }
 
 function outsideWords({ low, high }, unit) {
-  const valid = low === high ? `Only ${digits(low)}` : `Only ${digits(low)} to ${digits(high)}`;
-  return `${valid}${space(unit)} has an instant answer. Solve by finite elements instead.`;
+  const valid = low === high ? digits(low) : `${digits(low)} to ${digits(high)}`;
+  return `The instant answer covers ${valid}${space(unit)} only. Solve by finite elements instead.`;
 }
 
 function space(unit) {

@@ -61,6 +61,11 @@ def main() -> None:
         for row in measure():
             rows.append(row)
             print(f"{row.what:<72} {row.value:>9.4g} {row.unit}", flush=True)
+        write(rows, load)  # a run that is stopped leaves what it has measured
+
+
+def write(rows: list[Row], load: float) -> None:
+    """Write the file and the table; `load` is the load average before the first measurement."""
     document = {
         "date": f"{date.today():%Y-%m-%d}",
         "machine": {

@@ -95,7 +95,12 @@ def test_the_answer_is_that_of_the_surrogate(asking):
     assert "kPa" in answer["sentence"]
     assert "mmHg" in answer["sentence"]
     assert "cmH₂O" in answer["sentence"]
-    solved = sp.solve(case)
+
+
+@pytest.mark.slow
+def test_the_answer_is_near_that_of_the_finite_elements(asking):
+    solved = sp.solve(sp.Case(sp.Stone("4.2 mm"), sp.Ureter("3.5 mm", "4.54 mm")))
+    answer = instant(asking)["answer"]
     assert abs(solved.pressure_kPa - answer["critical_pressure_kPa"]) < 0.1
 
 
@@ -121,8 +126,8 @@ def test_curve_and_map_are_evaluations_of_the_surrogate(asking):
 
 
 @pytest.mark.parametrize("material", ["ureter", "latex"])
-@pytest.mark.parametrize("friction", [0.05, 0.5, 0.9])
-@pytest.mark.parametrize("limit", [0.5, 6.0, 12.0, 60.0])
+@pytest.mark.parametrize("friction", [0.05, 0.9])
+@pytest.mark.parametrize("limit", [0.5, 12.0])
 def test_the_largest_stone_is_that_of_a_finer_search(asking, material, friction, limit):
     """The search of the sensitivity study halves the interval 24 times."""
     case = {

@@ -18,6 +18,7 @@ __all__ = [
     "StonepassError",
     "UnstableLaw",
     "did_you_mean",
+    "lacks_memory",
     "nearest",
     "refuse_unknown",
     "require",
@@ -27,6 +28,14 @@ __all__ = [
 NEAR = 0.5  # similarity of a word and the name that was probably meant, from 0 to 1
 # Largest numbers of characters of a value and of the description of allowed values in a message.
 LONGEST, LONGEST_ALLOWED = 80, 300
+# Parts of the messages by which libraries say that the machine lacks memory.
+NO_MEMORY = (
+    "bad_alloc",
+    "allocate memory",
+    "could not allocate",
+    "failed to map segment",
+    "can't start new thread",
+)
 _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 200
 
@@ -212,3 +221,9 @@ def refuse_unknown(argument: str, value: str, known: list[str], otherwise: str =
     remedies = [did_you_mean(value, known).removeprefix("; "), otherwise]
     remedy = "; ".join(filter(None, remedies))
     raise BadInput(argument, value, "one of " + ", ".join(known), remedy)
+
+
+def lacks_memory(problem: BaseException) -> bool:
+    """Return True if an error of any library means that the machine lacks memory."""
+    text = str(problem).lower()
+    return isinstance(problem, MemoryError) or any(sign in text for sign in NO_MEMORY)

@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from stonepass.cli.encoding import spell_what_is_lacking
-from stonepass.errors import did_you_mean
+from stonepass.errors import did_you_mean, lacks_memory
 
 __all__ = ["main"]
 
@@ -26,13 +26,6 @@ EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
 COMPLETION = "_STONEPASS_COMPLETE"  # set by a shell that asks for completions
 WAYS = "; --cache DIR chooses another folder, --no-cache works without one"
 RENAMED = {"--relief": "--height-range", "--pairs": "--opening-curve"}
-NO_MEMORY = (
-    "bad_alloc",
-    "allocate memory",
-    "could not allocate",
-    "failed to map segment",
-    "can't start new thread",
-)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -129,8 +122,7 @@ def _cache_warnings() -> Iterator[None]:
 
 def _beyond_the_machine(problem: Exception) -> str | None:
     """Return a sentence if the machine lacks memory or room for output, else None."""
-    text = str(problem).lower()
-    if isinstance(problem, MemoryError) or any(sign in text for sign in NO_MEMORY):
+    if lacks_memory(problem):
         return (
             "there is not enough memory for this command; close other programs or raise the limit."
         )

@@ -22,7 +22,7 @@ from typing import IO, Any
 
 from pydantic import ValidationError
 
-from stonepass.errors import BadInput
+from stonepass.errors import BadInput, lacks_memory
 from stonepass.inputs.build import in_words
 from stonepass.sandbox.worker import limit_memory
 from stonepass.web.jobs.context import Context, Done
@@ -79,11 +79,8 @@ def _answer(request: Mapping[str, Any], writing: IO[bytes]) -> dict[str, Any]:
     except ValidationError as problem:
         first = problem.errors()[0]
         return {"refused": [f"The request is not valid: {first['msg']}.", "", ""]}
-    except MemoryError:
-        return {"fault": "MemoryError"}
     except Exception as problem:
-        lacking = any(sign in str(problem).lower() for sign in ("bad_alloc", "allocate"))
-        return {"fault": "MemoryError" if lacking else type(problem).__name__}
+        return {"fault": "MemoryError" if lacks_memory(problem) else type(problem).__name__}
 
 
 def _refusal(problem: BadInput) -> list[str]:

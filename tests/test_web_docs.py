@@ -1,6 +1,7 @@
 """The commands of the page about the API run, and its tables are complete."""
 
 import re
+import runpy
 import shutil
 import subprocess
 from pathlib import Path
@@ -54,3 +55,9 @@ def test_the_page_lists_every_address_kind_and_status():
     statuses = PAGE.split("## Problems")[1]
     for status in TITLES.keys() - {405, 500}:
         assert str(status) in statuses
+
+
+def test_the_words_of_the_page_are_those_of_the_glossary():
+    written = runpy.run_path(str(ROOT / "docs" / "write_reference.py"))["glossary_words"]()
+    kept = ROOT / "src" / "stonepass" / "web" / "glossary.json"
+    assert kept.read_text(encoding="utf-8") == written, "write it again: docs/write_reference.py"

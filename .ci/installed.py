@@ -6,6 +6,8 @@ import sys
 from pathlib import Path
 
 import stonepass as sp
+from stonepass.web.information import glossary
+from stonepass.web.section.grid import grid_of
 
 # Libraries of the extras `imaging` and `web`, which are not installed here.
 EXTRAS = {"SurfaceTopography", "fastapi", "h11", "starlette", "uvicorn"}
@@ -46,6 +48,8 @@ def main() -> None:
     assert 40e3 < held.pressure < 43e3, held.pressure
     quick = sp.load_surrogate("latex").evaluate(size_ratio=1.2, wall_ratio=1.5, friction=0.5)
     assert quick.answered.all()
+    assert len(glossary()) > 50
+    assert grid_of("ureter") is not None
     print(f"The installed wheel has {found} modules and answers.")
 
 

@@ -119,9 +119,7 @@ def test_nothing_is_extrapolated(page):
     assert first.locator(".big").count() == 0
     assert not re.search(r"\d+ mmHg", first.inner_text())
     control = page.locator(".control", has=page.get_by_label("Diameter across the ureter, slider"))
-    assert (
-        "The instant answer covers" in control.locator(".note").inner_text()
-    )
+    assert "The instant answer covers" in control.locator(".note").inner_text()
     assert control.locator(".note").get_attribute("data-state") == "warning"
 
 

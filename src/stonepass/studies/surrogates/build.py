@@ -25,6 +25,7 @@ from stonepass.studies.surrogates.box import (
     Setting,
     fit_lumen,
 )
+from stonepass.studies.surrogates.buckling_limit import stable_loads
 from stonepass.studies.surrogates.build_held import build_held_stone
 from stonepass.studies.surrogates.claimed_error import FLOOR, claimed_error
 from stonepass.studies.surrogates.domain import Domain
@@ -34,7 +35,6 @@ from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
-from stonepass.studies.surrogates.stable_loads import stable_loads
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_surrogate"]

@@ -19,6 +19,7 @@ from stonepass.model.numerics import Numerics
 from stonepass.studies.case_solver import CaseSolver
 from stonepass.studies.conditions import Conditions, case_at
 from stonepass.studies.surrogates.box import Box, Setting
+from stonepass.studies.surrogates.buckling_limit import stable_loads
 from stonepass.studies.surrogates.claimed_error import FLOOR, claimed_error
 from stonepass.studies.surrogates.domain import Domain
 from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions
@@ -27,7 +28,6 @@ from stonepass.studies.surrogates.learnt import half_width
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.solved import MOVES
-from stonepass.studies.surrogates.stable_loads import stable_loads
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_held_stone"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +63,7 @@ def create_app(settings: ServerSettings) -> Guard:
 
 
 def _add_page(app: FastAPI) -> None:
-    """Serve the files of the page, and the library for its view in three dimensions."""
+    """Serve the files of the page."""
 
     @app.get("/", include_in_schema=False)
     def page() -> Response:
@@ -73,17 +72,6 @@ def _add_page(app: FastAPI) -> None:
         if not index.is_file():
             return problem_response(404, "This installation of stonepass has no page.")
         return FileResponse(index, media_type="text/html; charset=utf-8")
-
-    @app.get("/vendor/plotly.min.js", include_in_schema=False)
-    def plotly() -> Response:
-        """Return plotly.js from the installed library of that name."""
-        found = find_spec("plotly")
-        folders = [] if found is None else list(found.submodule_search_locations or [])
-        for folder in folders:
-            script = Path(folder) / "package_data" / "plotly.min.js"
-            if script.is_file():
-                return FileResponse(script, media_type="text/javascript; charset=utf-8")
-        return problem_response(404, "The library plotly is not installed.")
 
     app.mount("/assets", StaticFiles(directory=PAGE, check_dir=False), name="assets")
 

@@ -254,7 +254,7 @@ def _same_origin(headers: Mapping[str, str], host: str) -> bool:
 
 def _with_headers(send: Send, path: str) -> Send:
     """Return a sender that adds the headers of security to every response."""
-    kept = path.startswith(("/assets/", "/vendor/"))
+    kept = path.startswith("/assets/")
 
     async def sending(message: Message) -> None:
         if message["type"] == "http.response.start":

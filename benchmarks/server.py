@@ -4,7 +4,8 @@
 
 Writes docs/data/server_benchmark.json and the table of docs/server.md. SECONDS is the duration of
 the load by 50 clients, 60 by default; REQUESTS is the number of requests that schemathesis makes,
-5000 by default; with 0 the numbers of the last run that made requests are kept. All requests go to a server that this script starts on the loopback interface.
+5000 by default. With 0 the numbers of the last run that made requests are kept. All requests go to
+a server that this script starts on the loopback interface.
 """
 
 from __future__ import annotations

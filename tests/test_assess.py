@@ -219,6 +219,7 @@ def test_a_surrogate_answers_where_it_covers_the_inputs(tmp_path, shared_solutio
     assert "the surrogate 'ureter' of the package" in (tmp_path / "page.html").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_a_surrogate_and_a_response_surface_agree(tmp_path, shared_solutions):
     someone = patient(tmp_path, stone="4.2 mm ± 0.5 mm", friction="0.1 to 0.4",
                       wall="0.7 mm ± 0.05 mm")  # fmt: skip

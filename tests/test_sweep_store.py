@@ -145,7 +145,8 @@ def assert_equal_bit_for_bit(folder, whole):
 def test_three_kills_lose_nothing(tmp_path, whole):
     folder = tmp_path / "s"
     assert kill_at_random(Forked, folder, 3, seed=1) == 3
-    assert 0 < len(sp.read_results(folder)) < 128
+    # The last kill may come after the last block was stored and before the process ends.
+    assert len(sp.read_results(folder)) > 0
     sp.sweep(LARGE, folder, resume=True, block_cases=8)
     assert_equal_bit_for_bit(folder, whole)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import Outcome
 from stonepass.studies.surrogates.surrogate import Surrogate
@@ -16,10 +17,11 @@ from stonepass.web.instant.question import Held
 
 __all__ = ["Passing", "passing_sizes", "tabulated_sizes"]
 
-TABULATED = 33  # number of size ratios of the table
+TABULATED = 41  # number of size ratios of the table
 PIECES = 12  # number of parts into which the interval of the table is divided
 
 
+@array_dataclass
 @dataclass(frozen=True)
 class Passing:
     """The largest stones that move at a pressure limit, for n walls.
@@ -78,7 +80,7 @@ def passing_sizes(
     known = np.isfinite(above)
     known &= np.isfinite(below)  # a wall that is not covered has no pressure at all
     change = np.subtract(above, below, out=np.ones(len(walls)), where=known)
-    part = np.where(known & reached, -below / change, 0.0)
+    part = np.divide(-below, change, out=np.zeros(len(walls)), where=known & reached)
     loaded = surrogate.lumen is not None  # P_ucr of a stone as large as the lumen may then jump
     at_lumen = np.asarray((below == -limit) & loaded)
     found = low + np.where(at_lumen, 0.0, part) * (high - low)

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.inputs.case_record import describe_material
 from stonepass.materials.catalogue import CATALOGUE
@@ -31,6 +32,7 @@ FOLDER = "solved"
 NAMES = ("inner_z", "inner_r", "outer_z", "outer_r", "angle", "pressure")
 
 
+@array_dataclass
 @dataclass(frozen=True)
 class Section:
     """A section: half of it, from the equator of the stone downstream; lengths in inner radii.
@@ -53,6 +55,7 @@ class Section:
     pressure: Float[np.ndarray, " m"]
 
 
+@array_dataclass
 @dataclass(frozen=True)
 class SectionGrid:
     """Solved sections of one material.

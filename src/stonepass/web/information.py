@@ -1,4 +1,4 @@
-"""What the API tells about itself: inputs, materials, pressure limits, words."""
+"""Information that the API gives about itself: inputs, materials, pressure limits, words."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ MINUTE = 60.0
 
 @dataclass
 class _Bucket:
-    """What a client may still ask for, at some time."""
+    """The number of requests that a client may still make, at some time."""
 
     left: float
     at: float

@@ -1,4 +1,4 @@
-"""What the server holds in memory while it runs."""
+"""The state that the server holds in memory while it runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a worker process gives to the function that does a job."""
+"""The context that a worker process gives to the function that does a job."""
 
 from __future__ import annotations
 

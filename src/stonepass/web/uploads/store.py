@@ -37,7 +37,7 @@ class Upload:
         Ending of the name under which it is read.
     content : bytes
     summary : dict
-        What the file contains.
+        Description of the content of the file.
     preview : bytes
         The picture as PNG; empty for a table.
     used : float

@@ -1,1 +1,1 @@
-"""What a worker process does for each kind of job; each module loads the libraries it needs."""
+"""The work for each kind of job in a worker process; each module loads the libraries it needs."""

@@ -1,4 +1,4 @@
-// What the page computes and how, what it does not, its sources, and the words it uses.
+// The panel "About": what the page computes and how, what it does not, its sources, and its words.
 
 import { get } from "./api.js";
 import { fill, h } from "./dom.js";

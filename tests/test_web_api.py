@@ -16,6 +16,7 @@ from stonepass.studies.sensitivity.size_search import search_sizes
 from stonepass.web.documented import InstantDocument
 from stonepass.web.instant.answer import CAUSES
 from stonepass.web.instant.question import named_surrogate
+from stonepass.web.instant.words import digits
 from stonepass.web.section.build import case_of_section, section_of
 from stonepass.web.section.grid import SectionGrid, digest, grid_of
 
@@ -214,6 +215,38 @@ def test_the_ranges_hold_for_the_surrogate_itself(asking):
                 assert asked["validity"][key]["inside"] is not outside
                 count += 1
     assert count == 8
+
+
+@pytest.mark.parametrize(
+    ("inner", "outer", "stone"),
+    [("3 mm", "3.3 mm", "3.5 mm"), ("3.7 mm", "5 mm", "5.92 mm"), ("3.5 mm", "14 mm", "4 mm")],
+)
+def test_the_edge_of_the_range_is_inside_although_quotients_are_rounded(
+    asking, inner, outer, stone
+):
+    ureter = {"inner_diameter": inner, "outer_diameter": outer}
+    found = instant(asking, {"stone": {"diameter": stone, "friction": 0.1}, "ureter": ureter})
+    assert all(each["inside"] for each in found["validity"].values())
+    assert found["answer"]["critical_pressure_kPa"] > 0.0
+
+
+def test_the_direct_model_is_not_told_by_the_words_of_the_other(asking):
+    case = {
+        "stone": {"size_ratio": 1.2, "friction": 0.8},
+        "ureter": {"wall_ratio": 1.3, "material": "latex"},
+        "method": {"model": "direct"},
+    }
+    found = instant(asking, case, limit="90 kPa", include=["curve"])
+    assert "closure" not in found["size"]["sentence"] + found["answer"]["sentence"]
+    assert "paper" not in found["size"]["sentence"] + found["answer"]["sentence"]
+    assert found["answer"]["lower_bound_kPa"] > 0.0
+    assert "more than" in found["answer"]["sentence"]
+
+
+def test_numbers_in_sentences_have_no_exponent():
+    told = [digits(each) for each in (1234.5, 12.345, 0.012345, 0.0, 8.73e3)]
+    assert told == ["1234", "12.3", "0.0123", "0", "8730"]
+    assert digits(12.0, 1) == "12"
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from stonepass.web.answers import Problem
 from stonepass.web.documented import JobDocument, UploadDocument
 from stonepass.web.jobs.bodies import JobBody, PressureJob
 from stonepass.web.jobs.worker import MODULES
+from stonepass.web.uploads.store import Upload, UploadStore
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 SIZE = {"kind": "size", "limit": "6 kPa", "case": QUICK}
@@ -370,3 +371,42 @@ def test_a_patient_is_assessed_and_the_report_has_the_title_as_text(asking):
     assert "&lt;b&gt;#emph[x]&lt;/b&gt;" in page.text
     pdf = asking.post("/api/v1/report", json={"kind": "pdf", "question": question})
     assert pdf.content.startswith(b"%PDF")
+
+
+def test_a_job_that_cannot_be_begun_fails_and_the_next_one_runs(tmp_path, monkeypatch):
+    """A full disk or too many processes must not leave a job that runs for ever."""
+
+    async def refused(*_):
+        raise OSError("no space left")
+
+    with client(tmp_path, workers=1) as asking:
+        with monkeypatch.context() as broken:
+            broken.setattr("stonepass.web.jobs.process.WorkerProcess.run", refused)
+            lost = ended(asking, ask(asking, LOOSE)["id"], 10.0)
+        assert lost["status"] == "failed"
+        assert lost["problem"]["status"] == 500
+        assert "OSError" in lost["problem"]["detail"]
+        assert ended(asking, ask(asking, LOOSE)["id"])["status"] == "done"
+
+
+def test_reports_of_materials_with_other_sources_are_other_questions():
+    """The source of a material is printed on a report, although no number depends on it."""
+    wall = {"law": "neo-hookean", "C10": "70 kPa", "strain_range": [0.5, 1.5], "name": "mine",
+            "test": "tension"}  # fmt: skip
+    asked = [
+        PressureJob(
+            kind="pressure",
+            case={"stone": {"size_ratio": 1.2},
+                  "ureter": {"wall_ratio": 1.3, "material": wall | {"source": source}}},
+        ).question()
+        for source in ("one notebook", "another notebook")
+    ]  # fmt: skip
+    assert asked[0] != asked[1]
+
+
+def test_old_files_are_dropped_though_nobody_asks_for_them():
+    store = UploadStore(Limits(upload_seconds=0.05))
+    store.add(Upload("a" * 64, "fit", ".csv", b"1,2", {}))
+    time.sleep(0.1)
+    store.drop_old()
+    assert not store._held

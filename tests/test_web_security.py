@@ -1,16 +1,35 @@
 """Who may ask what: every line of the security of the server has a test."""
 
 import json
+import os
 import re
 from pathlib import Path
 
 import pytest
 from web_server import CASE, HOST, Limits, client
 
+from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.web.settings import ServerSettings
 
 TOKEN = "correct-horse-battery-staple"
+
+
+@pytest.mark.parametrize(
+    ("given", "allowed"),
+    [("[::1]", "[::1]"), ("[2001:db8::1]", "[2001:db8::1]"), ("FD00::A", "[fd00::a]")],
+)
+def test_the_address_of_the_server_is_one_of_its_names(given, allowed):
+    assert allowed in ServerSettings(host=given, token=TOKEN).allowed_hosts
+
+
+def test_the_token_is_not_passed_on_to_other_processes(monkeypatch):
+    told = []
+    monkeypatch.setenv("STONEPASS_TOKEN", TOKEN)
+    monkeypatch.setattr("stonepass.web.server.serve", lambda made, browser: told.append(made))
+    assert run(["serve", "--no-browser", "--host", "192.0.2.7"]) == 0
+    assert told[0].token == TOKEN
+    assert "STONEPASS_TOKEN" not in os.environ
 
 
 @pytest.fixture(scope="module")

@@ -101,6 +101,20 @@ def test_many_idle_connections_do_not_keep_others_out(port):
             each.close()
 
 
+def test_connections_that_rest_after_a_response_do_not_keep_others_out(port):
+    resting = []
+    try:
+        for _ in range(3 * LIMITS.connections):
+            made = socket.create_connection(("127.0.0.1", port), 5.0)
+            made.sendall(b"GET /icon HTTP/1.1\r\nHost: evil.example\r\n\r\n")
+            assert b" 421 " in made.recv(4096)
+            resting.append(made)
+        assert answers(port)
+    finally:
+        for made in resting:
+            made.close()
+
+
 def test_a_request_after_another_on_one_connection_is_answered(port):
     with at(port) as client:
         for _ in range(3):

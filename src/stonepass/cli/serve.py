@@ -77,14 +77,14 @@ def command(
     for name in ("fastapi", "uvicorn"):
         library(name, "serve the page", "web")
     from stonepass.web.server import serve
-    from stonepass.web.settings import ServerSettings
+    from stonepass.web.settings import MOST_WORKERS, ServerSettings
 
     settings = ServerSettings(
         host,
         port,
-        os.environ.get(TOKEN, ""),
+        os.environ.pop(TOKEN, ""),  # no process that this one starts shall know it
         tuple(allow_host or ()),
-        workers or CORES,
+        workers or min(CORES, MOST_WORKERS),
         cache_folder(cache, no_cache),
     )
     serve(settings, browser=browser)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -21,6 +22,7 @@ from stonepass.web.state import ServerState
 
 __all__ = ["create_app"]
 
+FORGETTING = 20.0  # time in s after which old results and files are looked for again
 PAGE = Path(__file__).parent / "page"
 DESCRIPTION = (
     "At what urine pressure does a kidney stone move in a ureter, and how large a stone moves at a "
@@ -41,9 +43,11 @@ def create_app(settings: ServerSettings) -> Guard:
     @asynccontextmanager
     async def running(app: FastAPI) -> AsyncIterator[None]:
         """Hold what the server remembers, and end the worker processes at last."""
-        app.state.server = ServerState.of(settings)
+        state = app.state.server = ServerState.of(settings)
+        forgetting = asyncio.create_task(_forget(state))
         yield
-        await app.state.server.book.close()
+        forgetting.cancel()
+        await state.book.close()
 
     app = FastAPI(
         title="stonepass",
@@ -60,6 +64,14 @@ def create_app(settings: ServerSettings) -> Guard:
     _add_page(app)
     _describe_problems(app)
     return Guard(app, settings)
+
+
+async def _forget(state: ServerState) -> None:
+    """Drop old results and uploaded files, also while nobody asks for anything."""
+    while True:
+        await asyncio.sleep(FORGETTING)
+        state.book.forget_old()
+        state.uploads.drop_old()
 
 
 def _add_page(app: FastAPI) -> None:

@@ -19,6 +19,9 @@ SHARED_FIELDS = {
     "dilated inner diameter": "dilated.inner_diameter",
     "dilated outer diameter": "dilated.outer_diameter",
     "place": "stone.place",
+    "order of the baseline": "baseline_order",
+    "height range": "height_range",
+    "shape of the stone": "stone.shape",
 }
 
 

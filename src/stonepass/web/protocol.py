@@ -74,8 +74,8 @@ class _LimitedProtocol(H11Protocol):
 
     @property
     def awaits_head(self) -> bool:
-        """True if the head of a request has not arrived completely."""
-        return self._awaited is h11.IDLE
+        """True if no request has arrived completely, or none after a response."""
+        return self._awaited is h11.IDLE or self.timeout_keep_alive_task is not None
 
     def _await(self, state: Any) -> None:
         """Start the clock of a state, unless it is running already; None stops it."""

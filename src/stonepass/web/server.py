@@ -8,6 +8,7 @@ import socket
 import webbrowser
 from contextlib import suppress
 from typing import Any
+from urllib.parse import quote
 
 import uvicorn
 
@@ -15,7 +16,7 @@ from stonepass.errors import BadInput
 from stonepass.fe.core.threads import one_thread
 from stonepass.web.app import create_app
 from stonepass.web.protocol import limited_protocol
-from stonepass.web.settings import ServerSettings
+from stonepass.web.settings import ServerSettings, is_unspecified
 
 __all__ = ["make_server", "serve"]
 
@@ -52,6 +53,7 @@ def make_server(
     config = uvicorn.Config(
         create_app(settings),
         http=limited_protocol(settings.limits),
+        h11_max_incomplete_event_size=settings.limits.head,
         access_log=False,  # nothing of a request is kept
         log_level=logging.CRITICAL,
         server_header=False,
@@ -65,7 +67,7 @@ def make_server(
 
 def _listen(settings: ServerSettings) -> socket.socket:
     """Return a socket that listens at the address of the settings."""
-    host = settings.host.strip("[]")
+    host = settings.host
     made: socket.socket | None = None
     try:
         found = socket.getaddrinfo(host, settings.port, type=socket.SOCK_STREAM)[0]
@@ -98,8 +100,10 @@ class _Server(uvicorn.Server):
         if not self.started or not sockets:
             return
         host, token = self._settings.host, self._settings.token
-        name = f"[{host}]" if ":" in host.strip("[]") else host
+        if is_unspecified(host):  # a browser cannot open the address that stands for all
+            host = "::1" if ":" in host else "127.0.0.1"
+        name = f"[{host}]" if ":" in host else host
         address = f"http://{name}:{sockets[0].getsockname()[1]}/"
         print(f"stonepass serves {address} (Ctrl-C stops it)", flush=True)
         if self._browser:
-            webbrowser.open(f"{address}?token={token}" if token else address)
+            webbrowser.open(f"{address}?token={quote(token, safe='')}" if token else address)

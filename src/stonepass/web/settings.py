@@ -8,9 +8,18 @@ from pathlib import Path
 
 from stonepass.errors import BadInput, require
 
-__all__ = ["HOST", "PORT", "Limits", "ServerSettings", "is_loopback"]
+__all__ = [
+    "HOST",
+    "MOST_WORKERS",
+    "PORT",
+    "Limits",
+    "ServerSettings",
+    "is_loopback",
+    "is_unspecified",
+]
 
 HOST, PORT = "127.0.0.1", 8765
+MOST_WORKERS = 64  # processes
 SHORTEST_TOKEN = 16  # characters; a shorter token could be guessed
 LOOPBACK_NAMES = ("localhost", "127.0.0.1", "[::1]")
 
@@ -107,8 +116,10 @@ class ServerSettings:
     limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "host", self.host.strip("[]").lower())
         require(0 <= self.port <= 65535, "port", self.port, "a whole number from 0 to 65535")
-        require(1 <= self.workers <= 64, "workers", self.workers, "a whole number from 1 to 64")
+        require(1 <= self.workers <= MOST_WORKERS, "workers", self.workers,
+                f"a whole number from 1 to {MOST_WORKERS}")  # fmt: skip
         if self.token:
             good = len(self.token) >= SHORTEST_TOKEN and self.token.isascii()
             good = good and self.token.isprintable() and " " not in self.token
@@ -124,7 +135,7 @@ class ServerSettings:
         """Host names, in lower case and without port, that a request may be addressed to."""
         names = {*LOOPBACK_NAMES, *(each.lower() for each in self.names)}
         if not is_unspecified(self.host):
-            names.add(f"[{self.host}]" if ":" in self.host else self.host.lower())
+            names.add(f"[{self.host}]" if ":" in self.host else self.host)
         return frozenset(names)
 
 

@@ -25,6 +25,7 @@ from stonepass.studies.surrogates.stable_loads import StableLoads
 
 __all__ = [
     "HELD_OUT",
+    "SLACK",
     "Box",
     "Setting",
     "fit_lumen",
@@ -37,6 +38,7 @@ SHIFT = 0.1  # added to this root before the logarithm is taken
 AT_ZERO = 0.15  # part of the range of the load's coordinate that stands for no confining pressure
 LUMEN_DEGREES = (20, 14)  # degrees of the lumen in wall ratio and load factor
 SEED = 20221  # seed of the sampled cases
+SLACK = 1e-9  # relative distance outside the box that counts as inside: that of rounded quotients
 HELD_OUT = 1024  # first case of the sequence that is left to checks
 
 
@@ -79,9 +81,12 @@ class Box:
             require(inside, f"range of the {name}", given, allowed)
 
     def contains(self, asked: Conditions) -> Bool[np.ndarray, " n"]:
-        """Return which of n conditions are inside the box; the lower end of the size is ignored."""
+        """Return which of n conditions are inside the box; the lower end of the size is ignored.
+
+        Conditions outside by the rounding of a quotient are inside; `clipped` moves them there.
+        """
         return (
-            (asked.size_ratio <= self.size_ratio)
+            (asked.size_ratio <= self.size_ratio * (1.0 + SLACK))
             & _between(asked.wall_ratio, self.wall_ratio)
             & _between(asked.friction, self.friction)
             & _between(asked.load_factor, (0.0, 1.0))
@@ -258,4 +263,5 @@ def fit_lumen(case: Case, box: Box) -> SparsePolynomial:
 def _between(
     values: Float[np.ndarray, " n"], bounds: tuple[float, float]
 ) -> Bool[np.ndarray, " n"]:
-    return (values >= bounds[0]) & (values <= bounds[1])
+    low, high = bounds
+    return (values >= low * (1.0 - SLACK)) & (values <= high * (1.0 + SLACK))

@@ -97,6 +97,7 @@ def covering_surrogate(case: Case, over: Conditions) -> CoveringSurrogate | None
     same = (
         case.ureter.material == own.ureter.material
         and case.model == own.model
+        and case.numerics == own.numerics
         and case.stone.shape == own.stone.shape
         and case.load.prestretch == own.load.prestretch
         and (case.load.confining_pressure == 0.0 or case.load.confinement == own.load.confinement)

@@ -18,7 +18,7 @@ from stonepass.fe.core.threads import one_thread
 from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions
 from stonepass.studies.surrogates.answers import SurrogateAnswers
-from stonepass.studies.surrogates.box import Box
+from stonepass.studies.surrogates.box import SLACK, Box
 from stonepass.studies.surrogates.held_functions import HeldFunctions
 from stonepass.studies.surrogates.held_stone import HeldStone
 from stonepass.studies.surrogates.learnt import LearntFunctions
@@ -195,7 +195,8 @@ class Surrogate:
 
         The lower end of the size is ignored.
         """
-        return self.box.contains(asked) & (asked.load_factor <= self.stable(asked.wall_ratio))
+        most = self.stable(asked.wall_ratio) * (1.0 + SLACK)
+        return self.box.contains(asked) & (asked.load_factor <= most)
 
     @cached_property
     def _without_load(self) -> LearntFunctions | HeldFunctions:

@@ -33,7 +33,7 @@ class Passing:
         known to move: that of the lumen for BELOW_RANGE, the end of the closure for BEYOND_CLOSURE,
         and the largest one of the surrogate for BEYOND_RANGE.
     outcomes : list of Outcome
-        SOLVED, BELOW_RANGE, BEYOND_CLOSURE, or BEYOND_RANGE.
+        SOLVED, BELOW_RANGE, BEYOND_CLOSURE (NO_SOLUTION for the direct model), or BEYOND_RANGE.
     """
 
     sizes: Float[np.ndarray, " n"]
@@ -85,16 +85,20 @@ def passing_sizes(
     at_lumen = np.asarray((below == -limit) & loaded)
     found = low + np.where(at_lumen, 0.0, part) * (high - low)
     rows = zip(reached.tolist(), known.tolist(), at_lumen.tolist(), strict=True)
-    outcomes = [_outcome(*row) for row in rows]
+    ended = Outcome.NO_SOLUTION if surrogate.case.model.NAME == "direct" else Outcome.BEYOND_CLOSURE
+    outcomes = [_outcome(*row, ended) for row in rows]
     return Passing(np.where(reached, found, surrogate.box.size_ratio), outcomes)
 
 
-def _outcome(reached: bool, known: bool, at_lumen: bool) -> Outcome:
-    """Return the outcome of one search: whether P_ucr is above the limit, known, and of a jump."""
+def _outcome(reached: bool, known: bool, at_lumen: bool, ended: Outcome) -> Outcome:
+    """Return the outcome of one search: whether P_ucr is above the limit, known, and of a jump.
+
+    `ended` is the outcome where the surrogate has no P_ucr.
+    """
     if not reached:
         return Outcome.BEYOND_RANGE
     if not known:
-        return Outcome.BEYOND_CLOSURE
+        return ended
     return Outcome.BELOW_RANGE if at_lumen else Outcome.SOLVED
 
 

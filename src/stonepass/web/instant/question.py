@@ -12,6 +12,7 @@ from stonepass.clinic.patient import STIFFNESS
 from stonepass.declaration import Input, Kind
 from stonepass.model.case import Case
 from stonepass.studies.surrogates.answers import SurrogateAnswers
+from stonepass.studies.surrogates.box import SLACK
 from stonepass.studies.surrogates.store import load_surrogate, shipped_surrogates
 from stonepass.studies.surrogates.surrogate import Surrogate
 from stonepass.units import Pressure
@@ -64,10 +65,12 @@ class Held:
         thin, thick = surrogate.box.wall_ratio
         wall = thick if wall_ratio is None else wall_ratio
         most = self.stiffness * largest_load(surrogate, wall)
+        slack = 1.0 + SLACK
         return (
             low <= self.friction <= high
-            and thin <= wall <= thick
-            and (self.confining_pressure <= most)
+            and thin <= wall * slack
+            and wall <= thick * slack
+            and self.confining_pressure <= most * slack
         )
 
 

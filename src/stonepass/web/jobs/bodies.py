@@ -57,7 +57,10 @@ def solved_case(body: Any) -> Case:
 
 
 def _described(case: Case) -> dict[str, Any]:
-    return describe(case, case.model, case.numerics)
+    """Return everything that an answer or its report depends on, the texts of the material too."""
+    material = case.ureter.material
+    texts = [material.name, material.source, material.test, material.verified, material.reference]
+    return describe(case, case.model, case.numerics) | {"material_texts": texts}
 
 
 class PressureJob(StrictBody):

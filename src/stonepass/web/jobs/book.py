@@ -67,7 +67,7 @@ class JobBook:
 
     def get(self, fingerprint: str) -> Job | None:
         """Return the job with this fingerprint, or None."""
-        self._forget_old()
+        self.forget_old()
         return self._jobs.get(fingerprint)
 
     def add(self, job: Job) -> Job:
@@ -130,6 +130,10 @@ class JobBook:
                 await process.end()
                 if not job.status.ended:
                     self._end(job, Status.CANCELLED)
+            elif (fault := task.exception()) is not None:  # e.g. a full disk
+                await process.end()
+                if not job.status.ended:
+                    self._fail(job, FAULT.format(name=type(fault).__name__), 500)
 
     async def _next(self, process: WorkerProcess) -> Job:
         """Return the next job; an idle process is ended after a while."""
@@ -196,9 +200,9 @@ class JobBook:
             upload=None,
             progress=_progress(SENTENCES[status]),
         )
-        self._forget_old()
+        self.forget_old()
 
-    def _forget_old(self) -> None:
+    def forget_old(self) -> None:
         """Forget the oldest of the jobs that have ended, and those that ended long ago."""
         limits, now = self._settings.limits, asyncio.get_running_loop().time()
         ended = [job for job in self._jobs.values() if job.status.ended]

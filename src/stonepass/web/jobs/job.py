@@ -39,8 +39,6 @@ class Job:
     kind : str
     body : dict
         The JSON-ready body of the request; it is dropped when the job ends.
-    folder : Path or None
-        Private folder with the uploaded file, which is removed when the job ends.
     upload : Upload or None
         The file that the question is about; it is dropped when the job ends.
     status : Status

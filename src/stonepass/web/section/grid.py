@@ -2,8 +2,8 @@
 
 A section consists of the outlines of the wall as displacements of points of the unloaded wall, the
 contact angle, and the contact pressure along the contact. The displacements are divided by ξ − 1,
-and the pressure by √(ξ − 1) and the shear modulus of the material, so that they vary slowly with
-the size of the stone. They are interpolated linearly in ln(ξ − 1) and in ln(η − 1).
+and the pressure by √(ξ − 1), so that they vary slowly with the size of the stone. They are
+interpolated linearly in ln(ξ − 1) and in ln(η − 1).
 """
 
 from __future__ import annotations
@@ -75,9 +75,14 @@ class SectionGrid:
     values: dict[str, np.ndarray]
 
     def covers(self, size_ratio: float, wall_ratio: float) -> bool:
-        """Return True if a section can be interpolated; sizes down to that of the lumen can."""
+        """Return True if there is a section: interpolated, or of a stone that is not held.
+
+        Between the lumen and the smallest solved size there is none.
+        """
         low, high = self.wall_ratio[[0, -1]]
-        return size_ratio <= self.size_ratio[-1] and low <= wall_ratio <= high
+        smallest, largest = self.size_ratio[[0, -1]]
+        sized = size_ratio <= 1.0 or smallest <= size_ratio <= largest
+        return bool(sized and low <= wall_ratio <= high)
 
     def section(self, size_ratio: float, wall_ratio: float) -> Section:
         """Return the interpolated section of a stone that is larger than the lumen.

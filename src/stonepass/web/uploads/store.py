@@ -69,7 +69,7 @@ class UploadStore:
 
     def get(self, identity: str) -> Upload | None:
         """Return a file, which is then held for some more time; None if it is not held."""
-        self._drop_old()
+        self.drop_old()
         upload = self._held.get(identity)
         if upload is not None:
             self._held[identity] = upload = replace(upload, used=monotonic())
@@ -79,7 +79,8 @@ class UploadStore:
         """Drop a file; return False if it was not held."""
         return self._held.pop(identity, None) is not None
 
-    def _drop_old(self) -> None:
+    def drop_old(self) -> None:
+        """Drop the files that no job has used for a while."""
         last = monotonic() - self._limits.upload_seconds
         for each in [each for each in self._held.values() if each.used < last]:
             del self._held[each.id]

@@ -1,7 +1,7 @@
 // The answer: two readings, a sentence, and a live region that waits until the sliders rest.
 
 import { fill, h, write } from "./dom.js";
-import { term } from "./glossary.js";
+import { sentence as whole, term } from "./glossary.js";
 import { clinical, decimals, digits, plain, withError } from "./units.js";
 import { outcomeWords, spoken, verdict } from "./verdict.js";
 
@@ -52,7 +52,7 @@ export function answerPanel() {
     fill(printed, printedInputs(question, found));
     fill(
       warnings,
-      found.warnings.map((each) => h("li", {}, each.sentence)),
+      found.warnings.map((each) => h("li", {}, whole(each.sentence))),
     );
   }
   new IntersectionObserver(([seen]) => {

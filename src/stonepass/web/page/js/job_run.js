@@ -38,6 +38,7 @@ export function jobRun(label, hint) {
         rest(problem.message, true);
         refused(problem);
       };
+      stop = () => {}; // until this job has begun, there is nothing to cancel
       show("The question is sent.", 0);
       try {
         stop = await startJob(body, (state) => {

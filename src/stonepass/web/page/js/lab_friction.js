@@ -107,7 +107,7 @@ export function frictionSection(take) {
     if (summary.pixel_um) pixel.box.value = String(Number(summary.pixel_um[0].toPrecision(6)));
     if (summary.heights) heights.box.value = "map";
     showHeight(heights.box.value);
-    image.open(held.links.preview, summary.width, summary.height);
+    image.open(held.links.preview, summary.width, summary.height, summary.area);
     fill(results, image.element);
   }
   function showHeight(kind) {

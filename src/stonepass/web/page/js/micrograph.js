@@ -4,7 +4,7 @@ import { fill, h, svg } from "./dom.js";
 
 const COUNT = 6; // paths at the start, evenly spaced, as the server chooses them
 
-/** Build the image. `open(address, width, height)` shows a picture of so many pixels; `paths()` returns the paths, or null if they are unchanged. */
+/** Build the image. `open(address, width, height, area)` shows a picture of so many pixels, of which the area [left, top, right, bottom] is the surface; `paths()` returns the paths, or null if they are unchanged. */
 export function micrograph() {
   const frame = h("div", { class: "micrograph" });
   const said = h("p", { class: "small quiet", role: "status" });
@@ -29,28 +29,32 @@ export function micrograph() {
     said,
   );
   let size = null; // [width, height] in pixels
+  let area = null; // [left, top, right, bottom] of the surface; right and bottom are excluded
   let address = "";
   let lines = [];
   let moved = false;
 
-  function open(from, width, height) {
+  function open(from, width, height, surface) {
     address = from;
     size = [width, height];
+    area = surface;
     even();
     draw();
   }
   function even() {
     moved = false;
-    const [width, height] = size ?? [0, 0];
+    const [left, top, right, bottom] = area ?? [0, 0, 0, 0];
     lines = Array.from({ length: COUNT }, (_, k) => {
-      const y = Math.round(((k + 0.5) * height) / COUNT);
-      return [0, y, width - 1, y];
+      const y = Math.round(top + ((k + 0.5) * (bottom - top)) / COUNT - 0.5);
+      return [left, y, right - 1, y];
     });
   }
   function addPath() {
     if (!size) return;
     moved = true;
-    lines.push([0.1 * size[0], 0.2 * size[1], 0.9 * size[0], 0.8 * size[1]].map(Math.round));
+    const [left, top, right, bottom] = area;
+    const at = (part) => [left + part * (right - left), top + part * (bottom - top)];
+    lines.push([at(0.1)[0], at(0.2)[1], at(0.9)[0], at(0.8)[1]].map(Math.round));
     draw([lines.length - 1, 0]);
     said.textContent = `Path ${lines.length} was added.`;
   }
@@ -133,8 +137,9 @@ export function micrograph() {
   }
   function move(k, end, x, y) {
     moved = true;
-    lines[k][2 * end] = Math.round(Math.max(0, Math.min(size[0] - 1, x)));
-    lines[k][2 * end + 1] = Math.round(Math.max(0, Math.min(size[1] - 1, y)));
+    const [left, top, right, bottom] = area;
+    lines[k][2 * end] = Math.round(Math.max(left, Math.min(right - 1, x)));
+    lines[k][2 * end + 1] = Math.round(Math.max(top, Math.min(bottom - 1, y)));
     draw([k, end]);
   }
   return { element, open, paths: () => (size && moved ? lines.map((each) => [...each]) : null) };

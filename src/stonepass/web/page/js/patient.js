@@ -17,7 +17,7 @@ export async function patientPanel(place) {
   );
   const run = jobRun(
     "Assess",
-    "About fifty cases are solved, which takes about half a minute; a repeated question is answered at once.",
+    "This takes about a second, or half a minute where about fifty cases must be solved.",
   );
   const command = h("pre", { tabindex: "0", "aria-label": "Patient file" }, h("code"));
   let asked = null;
@@ -43,7 +43,7 @@ export async function patientPanel(place) {
       h(
         "p",
         {},
-        "Every measurement is uncertain, so every answer is an interval or a fraction of simulated cases. A fraction is not the chance that the stone passes. Nothing that you enter is stored or leaves this computer.",
+        "Every measurement is uncertain, so every answer is an interval or a fraction of simulated cases. A fraction is not the chance that the stone passes. Nothing that you enter is written to a disk or leaves this computer; the server forgets the results after an hour.",
       ),
     ),
     h("div", { class: "columns" }, form.element, results),

@@ -2,7 +2,7 @@
 
 import { startJob } from "./jobs.js";
 import { fill, h, write } from "./dom.js";
-import { term } from "./glossary.js";
+import { sentence, term } from "./glossary.js";
 import { partOf, progressBar, setProgress } from "./progress.js";
 import { toCase, toQuery } from "./question.js";
 import { reportButtons } from "./report.js";
@@ -50,6 +50,7 @@ export function solvePanel(changed) {
 
   async function run() {
     const asked = { key: keyOf(question) };
+    stop = () => {}; // until this job has begun, there is nothing to cancel
     running = asked.key;
     working("The solve is waiting for a free worker.", 0);
     let ended = false;
@@ -149,7 +150,7 @@ export function solvePanel(changed) {
       record.critical_pressure_kPa === null ? record.message : clinical(record.critical_pressure_kPa),
     );
     const warned = record.warnings?.length
-      ? ` ${record.warnings.map((each) => each.sentence).join(" ")}`
+      ? ` ${record.warnings.map((each) => sentence(each.sentence)).join(" ")}`
       : "";
     write(detail, `${difference(record)}${warned}`);
   }

@@ -38,8 +38,12 @@ function ground(width, height, map) {
     crossings: map.critical_pressure_kPa.map((row, k) => crossing(row, sizes, level, ends[k])),
   })).filter(({ crossings }) => crossings.some((each) => each < sizes[sizes.length - 1]));
   const passing =
-    map.critical_size_ratio?.map((each, k) => [x(walls[k]), each === null ? NaN : y(each)]) ?? [];
-  const column = (values) => walls.map((each, k) => [x(each), y(values[k])]);
+    map.critical_size_ratio?.map((each, k) => [
+      x(walls[k]),
+      each === null || each < y.low ? NaN : y(each),
+    ]) ?? [];
+  // Under a load smaller stones are held too; the picture begins at the size of the unloaded lumen.
+  const column = (values) => walls.map((each, k) => [x(each), y(Math.max(y.low, values[k]))]);
   const picture = svg(
     "svg",
     {
@@ -63,7 +67,10 @@ function ground(width, height, map) {
     svg("path", {
       class: "level",
       d: levels
-        .map(({ crossings }) => line(column(crossings.map((each, j) => (each < ends[j] ? each : NaN)))))
+        .map(({ crossings }) => {
+          const drawn = (each, j) => (each < ends[j] && each >= y.low ? each : NaN);
+          return line(column(crossings.map(drawn)));
+        })
         .join(""),
     }),
     svg("path", { class: "passing", d: line(passing) }),

@@ -33,13 +33,11 @@ from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain
-from stonepass.studies.surrogates.regression import fit_polynomial, joined
+from stonepass.studies.surrogates.regression import fit_known, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_surrogate"]
-
-FEWEST = 8  # smallest number of answers that a level is fitted to
 
 
 def build_surrogate(
@@ -180,22 +178,12 @@ def _corrected(
     """Fit what earlier levels leave over; return all levels together and leave-one-out errors."""
     rest = values if before is None else values - before(level.at)
     points = level.at.unit if before is None else before.by_width(level.at)
-    fitted, left_out = [], np.full(values.shape, np.nan)
-    for k in range(values.shape[1]):
-        known = np.isfinite(rest[:, k])
-        if known.sum() < FEWEST:
-            raise BadInput(
-                "number of cases with an answer", f"{known.sum()} of {len(known)}",
-                f"at least {FEWEST}", "make the box smaller",
-            )  # fmt: skip
-        found = fit_polynomial(
-            points[known], rest[known, k], level.level.degrees, level.level.total,
-            None if before is None else level.at.conditions.friction[known],
-        )  # fmt: skip
-        fitted.append(found.polynomial)
-        left_out[known, k] = found.left_out
-    added = joined(fitted)
-    return LearntFunctions(added) if before is None else before.corrected(added), left_out
+    factor = None if before is None else level.at.conditions.friction
+    degrees, total = level.level.degrees, level.level.total
+    fits = [fit_known(points, each, degrees, total, factor) for each in rest.T]
+    added = joined([each.polynomial for each in fits])
+    learnt = LearntFunctions(added) if before is None else before.corrected(added)
+    return learnt, np.stack([each.left_out for each in fits], axis=1)
 
 
 def _claimed(
@@ -203,12 +191,9 @@ def _claimed(
 ) -> SparsePolynomial:
     """Return the logarithm of the claimed relative error of P_ucr, from leave-one-out errors.
 
-    The cases with the model and the options of the surrogate count, on the mesh of most of them.
+    The cases of the last level count, which have the model and the options of the surrogate.
     """
-    level, values, left = max(
-        (each for each in left_out if each[0].level.case.model == case.model),
-        key=lambda each: each[0].level.count,
-    )
+    level, values, left = left_out[-1]
     whole = np.isfinite(values[:, :-1]).all(axis=1)
     at, true = level.at.where(whole), np.array([_number(a) for a in level.answers])[whole]
     shifted = np.where(np.isfinite(left), values + left, 0.0)[whole]

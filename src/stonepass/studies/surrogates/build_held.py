@@ -9,7 +9,7 @@ import numpy as np
 
 from stonepass.about import VERSION
 from stonepass.array_dataclass import array_dataclass
-from stonepass.array_types import Bool, Float
+from stonepass.array_types import Float
 from stonepass.errors import BadInput
 from stonepass.inputs.case_record import fingerprint
 from stonepass.model.answer import Answer
@@ -26,7 +26,7 @@ from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions
 from stonepass.studies.surrogates.held_stone import HeldStone
 from stonepass.studies.surrogates.learnt import half_width
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
-from stonepass.studies.surrogates.regression import fit_polynomial, joined
+from stonepass.studies.surrogates.regression import FEWEST, fit_known, joined
 from stonepass.studies.surrogates.solved import MOVES
 from stonepass.studies.surrogates.surrogate import Surrogate
 
@@ -41,7 +41,6 @@ FREE_LEAKS, GENTLE_LEAKS, PUSHED_LEAKS = 160, 32, 128
 BASE, BASE_TOTAL = (20, 16, 0, 0), 20  # degrees of the functions without friction
 CHANGE, CHANGE_TOTAL = (8, 8, 8), 8  # degrees of what the pressure changes
 MOST_LOST = 0.05  # largest fraction of cases without an answer
-FEWEST = 8  # smallest number of cases that a function is fitted to
 
 Values = Float[np.ndarray, "n functions"]
 
@@ -123,7 +122,8 @@ def _base(free: _Solved) -> SparsePolynomial:
     _, *functions = free.values.T
     widths = np.log(functions[1])
     return joined([
-        _fitted(free.at.unit, each, BASE, BASE_TOTAL)[0] for each in (widths, *functions)
+        fit_known(free.at.unit, each, BASE, BASE_TOTAL).polynomial
+        for each in (widths, *functions)
     ])  # fmt: skip
 
 
@@ -133,30 +133,10 @@ def _with_changes(base: SparsePolynomial, solved: _Solved) -> tuple[HeldFunction
     without = base(at.unit)
     points = np.stack([half_width(at, without), at.unit[:, 1], p / HIGHEST], axis=1)
     rest = solved.values[:, 1:] - without[:, 1:]
-    fits = [_fitted(points, each, CHANGE, CHANGE_TOTAL, p) for each in rest.T]
-    functions = HeldFunctions(base, joined([fit for fit, _ in fits]))
-    return functions, np.stack([left for _, left in fits], axis=1)
-
-
-def _fitted(
-    points: Float[np.ndarray, "n d"],
-    values: Float[np.ndarray, " n"],
-    degrees: tuple[int, ...],
-    total: int,
-    p: Float[np.ndarray, " n"] | None = None,
-) -> tuple[SparsePolynomial, Float[np.ndarray, " n"]]:
-    """Fit values at the points where they exist and p is not too large, p being a factor."""
-    known: Bool[np.ndarray, " n"] = np.isfinite(values)
-    if p is not None:
-        known &= np.where(np.isfinite(p), p, np.inf) <= HIGHEST
-    if known.sum() < FEWEST:
-        raise BadInput("number of cases with an answer", f"{known.sum()} of {len(known)}",
-                       f"at least {FEWEST}", "make the box smaller")  # fmt: skip
-    factor = None if p is None else p[known]
-    found = fit_polynomial(points[known], values[known], degrees, total, factor)
-    left_out = np.full(len(values), np.nan)
-    left_out[known] = found.left_out
-    return found.polynomial, left_out
+    rest[~(p <= HIGHEST)] = np.nan  # beyond the largest pressure of a surrogate, or unknown
+    fits = [fit_known(points, each, CHANGE, CHANGE_TOTAL, p) for each in rest.T]
+    functions = HeldFunctions(base, joined([each.polynomial for each in fits]))
+    return functions, np.stack([each.left_out for each in fits], axis=1)
 
 
 def _claimed(

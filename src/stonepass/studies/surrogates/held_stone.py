@@ -68,7 +68,7 @@ class HeldStone:
             leak = detail.leak_pressure if isinstance(detail, PushThroughDetail) else None
             angle = (np.pi / 2 - state.contact_angle) / at.root[k]
             ratio = np.nan if leak is None else leak / opening[k]
-            found[k] = [p, np.log(p / case_friction(answer)), angle, np.log(ratio)]
+            found[k] = [p, np.log(p / answer.case.stone.friction), angle, np.log(ratio)]
         return found
 
     def solve(self, case: Case, at: Setting, learnt: Float[np.ndarray, "n f"]) -> Solved:
@@ -107,11 +107,6 @@ class HeldStone:
 def balanced(answer: Answer) -> bool:
     """Return whether the answer fulfils its own energy balance."""
     return all(each.code != "loaded_imbalance" for each in answer.warnings)
-
-
-def case_friction(answer: Answer) -> float:
-    """Return the friction coefficient of an answer."""
-    return answer.case.stone.friction
 
 
 def _value(part: Float[np.ndarray, "n c"], p: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:

@@ -16,7 +16,6 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.studies.surrogates.box import Setting
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
-from stonepass.studies.surrogates.regression import joined
 
 __all__ = ["LearntFunctions", "half_width"]
 
@@ -61,9 +60,8 @@ class LearntFunctions:
         return LearntFunctions(self.base.fixed(LOAD, 0.0), change)
 
     def corrected(self, more: SparsePolynomial) -> LearntFunctions:
-        """Return the functions with a further correction."""
-        before = self.correction
-        return replace(self, correction=more if before is None else _sum(before, more))
+        """Return the functions with a correction."""
+        return replace(self, correction=more)
 
 
 def half_width(at: Setting, values: Float[np.ndarray, "n functions"]) -> Float[np.ndarray, " n"]:
@@ -74,10 +72,3 @@ def half_width(at: Setting, values: Float[np.ndarray, "n functions"]) -> Float[n
 def _by(at: Setting, values: Float[np.ndarray, "n functions"]) -> Float[np.ndarray, "n 4"]:
     _, wall, friction, narrowed = at.unit.T
     return np.stack([half_width(at, values), wall, friction**2, narrowed], axis=1)
-
-
-def _sum(one: SparsePolynomial, other: SparsePolynomial) -> SparsePolynomial:
-    """Return the sum of two polynomials with the same functions."""
-    both, count = joined([one, other]), one.coefficients.shape[1]
-    coefficients = both.coefficients[:, :count] + both.coefficients[:, count:]
-    return SparsePolynomial(both.degrees, coefficients)

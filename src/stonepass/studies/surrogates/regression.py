@@ -14,10 +14,12 @@ import numpy as np
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float, Int
+from stonepass.errors import BadInput
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
 
-__all__ = ["Fitted", "fit_polynomial", "joined"]
+__all__ = ["FEWEST", "Fitted", "fit_known", "fit_polynomial", "joined"]
 
+FEWEST = 8  # smallest number of cases that a function is fitted to
 DECAY = 0.8  # preference of a term over another one whose degree is higher by 1
 MOST_TERMS = 0.4  # largest number of terms, as a fraction of the number of points
 PATIENCE = 25  # number of further terms that are tried after the best leave-one-out error
@@ -76,6 +78,33 @@ def fit_polynomial(
     leverage = np.clip((Q**2).sum(axis=1), 0.0, 1.0 - 1e-9)
     left_out = (matrix @ coefficients - values) / (1.0 - leverage)
     return Fitted(SparsePolynomial(pool[terms], coefficients[:, None]), left_out)
+
+
+def fit_known(
+    points: Float[np.ndarray, "n d"],
+    values: Float[np.ndarray, " n"],
+    largest: tuple[int, ...],
+    total: int,
+    factor: Float[np.ndarray, " n"] | None = None,
+) -> Fitted:
+    """Fit a sparse polynomial to the values that exist; see `fit_polynomial`.
+
+    The leave-one-out differences are NaN where `values` are.
+
+    Raises
+    ------
+    BadInput
+        Fewer than eight values exist.
+    """
+    known = np.isfinite(values)
+    if known.sum() < FEWEST:
+        raise BadInput("number of cases with an answer", f"{known.sum()} of {len(known)}",
+                       f"at least {FEWEST}", "make the box smaller")  # fmt: skip
+    some = None if factor is None else factor[known]
+    found = fit_polynomial(points[known], values[known], largest, total, some)
+    left_out = np.full(len(values), np.nan)
+    left_out[known] = found.left_out
+    return Fitted(found.polynomial, left_out)
 
 
 def joined(polynomials: list[SparsePolynomial]) -> SparsePolynomial:

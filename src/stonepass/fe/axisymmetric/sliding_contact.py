@@ -49,7 +49,9 @@ from stonepass.fe.core.systems import BorderedSystem
 
 __all__ = ["solve_at_pressure", "solve_at_seal", "solve_critical"]
 
-MOST_STEPS = 16  # Newton steps after which a load step is bisected
+# Newton steps after which a load step is bisected. Walls whose fibres microbuckle need many, because
+# their tangent jumps at the onset of microbuckling.
+MOST_STEPS = 32
 MOST_HALVINGS = 3
 PRESSURE_SCALE = 0.05  # smallest scale of the unknown pressure, in units of the modulus
 NEAREST_SEAL = 0.05  # smallest distance of the seal from an edge, as a fraction of the contact
@@ -218,7 +220,8 @@ def _bisected(
         found, report = attempt(reached, ahead)
         steps += report.steps
         if report.converged:
-            reached, fraction, step = found, ahead, 2.0 * step
+            reached, fraction = found, ahead
+            step = min(2.0 * step, 1.0 - fraction)
         else:
             step /= 2.0
         if fraction == 1.0 or step < 0.9 / 2.0**MOST_HALVINGS:

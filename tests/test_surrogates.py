@@ -1,6 +1,7 @@
 """Surrogates: polynomials, their fit, the balance that they share with the model, files, doors."""
 
 import json
+import shlex
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from stonepass.cli import main as command_line
 from stonepass.errors import BadInput
 from stonepass.model.states.stability import axisymmetric_buckling
 from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
-from stonepass.studies.surrogates import buckling_limit
+from stonepass.studies.surrogates import buckling_limit, build
 from stonepass.studies.surrogates.box import HELD_OUT, Box, fit_lumen
 from stonepass.studies.surrogates.buckling_limit import MARGIN, stable_loads
 from stonepass.studies.surrogates.build import build_surrogate
@@ -384,6 +385,25 @@ def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
     assert "NO_SOLUTION" in lines[2]
     assert main(["surrogate", "evaluate", "ureter", "--eta", "1.3"]) == 2
     assert "--xi" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("material", "model"), shipped_surrogates())
+def test_the_shown_command_builds_this_surrogate(material, model, monkeypatch, capsys, tmp_path):
+    """The command asks for the case and the box of the surrogate."""
+    assert main(["surrogate", "show", material, "--model", model]) == 0
+    words = shlex.split(capsys.readouterr().out.splitlines()[-1])
+    assert words[0] == "stonepass"
+    asked, surrogate = [], load_surrogate(material, model)
+
+    def built(case, box, solver, effort):
+        asked.append((case, box))
+        return surrogate
+
+    monkeypatch.setattr(build, "build_surrogate", built)
+    out = tmp_path / "again.json"
+    assert main([*words[1:-1], str(out), "--workers", "1", "--no-cache"]) == 0
+    assert asked == [(surrogate.case, surrogate.box)]
+    assert load_surrogate(out) == surrogate
 
 
 def test_further_cases_are_where_two_fits_differ_and_apart_from_each_other():

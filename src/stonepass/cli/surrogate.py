@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -33,6 +34,8 @@ DONE = "0 done; 2 the request was refused; 3 an error of the program"
 # The inputs that vary in the box of a surrogate.
 VARIED = ("stone.diameter", "stone.size_ratio", "stone.friction", "ureter.inner_diameter",
           "ureter.outer_diameter", "ureter.wall_ratio", "ureter.wall_thickness")  # fmt: skip
+# The default box, see `studies.surrogates.box.Box`.
+LARGEST_XI, ETA_RANGE, FRICTION_RANGE = 1.6, "1.1:4", "0:1"
 COLUMNS = ("size_ratio", "wall_ratio", "friction", "confining_pressure_kPa")
 
 Name = Annotated[
@@ -69,7 +72,7 @@ def _build(
         typer.Option(
             "--largest-xi", help="Largest size ratio of the box.", rich_help_panel=QUESTION
         ),
-    ] = 1.6,
+    ] = LARGEST_XI,
     eta_range: Annotated[
         str,
         typer.Option(
@@ -78,7 +81,7 @@ def _build(
             help="Wall ratios of the box.",
             rich_help_panel=QUESTION,
         ),
-    ] = "1.1:4",
+    ] = ETA_RANGE,
     friction_range: Annotated[
         str,
         typer.Option(
@@ -87,7 +90,7 @@ def _build(
             help="Friction coefficients of the box.",
             rich_help_panel=QUESTION,
         ),
-    ] = "0:1",
+    ] = FRICTION_RANGE,
     effort: Annotated[
         float,
         typer.Option(
@@ -103,7 +106,7 @@ def _build(
     Several hundred cases are solved. An interrupted command goes on where it stopped, because the
     solved states are in the cache folder.
     """
-    from stonepass.cli.terminal import counting, show, writable, wrote
+    from stonepass.cli.terminal import counting, writable, wrote
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
     from stonepass.studies.surrogates.box import Box
@@ -121,7 +124,7 @@ def _build(
     with process_pool(workers or CORES) as pool, counting("solving the cases") as progress:
         built = build_surrogate(case, box, JobSolver(pool, folder, progress), effort)
     save_surrogate(built, out)
-    show(_table(built))
+    _describe(built)
     wrote(out, out.with_suffix(".npz"))
     return 0
 
@@ -133,7 +136,7 @@ app.command(
         "build --material latex --confining 10kPa --out latex.json",
         "a surrogate of the paper's model up to this confining pressure; takes half an hour",
     ),
-)(takes_settings(*VARIED, models=("paper", "direct"))(_build))
+)(takes_settings(*VARIED, models=("paper", "direct"), choose_model=True)(_build))
 
 
 @app.command(
@@ -159,7 +162,7 @@ def check(
     workers: Workers = None,
 ) -> int:
     """Measure the error of a surrogate with cases that were not used to build it."""
-    from stonepass.cli.terminal import counting, show, wrote
+    from stonepass.cli.terminal import counting, wrote
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
     from stonepass.studies.surrogates.check import check_surrogate, with_check
@@ -172,7 +175,7 @@ def check(
         found = check_surrogate(surrogate, JobSolver(pool, folder, progress), cases)
     checked = with_check(surrogate, found)
     save_surrogate(checked, name)
-    show(_table(checked))
+    _describe(checked)
     wrote(name)
     return 0
 
@@ -206,10 +209,9 @@ def list_surrogates() -> int:
 )
 def show_surrogate(name: Name, model: ModelName = "paper") -> int:
     """Show the box of a surrogate, how it was built, and its measured errors."""
-    from stonepass.cli.terminal import show
     from stonepass.studies.surrogates.store import load_surrogate
 
-    show(_table(load_surrogate(name, model)))
+    _describe(load_surrogate(name, model))
     return 0
 
 
@@ -325,7 +327,26 @@ def _pair(option: str, text: str) -> tuple[float, float]:
     return first, last
 
 
-def _table(surrogate: Any) -> Any:
+def _describe(surrogate: Any) -> None:
+    """Print the table of a surrogate and the command that builds it."""
+    from stonepass.cli.terminal import show
     from stonepass.report.surrogate_table import surrogate_table
 
-    return surrogate_table(surrogate)
+    show(surrogate_table(surrogate), "This command builds it:", f"  {_build_command(surrogate)}")
+
+
+def _build_command(surrogate: Any) -> str:
+    """Return the command that builds a surrogate of the same model over the same box."""
+    from stonepass.inputs.command_options import command_options
+
+    box, case = surrogate.box, surrogate.case
+    words = ["stonepass", "surrogate", "build", *command_options(case, VARIED)]
+    if box.size_ratio != LARGEST_XI:
+        words += ["--largest-xi", f"{box.size_ratio:g}"]
+    for option, bounds, default in (
+        ("--eta-range", box.wall_ratio, ETA_RANGE),
+        ("--friction-range", box.friction, FRICTION_RANGE),
+    ):
+        text = ":".join(f"{bound:g}" for bound in bounds)
+        words += [option, text] if text != default else []
+    return shlex.join([*words, "--out", "S.json"])

@@ -49,8 +49,8 @@ from stonepass.fe.core.systems import BorderedSystem
 
 __all__ = ["solve_at_pressure", "solve_at_seal", "solve_critical"]
 
-# Newton steps after which a load step is bisected. Walls whose fibres microbuckle need many, because
-# their tangent jumps at the onset of microbuckling.
+# Newton steps after which a load step is bisected. A wall whose fibres microbuckle needs many,
+# because its tangent jumps at the onset of microbuckling.
 MOST_STEPS = 32
 MOST_HALVINGS = 3
 PRESSURE_SCALE = 0.05  # smallest scale of the unknown pressure, in units of the modulus

@@ -11,9 +11,8 @@ from typing import Any
 
 import tomli_w
 
-from stonepass.declaration import Kind
 from stonepass.inputs.case_file import values_of
-from stonepass.inputs.catalogue import all_inputs
+from stonepass.inputs.command_options import command_options
 from stonepass.model.case import Case
 from stonepass.studies.surrogates.surrogate import Surrogate
 from stonepass.web.instant.question import InstantQuestion
@@ -109,18 +108,7 @@ def _python(question: InstantQuestion, surrogate: Surrogate) -> str:
 
 
 def _solve_command(case: Case) -> str:
-    words = ["stonepass", "pressure"]
-    for key, value in values_of(case, Path()).items():
-        declared = all_inputs()[key]
-        if value == declared.default:
-            continue
-        names = declared.declaration.option.split("/")
-        if declared.declaration.kind is Kind.FLAG:
-            words.append(names[0] if value else names[-1])
-        else:
-            text = f"{value:.12g}" if isinstance(value, float) else str(value)
-            words += [names[0], text.replace(" ", "")]
-    return shlex.join(words)
+    return shlex.join(["stonepass", "pressure", *command_options(case)])
 
 
 def _solve_python(case: Case, by_name: bool) -> str:

@@ -30,7 +30,7 @@ from stonepass.studies.surrogates.solved import MOVES, NO_SOLUTION, Solved
 __all__ = ["HeldStone"]
 
 FUNCTIONS = 3  # ln h, (π/2 − α)/root, ln(P_leak/P_s)
-STEPS = 12  # largest number of steps of Newton's method
+STEPS = 50  # largest number of steps of Newton's method; those of the package take at most 5
 TOLERANCE = 1e-10
 GAUSS = 8  # number of quadrature points of the work of the urine
 
@@ -117,7 +117,7 @@ def _value(part: Float[np.ndarray, "n c"], p: Float[np.ndarray, " n"]) -> Float[
 def _balanced_pressure(
     part: Float[np.ndarray, "n c"], friction: Float[np.ndarray, " n"]
 ) -> tuple[Float[np.ndarray, " n"], np.ndarray]:
-    """Return p with p = μ h(p), and whether it is at most `HIGHEST`.
+    """Return p with p = μ h(p), and whether it was found and is at most `HIGHEST`.
 
     Newton's method is kept inside a bracket, which is halved where a step leaves it.
     """
@@ -140,7 +140,7 @@ def _balanced_pressure(
         p = after
         if done.all():
             break
-    return p, found
+    return p, found & done
 
 
 def _opened(case: Case, at: Setting, pressure: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:

@@ -10,6 +10,7 @@ import numpy as np
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import Outcome
+from stonepass.studies.surrogates.answers import SurrogateAnswers
 from stonepass.studies.surrogates.surrogate import Surrogate
 from stonepass.units import Pressure
 from stonepass.web.instant.curve import lowest_size
@@ -33,7 +34,7 @@ class Passing:
         known to move: that of the lumen for BELOW_RANGE, the end of the closure for BEYOND_CLOSURE,
         and the largest one of the surrogate for BEYOND_RANGE.
     outcomes : list of Outcome
-        SOLVED, BELOW_RANGE, BEYOND_CLOSURE (NO_SOLUTION for the direct model), or BEYOND_RANGE.
+        SOLVED, BELOW_RANGE, BEYOND_RANGE, or the outcome of the surrogate where it has no P_ucr.
     """
 
     sizes: Float[np.ndarray, " n"]
@@ -72,11 +73,12 @@ def passing_sizes(
     excess = np.ma.filled(table[1], np.inf) - limit
     reached = np.asarray((excess > 0.0).any(axis=1))
     for _ in range(refinements):
-        low, high, _, _ = _bracket(sizes, excess)
+        low, high, *_ = _bracket(sizes, excess)
         sizes = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, PIECES + 1)
         answers = held.answers(surrogate, sizes.ravel(), np.repeat(walls, PIECES + 1))
         excess = answers.pressure.filled(np.inf).reshape(sizes.shape) - limit
     low, high, below, above = _bracket(sizes, excess)
+    ended = answers.outcome.reshape(sizes.shape)[_first_above(excess)]
     known = np.isfinite(above)
     known &= np.isfinite(below)  # a wall that is not covered has no pressure at all
     change = np.subtract(above, below, out=np.ones(len(walls)), where=known)
@@ -84,21 +86,20 @@ def passing_sizes(
     loaded = surrogate.lumen is not None  # P_ucr of a stone as large as the lumen may then jump
     at_lumen = np.asarray((below == -limit) & loaded)
     found = low + np.where(at_lumen, 0.0, part) * (high - low)
-    rows = zip(reached.tolist(), known.tolist(), at_lumen.tolist(), strict=True)
-    ended = Outcome.NO_SOLUTION if surrogate.case.model.NAME == "direct" else Outcome.BEYOND_CLOSURE
-    outcomes = [_outcome(*row, ended) for row in rows]
+    rows = zip(reached.tolist(), known.tolist(), at_lumen.tolist(), ended.tolist(), strict=True)
+    outcomes = [_outcome(*row) for row in rows]
     return Passing(np.where(reached, found, surrogate.box.size_ratio), outcomes)
 
 
-def _outcome(reached: bool, known: bool, at_lumen: bool, ended: Outcome) -> Outcome:
+def _outcome(reached: bool, known: bool, at_lumen: bool, ended: int) -> Outcome:
     """Return the outcome of one search: whether P_ucr is above the limit, known, and of a jump.
 
-    `ended` is the outcome where the surrogate has no P_ucr.
+    `ended` is the place in `OUTCOMES` of the surrogate's outcome where the search ended.
     """
     if not reached:
         return Outcome.BEYOND_RANGE
     if not known:
-        return ended
+        return SurrogateAnswers.OUTCOMES[ended]
     return Outcome.BELOW_RANGE if at_lumen else Outcome.SOLVED
 
 
@@ -111,7 +112,11 @@ def _bracket(
     sizes: Float[np.ndarray, "n m"], excess: Float[np.ndarray, "n m"]
 ) -> tuple[Float[np.ndarray, " n"], ...]:
     """Return the sizes before and after the first positive excess, and the excess at both."""
-    after = np.maximum(1, np.argmax(excess > 0.0, axis=1))
-    rows = np.arange(len(sizes))
-    return (sizes[rows, after - 1], sizes[rows, after],
-            excess[rows, after - 1], excess[rows, after])  # fmt: skip
+    rows, after = _first_above(excess)
+    before = after - 1
+    return sizes[rows, before], sizes[rows, after], excess[rows, before], excess[rows, after]
+
+
+def _first_above(excess: Float[np.ndarray, "n m"]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the rows and, for each, the column of the first positive excess, at least 1."""
+    return np.arange(len(excess)), np.maximum(1, np.argmax(excess > 0.0, axis=1))

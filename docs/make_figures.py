@@ -3,8 +3,8 @@
 Each figure is drawn by a public command into docs/img, as SVG; the site makes its dark version. The
 manifest beside the figures keeps a digest of all that each was drawn by and from: the command, its
 input files, the code that draws, and the version of the numbers. ``--check`` recomputes the digests
-without drawing and names the figures that are out of date; a test does the same. Two figures need
-other programs: compare needs CalculiX (ccx), and assess needs chromium.
+without drawing and names the figures that are out of date; a test does the same. Some figures need
+other programs: compare needs CalculiX (ccx), assess and page need chromium.
 """
 
 import argparse
@@ -53,6 +53,12 @@ IMAGES = ROOT / "docs" / "img"
 MANIFEST = IMAGES / "manifest.json"
 SCREENSHOT = ("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
               "--window-size=860,1250")  # fmt: skip
+PAGE = sorted(
+    path.relative_to(ROOT).as_posix()
+    for ending in ("html", "css", "js")
+    for path in (ROOT / "src" / "stonepass" / "web" / "page").rglob(f"*.{ending}")
+)
+WINDOW = {"width": 1280, "height": 1072}  # size of the picture of the page in the browser
 EXAMPLE = ("--stone", "4.2mm", "--inner", "3.5mm", "--outer", "4.54mm")
 TUBE = ("--eta", "1.5", "--xi", "1.2", "--material", "latex", "--friction", "0.475")
 SECTIONS = (section, stone)
@@ -75,7 +81,8 @@ class Figure:
     before : tuple of commands
         Commands that write what the command reads.
     ending : {"svg", "gif", "png"}
-        Of the file; "png" is a screenshot of the page that the command writes as ``PAGE``.
+        Of the file; "png" is a screenshot of the page that the command writes as ``PAGE`` or
+        serves.
     """
 
     command: tuple[str, ...]
@@ -129,6 +136,7 @@ FIGURES = {
         ("examples/patient.toml",),
         ending="png",
     ),
+    "page": Figure(("serve", "--port", "0", "--no-browser"), inputs=tuple(PAGE), ending="png"),
     "closures-ureter": Figure(
         (), (closures_report.map_figure, closures_report._draw_errors),
         ("docs/data/closures-ureter.csv",),
@@ -186,7 +194,9 @@ def draw(name):
     figure = FIGURES[name]
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / ("paper" if figure.made else file_of(name).name)
-        if figure.command:
+        if "serve" in figure.command:
+            _draw_served(figure.command, out)
+        elif figure.command:
             page = Path(folder) / "page.html"
             words = {
                 "OUT": out,
@@ -206,6 +216,27 @@ def draw(name):
             _draw_map(ROOT / figure.inputs[0], out)
         drawn = out / figure.made if figure.made else out
         shutil.copyfile(drawn, file_of(name))
+
+
+def _draw_served(command, out):
+    """Draw the page in the browser as it looks when it has been opened."""
+    from playwright.sync_api import sync_playwright
+
+    server = [sys.executable, "-m", "stonepass", *command]
+    with subprocess.Popen(server, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            address = process.stdout.readline().split()[2]
+            with sync_playwright() as browsers:
+                browser = browsers.chromium.launch(
+                    executable_path=shutil.which(SCREENSHOT[0]), args=["--no-sandbox"]
+                )
+                page = browser.new_context(viewport=WINDOW).new_page()
+                page.goto(address, wait_until="networkidle")
+                page.wait_for_selector("html[data-answered]", state="attached")
+                page.screenshot(path=out)
+                browser.close()
+        finally:
+            process.terminate()
 
 
 def _draw_map(table, out):

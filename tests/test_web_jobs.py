@@ -8,11 +8,14 @@ from pathlib import Path
 import pytest
 from web_server import CASE, LONG, QUICK, Limits, client, ended, running
 
+from stonepass.errors import BadInput
 from stonepass.inputs.build import build_case
 from stonepass.model.critical import solve
 from stonepass.web.answers import Problem
 from stonepass.web.documented import JobDocument, UploadDocument
-from stonepass.web.jobs.bodies import JobBody, PressureJob
+from stonepass.web.jobs.bodies import AssessJob, JobBody, PressureJob
+from stonepass.web.jobs.context import Context
+from stonepass.web.jobs.tasks import patient
 from stonepass.web.jobs.worker import MODULES
 from stonepass.web.uploads.store import Upload, UploadStore
 
@@ -20,6 +23,13 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 SIZE = {"kind": "size", "limit": "6 kPa", "case": QUICK}
 PRESSURE = {"kind": "pressure", "case": QUICK}
 LOOSE = {"kind": "pressure", "case": {"stone": {"size_ratio": 0.9}, "ureter": {"wall_ratio": 1.3}}}
+PATIENT = {
+    "stone": {"diameter": "5 mm ± 1 mm", "place": "distal"},
+    "ureter": {"inner_diameter": "4.4 mm ± 0.5 mm", "wall_thickness": "0.7 mm ± 0.15 mm"},
+    "dilated": {"inner_diameter": "5 mm ± 0.5 mm"},
+    "assessment": {"limit": "6 kPa", "title": "<b>#emph[x]</b>"},
+    "method": {"accuracy": "fast", "seating": "frictionless"},
+}
 
 
 @pytest.fixture(scope="module")
@@ -355,22 +365,33 @@ def test_reports_are_html_and_pdf_that_load_nothing(asking):
 
 @pytest.mark.slow
 def test_a_patient_is_assessed_and_the_report_has_the_title_as_text(asking):
-    patient = {
-        "stone": {"diameter": "5 mm ± 1 mm", "place": "distal"},
-        "ureter": {"inner_diameter": "4.4 mm ± 0.5 mm", "wall_thickness": "0.7 mm ± 0.15 mm"},
-        "dilated": {"inner_diameter": "5 mm ± 0.5 mm"},
-        "assessment": {"limit": "6 kPa", "title": "<b>#emph[x]</b>"},
-        "method": {"accuracy": "fast", "seating": "frictionless"},
-    }
-    asked = ask(asking, {"kind": "assess", "patient": patient})
+    asked = ask(asking, {"kind": "assess", "patient": PATIENT})
     found = ended(asking, asked["id"], 600.0)
     assert found["status"] == "done", found
     assert found["result"]["outcome"] == "MOVES"
-    question = {"kind": "assess", "patient": patient}
+    question = {"kind": "assess", "patient": PATIENT}
     page = asking.post("/api/v1/report", json={"kind": "html", "question": question})
     assert "&lt;b&gt;#emph[x]&lt;/b&gt;" in page.text
     pdf = asking.post("/api/v1/report", json={"kind": "pdf", "question": question})
     assert pdf.content.startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("solve", [False, True])
+def test_a_request_may_ask_for_solved_cases(monkeypatch, solve):
+    """The option ``--solve`` of 'stonepass assess' is a field of the request."""
+    body = {"kind": "assess", "patient": PATIENT, "solve": solve}
+    asked = []
+
+    def assessed(given, solver, *, surrogates):
+        asked.append(surrogates)
+        raise BadInput("stone", "x", "y")
+
+    monkeypatch.setattr(patient, "assess", assessed)
+    with pytest.raises(BadInput):
+        patient.TASKS["assess"](body, Context(lambda *_: None))
+    assert asked == [not solve]
+    one, other = (AssessJob.model_validate(body | {"solve": each}) for each in (False, True))
+    assert one.question() != other.question()
 
 
 def test_a_job_that_cannot_be_begun_fails_and_the_next_one_runs(tmp_path, monkeypatch):

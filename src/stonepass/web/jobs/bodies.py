@@ -133,6 +133,9 @@ class AssessJob(StrictBody):
 
     kind: Literal["assess"]
     patient: PatientFile = Field(description="the sections of a patient file")  # type: ignore[valid-type]
+    solve: bool = Field(
+        False, description="solve about fifty cases although a surrogate covers the inputs"
+    )
 
     def question(self) -> dict[str, Any]:
         """Return everything that the answer depends on, with all values checked."""
@@ -144,8 +147,7 @@ class AssessJob(StrictBody):
             raise BadInput("shape", parsed.stone.shape, "left out", f"{NO_FILES}; give the aspect")
         refuse_files(section_values(parsed.method, "method"))
         patient_of(self.patient)
-        found: dict[str, Any] = parsed.model_dump(mode="json")
-        return found
+        return parsed.model_dump(mode="json") | {"solve": self.solve}
 
 
 class FitJob(StrictBody):

@@ -25,7 +25,8 @@ def _assess(request: Mapping[str, Any], context: Context) -> Done:
     def told(done: int, total: int) -> None:
         context.tell(done, total, f"Solving the cases: {done} of {total} are done.")
 
-    found = assess(patient_of(body.patient), JobSolver(None, context.cache_folder, told))
+    solver = JobSolver(None, context.cache_folder, told)
+    found = assess(patient_of(body.patient), solver, surrogates=not body.solve)
     page = ""
     if context.format:
         context.tell(0, 0, "Writing the report.")

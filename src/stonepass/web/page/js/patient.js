@@ -2,6 +2,7 @@
 
 import { get } from "./api.js";
 import { download, fill, h } from "./dom.js";
+import { checkField } from "./fields.js";
 import { jobRun } from "./job_run.js";
 import { fileText, patientForm } from "./patient_form.js";
 import { patientResults } from "./patient_results.js";
@@ -19,15 +20,17 @@ export async function patientPanel(place) {
     "Assess",
     "This takes about a second, or half a minute where about fifty cases must be solved.",
   );
+  const solve = checkField("Solve by finite elements, although a surrogate covers the inputs");
+  const repeat = h("code");
   const command = h("pre", { tabindex: "0", "aria-label": "Patient file" }, h("code"));
   let asked = null;
 
-  form.element.append(run.element);
+  form.element.append(solve.element, run.element);
   form.element.addEventListener("submit", (event) => {
     event.preventDefault();
     form.refuse("", "");
-    asked = form.sections();
-    run.start({ kind: "assess", patient: asked }, done, (problem) =>
+    asked = { kind: "assess", patient: form.sections(), solve: solve.box.checked };
+    run.start(asked, done, (problem) =>
       form.refuse(problem.field, problem.message),
     );
   });
@@ -64,20 +67,22 @@ export async function patientPanel(place) {
           "Save patient.toml",
         ),
       ),
-      h("p", { class: "small quiet" }, h("code", {}, "stonepass assess patient.toml --html report.html")),
+      h("p", { class: "small quiet" }, repeat),
       h("div", { class: "code" }, command),
     ),
   );
 
   function redraw() {
     command.firstChild.textContent = fileText(form.sections());
+    const option = solve.box.checked ? "--solve " : "";
+    repeat.textContent = `stonepass assess patient.toml ${option}--html report.html`;
   }
   function done(record) {
     const answered = asked;
     fill(
       results,
       ...patientResults(record),
-      reportButtons(() => ({ kind: "assess", patient: answered })),
+      reportButtons(() => answered),
     );
     results.querySelector("h2")?.focus();
   }

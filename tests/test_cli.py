@@ -594,11 +594,11 @@ def test_progress_that_is_no_terminal_is_a_few_lines(capsys, monkeypatch):
     clock = iter(range(0, 10_000, 3))
     monkeypatch.setattr("stonepass.cli.terminal.time.monotonic", lambda: next(clock))
     with terminal.counting("solving") as progress:
-        for done in range(1, 201):
-            progress(done, 200)
-    assert capsys.readouterr().err.splitlines() == [
-        f"solving: {done} of 200" for done in (50, 100, 150)
-    ]
+        for total in (200, 100):  # two stages
+            for done in range(1, total + 1):
+                progress(done, total)
+    told = ("50 of 200", "100 of 200", "150 of 200", "25 of 100", "50 of 100", "75 of 100")
+    assert capsys.readouterr().err.splitlines() == [f"solving: {each}" for each in told]
 
 
 def test_durations():

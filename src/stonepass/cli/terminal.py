@@ -186,12 +186,18 @@ def counting(what: str) -> Iterator[Callable[[int, int], None]]:
 
 
 def _few_lines(what: str) -> Callable[[int, int], None]:
-    """Return a progress function for output that is no terminal."""
-    last, quarter = time.monotonic(), 0
+    """Return a progress function for output that is no terminal.
+
+    If the work has several stages, each of which counts from 1, every stage has its own lines.
+    """
+    last, quarter, before = time.monotonic(), 0, 0
 
     def line(done: int, total: int) -> None:
-        nonlocal last, quarter
+        nonlocal last, quarter, before
         now, part = time.monotonic(), PLAIN_LINES * done // total
+        if done < before:
+            quarter = 0
+        before = done
         if part > quarter and done < total and now - last >= PLAIN_INTERVAL:
             last, quarter = now, part
             note(f"{what}: {done} of {total}")

@@ -32,6 +32,17 @@ PATIENT = {
 }
 
 
+def of_wall(**changed):
+    """Return the quick case with a wall of given constants, some of which are changed."""
+    wall = {"law": "neo-hookean", "C10": "70 kPa", "strain_range": [0.5, 1.5], "source": "mine"}
+    return QUICK | {"ureter": {"wall_ratio": 1.3, "material": wall | changed}}
+
+
+def of_shape(shape):
+    """Return the quick case with a stone of some shape."""
+    return QUICK | {"stone": {"size_ratio": 1.2, "shape": shape}}
+
+
 @pytest.fixture(scope="module")
 def asking(tmp_path_factory):
     with client(tmp_path_factory.mktemp("solved"), workers=1) as found:
@@ -145,12 +156,34 @@ def test_a_refusal_of_the_model_names_the_field(asking):
         ({"kind": "size"}, "limit"),
         ({"kind": "size", "limit": "1 Pa"}, "limit"),
         ({"kind": "push", "steps": 1000}, "steps"),
-        ({"kind": "nothing"}, "body"),
+        ({"kind": "nothing"}, "kind"),
+        ({"case": []}, "case"),
+        ({"case": of_wall(source="")}, "ureter.material.source"),
+        ({"case": of_wall(C10="70")}, "ureter.material.C10"),
+        ({"case": of_wall(C01="1 kPa")}, "ureter.material.C01"),
+        ({"case": of_wall(D="1 kPa")}, "ureter.material.D"),
+        ({"case": of_wall(law="rubber")}, "ureter.material.law"),
+        ({"case": of_wall(strain_range=[1.5, 1.0])}, "ureter.material.strain_range"),
+        ({"case": of_shape([[0, 0], [1, 0]])}, "stone.shape"),
+        ({"case": of_shape({"z": [-1, 1], "rho": [0, 0]})}, "stone.shape"),
+        ({"case": of_shape({"radius": 2})}, "stone.shape"),
     ],
 )
 def test_a_question_is_checked_before_it_is_queued(asking, changed, field):
     found = ask(asking, PRESSURE | changed, 422)
     assert found["field"] == field, found
+    assert "FILE.py" not in found["detail"]
+
+
+@pytest.mark.parametrize(("body", "field"), [({}, "kind"), ({"kind": "pressure"}, "case")])
+def test_a_missing_part_of_a_question_is_named(asking, body, field):
+    found = ask(asking, body, 422)
+    assert (found["field"], found["detail"]) == (field, f"{field} is missing, but must be given.")
+
+
+def test_a_body_that_is_declared_as_text_is_no_question(asking):
+    found = asking.post("/api/v1/jobs", content="{}", headers={"content-type": "text/plain"})
+    assert (found.status_code, found.json()["field"]) == (415, "Content-Type")
 
 
 def test_a_job_is_cancelled_while_it_waits_and_while_it_runs(asking):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
@@ -10,13 +11,16 @@ from stonepass.declaration import Kind
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.inputs.build import build_case
 from stonepass.inputs.catalogue import all_inputs, sections
+from stonepass.inputs.material_file import find_material
 from stonepass.inputs.overlay import refuse_pairs
 from stonepass.inputs.sections import section_model, section_values
 from stonepass.materials.catalogue import CATALOGUE
+from stonepass.materials.protocol import Material
 from stonepass.model.case import Case
 
-__all__ = ["CaseBody", "case_of", "refuse_files", "values_of_body"]
+__all__ = ["TABLES", "CaseBody", "case_of", "refuse_files", "values_of_body"]
 
+MATERIAL = "ureter.material"
 NO_FILES = "stonepass serve opens no file that a request names"
 TABLES = {
     Kind.SHAPE: "a table with 'aspect', or with the lists of points 'z' and 'rho'",
@@ -82,11 +86,33 @@ def case_of(body: BaseModel, size_ratio: float | None = None) -> Case:
         A value names a file, is out of bounds, or contradicts another one.
     """
     values = values_of_body(body)
+    table = values.get(MATERIAL)
+    if isinstance(table, dict):
+        values[MATERIAL] = _material_of(table)
     if size_ratio is not None:
         sizes = ("stone.diameter", "stone.size_ratio")
         values = {key: value for key, value in values.items() if key not in sizes}
         values["stone.size_ratio"] = size_ratio
     return build_case(values)
+
+
+def _material_of(table: dict[str, Any]) -> Material:
+    """Return the material of a table of constants.
+
+    Errors name the key of the request, e.g. ``ureter.material.C10``.
+    """
+    try:
+        return find_material(table)
+    except BadInput as problem:
+        key = problem.argument.removeprefix("material, ").strip("'")
+        if key == "key":  # the table has a key that is not known
+            unknown, known = str(problem.value), problem.allowed.removeprefix("one of ")
+            raise BadInput(f"{MATERIAL}.{unknown}", table[unknown],
+                           "left out, because there is no such key",
+                           problem.remedy or f"known keys are {known}") from problem  # fmt: skip
+        where = f"{MATERIAL}.{key}" if re.fullmatch(r"\w+", key) else MATERIAL
+        remedy = "" if key == "law" else problem.remedy  # that of a law is a Python file
+        raise BadInput(where, problem.value, problem.allowed, remedy) from problem
 
 
 def refuse_files(values: dict[str, Any]) -> None:

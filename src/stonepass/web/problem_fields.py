@@ -9,7 +9,8 @@ from stonepass.inputs.catalogue import all_inputs
 
 __all__ = ["field_of"]
 
-KEY = re.compile(r"[a-z_]+")  # an input that only the API has is named by its key
+# Inputs that only the API has are named by their keys, and so are those of a table of constants.
+KEY = re.compile(r"[a-z_]+|ureter\.material\.\w+")
 # Inputs that a message about more than one input belongs to.
 SHARED_FIELDS = {
     "size of the stone": "stone.diameter",
@@ -22,6 +23,7 @@ SHARED_FIELDS = {
     "order of the baseline": "baseline_order",
     "height range": "height_range",
     "shape of the stone": "stone.shape",
+    "key of the shape": "stone.shape",
 }
 
 

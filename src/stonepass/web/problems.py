@@ -10,8 +10,9 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 
 from stonepass.errors import BadInput, did_you_mean
-from stonepass.inputs.catalogue import sections
+from stonepass.inputs.catalogue import all_inputs, sections
 from stonepass.web.answers import FAULT, ProblemError, problem_response, refused
+from stonepass.web.case_body import TABLES
 from stonepass.web.jobs.worker import MODULES
 
 __all__ = ["handle_problems"]
@@ -26,7 +27,11 @@ ALLOWED = {
     "dict_type": "an object",
     "model_type": "an object",
     "model_attributes_type": "an object",
+    "string_pattern_mismatch": "the id of an uploaded file",
+    "union_tag_not_found": "given",
 }
+TAGS = ("union_tag_invalid", "union_tag_not_found")
+NO_JSON = "The body of the request must be JSON, with the content type application/json."
 # Parts at the beginning and at the end of the location of an error that are no keys of an input.
 CONTAINERS = ("case", "patient", "question", *MODULES)
 TYPES = ("str", "dict[str,any]", "float")
@@ -62,13 +67,18 @@ def _invalid(_: Request, problem: Exception) -> Response:
     kind, where = first["type"], first["loc"]
     if kind == "json_invalid":
         return problem_response(400, "The body of the request is not valid JSON.")
+    if where == ("body",) and isinstance(first.get("input"), bytes):  # it was not read as JSON
+        return problem_response(415, NO_JSON, "Content-Type")
     keys = [str(part) for part in where[1:]]
-    while keys and keys[0] in CONTAINERS:
+    while len(keys) > 1 and keys[0] in CONTAINERS:
         del keys[0]
     while keys and keys[-1] in TYPES:
         del keys[-1]
-    field = ".".join(keys) or "body"
     value = "missing" if kind == "missing" else first.get("input")
+    if kind in TAGS:
+        keys.append(first["ctx"]["discriminator"].strip("'"))
+        value = first["ctx"].get("tag", "missing")
+    field = ".".join(keys) or "body"
     return refused(BadInput(field, value, _allowed(first, keys)), field)
 
 
@@ -79,6 +89,11 @@ def _allowed(error: Mapping[str, Any], keys: Sequence[str]) -> str:
         return f"left out, because there is no such key{did_you_mean(keys[-1], names)}"
     if error["type"] == "literal_error":
         return f"one of {error['ctx']['expected']}"
+    declared = all_inputs().get(".".join(keys))
+    if declared is not None and declared.declaration.kind in TABLES:
+        return TABLES[declared.declaration.kind]
+    if error["type"] == "union_tag_invalid":
+        return f"one of {error['ctx']['expected_tags']}"
     return ALLOWED.get(error["type"], f"valid ({error['msg']})")
 
 

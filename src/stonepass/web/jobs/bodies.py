@@ -13,7 +13,7 @@ from stonepass.errors import BadInput, require
 from stonepass.inputs.case_record import describe
 from stonepass.inputs.sections import section_values
 from stonepass.materials.catalogue import CATALOGUE
-from stonepass.materials.known_laws import constants_by_name
+from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name
 from stonepass.model.case import Case
 from stonepass.units import area, length, pressure
 from stonepass.web.case_body import NO_FILES, CaseBody, case_of, refuse_files
@@ -175,6 +175,7 @@ class FitJob(StrictBody):
 
     def question(self) -> dict[str, Any]:
         """Return everything that the answer depends on, with all values checked."""
+        require(self.law in KNOWN_LAWS, "law", self.law, "one of " + ", ".join(KNOWN_LAWS))
         known = constants_by_name(self.law)
         for name in (*self.fix, *self.free):
             if name not in known:

@@ -99,6 +99,15 @@ def test_a_name_can_be_allowed(guarded):
         assert guarded.get("/api/v1", headers=headers | {"host": host}).status_code == status
 
 
+def test_the_repeated_request_takes_the_token_from_the_environment(guarded):
+    headers = {"authorization": f"Bearer {TOKEN}", "host": "lab.example"}
+    body = {"case": {"stone": {"size_ratio": 1.2}, "ureter": {"wall_ratio": 1.3}}}
+    found = guarded.post("/api/v1/instant", headers=headers, json=body)
+    curl = found.json()["repeat"]["curl"]
+    assert curl.startswith('curl -H "Authorization: Bearer $STONEPASS_TOKEN" --json ')
+    assert TOKEN not in found.text
+
+
 # --- other pages
 
 

@@ -11,6 +11,7 @@ from stonepass.web.answers import Json
 from stonepass.web.bodies import InstantBody
 from stonepass.web.documented import PROBLEMS, InstantDocument
 from stonepass.web.instant.answer import instant_answer
+from stonepass.web.state import state_of
 
 __all__ = ["router"]
 
@@ -66,4 +67,5 @@ def instant(body: InstantBody, request: Request) -> Json:
     """
     asked: dict[str, Any] = body.model_dump(exclude_unset=True)
     address = f"{request.url.scheme}://{request.headers['host']}"
-    return Json(instant_answer(body.question(), asked, address))
+    token = bool(state_of(request).settings.token)
+    return Json(instant_answer(body.question(), asked, address, token=token))

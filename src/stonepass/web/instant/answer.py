@@ -38,7 +38,7 @@ CAUSES = {
 
 
 def instant_answer(
-    question: InstantQuestion, body: Mapping[str, Any], address: str
+    question: InstantQuestion, body: Mapping[str, Any], address: str, *, token: bool = False
 ) -> dict[str, Any]:
     """Return the answer as a JSON-ready dictionary.
 
@@ -49,6 +49,8 @@ def instant_answer(
         The request, which the answer repeats as a command.
     address : str
         Address of the server, without a slash at the end.
+    token : bool
+        True if the server needs a token.
     """
     surrogate = surrogate_for(question.case)
     reasons = obstacles(question.case, surrogate)
@@ -66,7 +68,9 @@ def instant_answer(
     return document | {
         "validity": ranges,
         "warnings": warnings,
-        "repeat": repeat(question, surrogate if inside else None, body, address, solved),
+        "repeat": repeat(
+            question, surrogate if inside else None, body, address, solved, token=token
+        ),
         "notice": DISCLAIMER,
         "version": VERSION,
         "fingerprint": fingerprint(solved, solved.model, solved.numerics),

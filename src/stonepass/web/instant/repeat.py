@@ -20,6 +20,7 @@ from stonepass.web.instant.question import InstantQuestion
 __all__ = ["case_file_text", "repeat"]
 
 CASE_FILE = "case.toml"
+TOKEN = "STONEPASS_TOKEN"  # variable of the environment from which curl takes the token
 
 
 def repeat(
@@ -28,6 +29,8 @@ def repeat(
     body: Mapping[str, Any],
     address: str,
     solved: Case,
+    *,
+    token: bool,
 ) -> dict[str, str | None]:
     """Return texts that repeat an instant answer, and the solve by finite elements.
 
@@ -42,6 +45,8 @@ def repeat(
         Address of the server, without a slash at the end.
     solved : Case
         The case with the stiffness in its material, for the finite elements.
+    token : bool
+        True if the server needs a token; ``curl`` then takes it from the environment.
 
     Returns
     -------
@@ -57,7 +62,7 @@ def repeat(
         "solve_command": _solve_command(solved) if by_name else f"stonepass pressure {CASE_FILE}",
         "solve_python": _solve_python(solved, by_name),
         "case_file": case_file_text(solved),
-        "curl": _curl(body, address),
+        "curl": _curl(body, address, token),
     }
 
 
@@ -119,6 +124,7 @@ def _solve_python(case: Case, by_name: bool) -> str:
     return f"import stonepass as sp\n\nprint(sp.solve({made}))\n"
 
 
-def _curl(body: Mapping[str, Any], address: str) -> str:
-    sent = json.dumps(body)
-    return f"curl --json {shlex.quote(sent)} {shlex.quote(f'{address}/api/v1/instant')}"
+def _curl(body: Mapping[str, Any], address: str, token: bool) -> str:
+    header = f'-H "Authorization: Bearer ${TOKEN}" ' if token else ""
+    sent = shlex.quote(json.dumps(body))
+    return f"curl {header}--json {sent} {shlex.quote(f'{address}/api/v1/instant')}"

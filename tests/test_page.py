@@ -169,6 +169,25 @@ def test_finite_elements_beside_the_instant_answer(page):
     assert "earlier inputs" in solved.inner_text()
 
 
+def test_the_direct_model_answers_at_once_too(open_page, server):
+    page = open_page("#calculator?material=latex")
+    of_paper = pressure(page)
+    page.get_by_role("group", name="Model of the instant answer").get_by_text("direct").click()
+    settled(page)
+    question = asked()
+    question["case"]["ureter"] = question["case"]["ureter"] | {"material": "latex"}
+    question["case"]["method"] = {"model": "direct"}
+    found = server.post("instant", question)
+    assert float(pressure(page)) == near(found["answer"]["critical_pressure_kPa"])
+    assert reading(page, "largest stone") == f"{found['size']['critical_diameter_mm']:.2f}"
+    assert pressure(page) != of_paper
+    assert page.get_by_label("Model of the finite elements").input_value() == "direct"
+    assert "no urine pressure" in page.locator("figure", has_text="Section through").inner_text()
+    page.wait_for_timeout(500)
+    again = open_page(page.url.split("/", 3)[3])
+    assert pressure(again) == pressure(page)
+
+
 def test_solve_is_cancelled(page):
     page.get_by_label("Diameter across the ureter", exact=True).fill("4.37")
     page.get_by_label("Model of the finite elements").select_option("direct")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
@@ -30,8 +31,10 @@ def surrogate_table(surrogate: Surrogate) -> Table:
         "confining pressure": _loads(surrogate),
         "terms": f"{surrogate.terms}",
     }
+    cases = Counter[str]()
     for level in surrogate.about.get("levels", ()):
-        rows[f"fitted to {level['accuracy']} {level['options']}"] = f"{level['cases']} cases"
+        cases[f"fitted to {level['accuracy']} {level['options']}"] += level["cases"]
+    rows |= {name: f"{number} cases" for name, number in cases.items()}
     rows |= _errors(surrogate.about.get("check"))
     for name, value in rows.items():
         table.add_row(name, value)

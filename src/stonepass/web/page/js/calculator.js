@@ -14,7 +14,7 @@ const INCLUDE = ["curve", "section"];
 // moment, and at least this often while they change.
 const MAP_REST = 80; // ms
 const MAP_LONGEST = 300; // ms
-const MAP_INPUTS = ["friction", "stiffness", "confining", "material", "limit", "aspect"];
+const MAP_INPUTS = ["friction", "stiffness", "confining", "material", "limit", "aspect", "model"];
 const LINK_DELAY = 300; // ms; browsers refuse to change the address too often
 
 /**

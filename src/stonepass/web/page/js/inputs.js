@@ -19,6 +19,11 @@ const WORDS = {
 // Inputs that a warning may name although no slider has exactly this name.
 const ALSO = { "stone.size_ratio": "stone", "ureter.wall_ratio": "thickness", "stone.shape": "aspect" };
 
+const MODEL_NOTES = {
+  paper: "The paper’s balance of the seated contact, with its closure",
+  direct: "Wall and stone under the urine pressure, without a closure",
+};
+
 // Warnings that the verdict explains in full.
 const SHORTER = { no_surrogate: "No instant answer for this input. Solve by finite elements instead." };
 
@@ -38,6 +43,15 @@ export function inputsPanel(given) {
     ],
     (value) => given({ wall: value }),
   );
+  const model = choice(
+    "Model of the instant answer",
+    [
+      ["paper", "paper"],
+      ["direct", "direct"],
+    ],
+    (value) => given({ model: value }),
+  );
+  const modelNote = note(freshId("note"));
   const materials = select("Material of the wall", (value) => given({ material: value }));
   const presets = select("Published limits", (value) => value && given({ limit: Number(value) }));
   const source = note(freshId("note"));
@@ -59,6 +73,7 @@ export function inputsPanel(given) {
     ),
     group("Load", controls.confining.element),
     group("Limit", controls.limit.element, presets.element, source.element),
+    group("Model", model.element, modelNote.element),
   );
   element.addEventListener("submit", (event) => event.preventDefault());
 
@@ -99,6 +114,8 @@ export function inputsPanel(given) {
     controls.thickness.element.hidden = question.wall === "outer";
     controls.outer.element.hidden = question.wall !== "outer";
     wall.show(question.wall);
+    model.show(question.model);
+    modelNote.show(MODEL_NOTES[question.model], warned.model ?? "");
     materials.show(
       typeof question.material === "string" ? question.material : JSON.stringify(question.material),
     );
@@ -172,7 +189,8 @@ function warnings(found, problem) {
   const keyOf = (input) =>
     Object.keys(FIELDS).find((key) => FIELDS[key].input === input) ??
     ALSO[input] ??
-    (input === "ureter.material" ? "material" : "");
+    { "ureter.material": "material", "method.model": "model" }[input] ??
+    "";
   for (const each of found?.warnings ?? [])
     warned[keyOf(each.input)] ??= SHORTER[each.code] ?? sentence(each.sentence);
   if (problem?.field) warned[keyOf(problem.field)] = sentence(problem.message);

@@ -103,7 +103,7 @@ export const FIELDS = {
 /** Return the question that is shown first. */
 export function firstQuestion() {
   const values = Object.fromEntries(Object.entries(FIELDS).map(([key, field]) => [key, field.start]));
-  return { ...values, wall: "thickness", material: "ureter" };
+  return { ...values, wall: "thickness", material: "ureter", model: "paper" };
 }
 
 /** Return the question with some values changed; both ways to give the wall stay consistent. */
@@ -125,6 +125,7 @@ export function toQuery(question) {
     "material",
     typeof question.material === "string" ? question.material : JSON.stringify(question.material),
   );
+  if (question.model !== "paper") query.set("model", question.model);
   return query.toString();
 }
 
@@ -137,12 +138,13 @@ export function fromQuery(text) {
     if (value !== null && Number.isFinite(value)) found[key] = value;
   }
   if (query.has("outer")) found.wall = "outer";
+  if (query.get("model") === "direct") found.model = "direct";
   if (query.has("material")) found.material = material(query.get("material"));
   return changed(firstQuestion(), found);
 }
 
-/** Return the sections of a case file. */
-export function toCase(question, method = null) {
+/** Return the sections of a case file; a solve may have another model than the instant answer. */
+export function toCase(question, model = question.model) {
   const wall =
     question.wall === "outer"
       ? { outer_diameter: quantity(question.outer, "mm") }
@@ -153,7 +155,7 @@ export function toCase(question, method = null) {
     load: { confining_pressure: quantity(question.confining, "kPa") },
   };
   if (question.aspect !== 1) found.stone.aspect = question.aspect;
-  if (method) found.method = method;
+  if (model !== "paper") found.method = { model };
   return found;
 }
 

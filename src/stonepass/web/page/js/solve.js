@@ -9,13 +9,14 @@ import { reportButtons } from "./report.js";
 import { clinical, decimals, digits, withError } from "./units.js";
 import { outcomeWords } from "./verdict.js";
 
+const MODEL_WORDS = { paper: "model of the paper", direct: "direct model" };
+
 /** Build the reading of the finite elements; `solved()` is called when an answer has come or gone. */
 export function solvePanel(changed) {
   const model = h(
     "select",
     { "aria-label": "Model of the finite elements" },
-    h("option", { value: "paper" }, "model of the paper"),
-    h("option", { value: "direct" }, "direct model"),
+    Object.entries(MODEL_WORDS).map(([value, text]) => h("option", { value }, text)),
   );
   const start = h("button", { type: "button", class: "button first small" }, "Solve");
   const cancel = h("button", { type: "button", class: "button small", hidden: true }, "Cancel");
@@ -67,7 +68,7 @@ export function solvePanel(changed) {
   function job() {
     return {
       kind: "pressure",
-      case: toCase(question, { model: model.value }),
+      case: toCase(question, model.value),
       stiffness: question.stiffness,
     };
   }
@@ -109,7 +110,7 @@ export function solvePanel(changed) {
   }
 
   function keyOf(of) {
-    return `${toQuery({ ...of, limit: 0 })}&${model.value}`;
+    return `${toQuery({ ...of, limit: 0, model: model.value })}`;
   }
   function current() {
     return answer && question && answer.key === keyOf(question) ? answer.record : null;
@@ -162,9 +163,9 @@ export function solvePanel(changed) {
   function difference(record) {
     if (!instant || record.critical_pressure_kPa === null) return "";
     const part = (100 * (record.critical_pressure_kPa - instant)) / instant;
-    return record.model === "paper"
+    return record.model === question.model
       ? `${decimals(part, 2)} % from the instant answer.`
-      : `${decimals(part, 1)} % from the instant answer of the paper’s model.`;
+      : `${decimals(part, 1)} % from the instant answer of the ${MODEL_WORDS[question.model]}.`;
   }
 
   return {
@@ -172,6 +173,7 @@ export function solvePanel(changed) {
     current,
     /** Take the question that a solve would answer, and the instant answer to compare with. */
     asked(next, pressure = null) {
+      if (next.model !== question?.model && !running) model.value = next.model;
       question = next;
       instant = pressure;
       draw();

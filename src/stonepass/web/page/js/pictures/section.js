@@ -63,9 +63,14 @@ export function sectionWords({ question, section, exact }) {
       " Stone and ureter are drawn without deformation: there is no solved state for these inputs.",
     ];
   if (!shape.contact.length) return [...where, " The stone does not touch the wall all around."];
+  const unloaded = question.model === "direct" ? ", which have no urine pressure" : "";
   const source = exact
     ? [" Solved for exactly these inputs: "]
-    : [" Interpolated between solved ", term("seated state", "seated states"), " with friction 0.5: "];
+    : [
+        " Interpolated between solved ",
+        term("seated state", "seated states"),
+        ` with friction 0.5${unloaded}: `,
+      ];
   return [
     ...where,
     ...source,

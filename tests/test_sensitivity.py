@@ -28,6 +28,7 @@ from stonepass.studies.sensitivity.solved_cases import SolvedCases
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.study_file import read_sensitivity
 from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
+from stonepass.studies.sensitivity.swept_cases import swept_cases
 from stonepass.studies.sensitivity.uncertain_case import uncertain_case
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 
@@ -564,6 +565,43 @@ def test_the_results_of_a_sweep_answer_a_study(tmp_path, capsys):
     assert run(["sensitivity", str(other)]) == 2
     assert "fixed inputs of the study" in capsys.readouterr().err
     assert run(["sensitivity", str(path), "--sweep", str(tmp_path / "none")]) == 2
+
+
+def test_a_sweep_of_several_models_answers_for_the_one_with_the_same_options(tmp_path):
+    """The model of a sweep is found by its options, whatever its label."""
+    fixed = {key: SWEEP[key] for key in ("ureter",)}
+    both = fixed | {
+        "models": {
+            "stiff": {"model": "beam", "circumferential_modulus": "0.4 MPa",
+                      "longitudinal_modulus": "40 kPa"},
+            "soft": {"model": "beam", "circumferential_modulus": "0.4 MPa",
+                     "longitudinal_modulus": "20 kPa"},
+        },
+        "vary": {"stone.friction": [0.1, 0.2, 0.3, 0.4, 0.5],
+                 "stone.diameter": ["3.4 mm", "3.7 mm", "3.8 mm", "3.9 mm"]},
+    }  # fmt: skip
+    sp.sweep(both, tmp_path / "both", workers=1, progress=False)
+    results = sp.read_results(tmp_path / "both")
+    ranges = {"stone.friction": "0.1 to 0.5", "stone.diameter": "3.7 mm to 3.9 mm"}
+    for modulus in ("20 kPa", "40 kPa"):
+        model = dataclasses.replace(BEAM, longitudinal_modulus=modulus)
+        case = sp.Case(sp.Stone("3.75 mm", 0.3), sp.Ureter("3.5 mm", "4.5 mm"), model=model)
+        found = swept_cases(uncertain_case(case, ranges), results)
+        assert len(found.solved.outcome) == 20
+        at = {"stone.friction": np.array([0.3]), "stone.diameter": np.array([3.8e-3])}
+        exact = sp.solve(dataclasses.replace(case, stone=sp.Stone("3.8 mm", 0.3))).pressure
+        assert found(at).value[0] == pytest.approx(exact, rel=0.01)
+    other = sp.Case(sp.Stone("3.75 mm", 0.3), sp.Ureter("3.5 mm", "4.5 mm"), model=sp.PushThrough())
+    with pytest.raises(BadInput, match="fixed inputs of the study"):
+        swept_cases(uncertain_case(other, ranges), results)
+
+
+def test_a_sweep_over_names_does_not_answer_a_study(tmp_path):
+    named = SWEEP | {"vary": SWEEP["vary"] | {"method.accuracy": ["fast", "standard"]}}
+    sp.sweep(named | {"samples": {"count": 2}}, tmp_path / "named", workers=1, progress=False)
+    with pytest.raises(BadInput, match=r"method\.accuracy.*a real number"):
+        swept_cases(uncertain_case(CASE, {"stone.friction": "0.1 to 0.5"}),
+                    sp.read_results(tmp_path / "named"))  # fmt: skip
 
 
 # --- the study file and its errors

@@ -23,7 +23,7 @@ from stonepass.studies.sensitivity.size_search import search_sizes
 from stonepass.studies.sensitivity.tornado import INNER, STONE_SIZE
 from stonepass.studies.sensitivity.uncertain_case import Inputs, UncertainCase
 
-__all__ = ["InterpolatedCases"]
+__all__ = ["InterpolatedCases", "require_same_inputs"]
 
 FEWEST = 20  # smallest number of points with a critical pressure
 MOST = 2000  # largest number of points from which every value is interpolated
@@ -70,10 +70,7 @@ class InterpolatedCases:
     name: str
 
     def __post_init__(self) -> None:
-        mine, its = set(self.uncertain.keys), set(self.points)
-        if mine != its:
-            allowed = f"those of the {self.name}, {', '.join(sorted(its)) or 'none'}"
-            raise BadInput("uncertain inputs", ", ".join(sorted(mine)), allowed)
+        require_same_inputs(self.uncertain, self.points, self.name)
         for key, values in self.points.items():
             require(len(values) > 0 and float(np.ptp(values)) > 0.0, f"'{key}'",
                     f"constant in the {self.name}", "varied in it")  # fmt: skip
@@ -174,3 +171,11 @@ def _interpolant(at: Points, values: Float[np.ndarray, " n"]) -> RBFInterpolator
     points, first = np.unique(at, axis=0, return_index=True)
     neighbours = None if len(points) <= MOST else NEIGHBOURS
     return RBFInterpolator(points, values[first], neighbours, kernel="cubic", degree=1)
+
+
+def require_same_inputs(uncertain: UncertainCase, points: Inputs, name: str) -> None:
+    """Raise BadInput if the uncertain inputs are not those that vary in some solved cases."""
+    mine, its = set(uncertain.keys), set(points)
+    if mine != its:
+        allowed = f"those of the {name}, {', '.join(sorted(its)) or 'none'}"
+        raise BadInput("uncertain inputs", ", ".join(sorted(mine)), allowed)

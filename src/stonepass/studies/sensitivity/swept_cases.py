@@ -10,7 +10,7 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.errors import BadInput, Outcome
 from stonepass.studies.sensitivity.evaluator import BAD_INPUT, OUTCOMES, Evaluations
-from stonepass.studies.sensitivity.interpolated_cases import InterpolatedCases
+from stonepass.studies.sensitivity.interpolated_cases import InterpolatedCases, require_same_inputs
 from stonepass.studies.sensitivity.uncertain_case import Inputs, UncertainCase
 from stonepass.studies.sweeps.case_rows import fingerprint_of
 from stonepass.studies.sweeps.plan import CaseInputs
@@ -36,13 +36,14 @@ def swept_cases(uncertain: UncertainCase, results: SweepResults) -> Interpolated
     uncertain : UncertainCase
         The case with its uncertain inputs, which must be the varied inputs of the sweep.
     results : SweepResults
-        The results. If the sweep has several models, those of the model of the case are used.
+        The results. If the sweep has several models, those of the model with the options of the
+        case are used.
 
     Raises
     ------
     BadInput
-        The model of the case is not in the sweep, an input of the sweep is no number, or the
-        uncertain or the fixed inputs are not those of the sweep (see `InterpolatedCases`).
+        An input of the sweep is no number, or the uncertain or the fixed inputs, model and options
+        included, are not those of the sweep (see `InterpolatedCases`).
 
     References
     ----------
@@ -56,42 +57,37 @@ def swept_cases(uncertain: UncertainCase, results: SweepResults) -> Interpolated
     bounds = {outcome: column for outcome, column in BOUNDS.items() if column in results.columns}
     asked = ["model", "outcome", "fingerprint", PRESSURE, *inputs.values(), *bounds.values()]
     table = results.table([each for each in dict.fromkeys(asked) if each in results.columns])
-    words = np.array(table["outcome"].to_pylist(), dtype=object)
-    rows = np.isin(words, [*Outcome.__members__, "BAD_INPUT"]) & _of_model(uncertain, plan, table)
-    points = {key: _numbers(table[column])[rows] for key, column in inputs.items()}
-    solved = _evaluations(
-        words[rows], {key: table[key] for key in table.column_names}, bounds, rows
-    )
-    found = InterpolatedCases(uncertain, points, solved, name)
-    _check_fixed(uncertain, points, np.array(table["fingerprint"].to_pylist())[rows], solved, name)
-    return found
+    points = {key: _numbers(table[column]) for key, column in inputs.items()}
+    require_same_inputs(uncertain, points, name)
+    rows = _matching(uncertain, points, table, name)
+    points = {key: values[rows] for key, values in points.items()}
+    return InterpolatedCases(uncertain, points, _evaluations(table, bounds, rows), name)
 
 
-def _check_fixed(
-    uncertain: UncertainCase, points: Inputs, fingerprints: Any, solved: Evaluations, name: str
-) -> None:
-    """Refuse a sweep whose fixed inputs are not those of the study, by the first solved case."""
-    row = int(np.flatnonzero(solved.outcome != BAD_INPUT)[0])
-    case = uncertain.case({key: float(values[row]) for key, values in points.items()})
-    inputs = CaseInputs(row, case.model.NAME, {}, {})
-    if fingerprint_of(inputs, case) != fingerprints[row]:
-        raise BadInput("fixed inputs of the study", "others than those of the " + name,
-                       "the same, including model, material and accuracy")  # fmt: skip
+def _matching(uncertain: UncertainCase, points: Inputs, table: Any, name: str) -> Any:
+    """Return which rows are cases of the study: those of the one model that has its fixed inputs.
+
+    The first solved case of each model of the sweep is compared with the study. Rows of cases in
+    which the program failed do not belong to them.
+    """
+    outcome, model = (_words(table[column]) for column in ("outcome", "model"))
+    fingerprints = _words(table["fingerprint"])
+    for label in dict.fromkeys(model.tolist()):
+        of_model = model == label
+        solved = np.flatnonzero(of_model & np.isin(outcome, [*Outcome.__members__]))
+        if len(solved) == 0:
+            continue
+        row = int(solved[0])
+        case = uncertain.case({key: float(values[row]) for key, values in points.items()})
+        if fingerprint_of(CaseInputs(row, case.model.NAME, {}, {}), case) == fingerprints[row]:
+            return of_model & np.isin(outcome, [*Outcome.__members__, "BAD_INPUT"])
+    raise BadInput("fixed inputs of the study", "others than those of the " + name,
+                   "the same, including model, material and accuracy")  # fmt: skip
 
 
-def _of_model(uncertain: UncertainCase, plan: Mapping[str, Any], table: Any) -> Any:
-    """Return which rows belong to the model of the case."""
-    labels = [each["label"] for each in plan["models"]]
-    if len(labels) == 1:
-        return np.ones(table.num_rows, dtype=bool)
-    mine = uncertain.median_case.model.NAME
-    if mine not in labels:
-        raise BadInput("model", mine, "one of the models of the sweep, " + ", ".join(labels))
-    return np.array(table["model"].to_pylist(), dtype=object) == mine
-
-
-def _evaluations(words: Any, table: Any, bounds: Mapping[Outcome, str], rows: Any) -> Evaluations:
+def _evaluations(table: Any, bounds: Mapping[Outcome, str], rows: Any) -> Evaluations:
     codes = {each.name: code for code, each in enumerate(OUTCOMES)} | {"BAD_INPUT": BAD_INPUT}
+    words = _words(table["outcome"])[rows]
     bound = np.full(len(words), np.nan)
     for outcome, column in bounds.items():
         bound = np.where(words == outcome.name, _numbers(table[column])[rows], bound)
@@ -101,6 +97,11 @@ def _evaluations(words: Any, table: Any, bounds: Mapping[Outcome, str], rows: An
         np.ma.masked_invalid(1e3 * bound),
         "the inputs of the sweep contradict each other" if "BAD_INPUT" in words else "",
     )
+
+
+def _words(column: Any) -> Any:
+    """Return a column of texts as an array."""
+    return np.array(column.to_pylist(), dtype=object)
 
 
 def _numbers(column: Any) -> Float[np.ndarray, " n"]:

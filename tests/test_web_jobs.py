@@ -246,8 +246,9 @@ def test_a_job_that_needs_too_much_memory_is_ended():
 
 
 @pytest.mark.slow
-def test_results_are_forgotten_after_a_while():
-    with client(workers=1, limits=Limits(finished=1)) as forgetful:
+@pytest.mark.parametrize("limits", [Limits(finished=1), Limits(results=1)])
+def test_the_oldest_results_are_forgotten(limits):
+    with client(workers=1, limits=limits) as forgetful:
         first = ask(forgetful, LOOSE)["id"]
         ended(forgetful, first)
         second = ask(forgetful, LOOSE | {"stiffness": 1.5})["id"]

@@ -48,6 +48,8 @@ class Limits:
         Largest number of jobs that wait for a worker process.
     finished : int
         Number of finished jobs whose results are kept.
+    results : int
+        Largest number of bytes of all kept results, as JSON; the newest one is always kept.
     result_seconds : float
         Time in s for which results are kept.
     job_seconds : float
@@ -72,6 +74,7 @@ class Limits:
     connections: int = 256
     waiting: int = 16
     finished: int = 128
+    results: int = 32_000_000
     result_seconds: float = 3600.0
     job_seconds: float = 900.0
     job_memory: int = 4_000_000_000

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import json
 from collections import OrderedDict, deque
 from contextlib import ExitStack, suppress
 from typing import Any
@@ -176,6 +177,7 @@ class JobBook:
     async def _conclude(self, job: Job, message: dict[str, Any], process: WorkerProcess) -> None:
         if "result" in message:
             job.result, job.report = message["result"], base64.b64decode(message["report"])
+            job.size = len(json.dumps(job.result)) + len(job.report)
             self._end(job, Status.DONE)
         elif "refused" in message:
             detail, field, value = message["refused"]
@@ -205,9 +207,13 @@ class JobBook:
     def forget_old(self) -> None:
         """Forget the oldest of the jobs that have ended, and those that ended long ago."""
         limits, now = self._settings.limits, asyncio.get_running_loop().time()
-        ended = [job for job in self._jobs.values() if job.status.ended]
-        for place, job in enumerate(reversed(ended)):
-            if place >= limits.finished or now - job.ended_at > limits.result_seconds:
+        ended = sorted((job for job in self._jobs.values() if job.status.ended),
+                       key=lambda job: job.ended_at, reverse=True)  # fmt: skip
+        size = 0
+        for place, job in enumerate(ended):
+            size += job.size
+            many = place >= limits.finished or (place > 0 and size > limits.results)
+            if many or now - job.ended_at > limits.result_seconds:
                 self._jobs.pop(job.id, None)
 
 

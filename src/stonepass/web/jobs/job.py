@@ -49,6 +49,8 @@ class Job:
     result : dict or None
     report : bytes
         The report; empty if there is none.
+    size : int
+        Number of bytes of result, as JSON, and report.
     problem : dict or None
         Why the job failed.
     ended_at : float
@@ -66,6 +68,7 @@ class Job:
     )
     result: dict[str, Any] | None = None
     report: bytes = b""
+    size: int = 0
     problem: dict[str, Any] | None = None
     ended_at: float = 0.0
     _changed: asyncio.Event = field(default_factory=asyncio.Event)

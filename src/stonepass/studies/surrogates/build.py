@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from stonepass.about import VERSION
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
 from stonepass.errors import BadInput
-from stonepass.inputs.case_record import fingerprint
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.models.push_through import PushThrough
@@ -31,6 +28,7 @@ from stonepass.studies.surrogates.claimed_error import FLOOR, claimed_error
 from stonepass.studies.surrogates.domain import Domain
 from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.levels import Level, levels_for
+from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_known, joined
@@ -94,7 +92,7 @@ def build_surrogate(
         FLOOR,
         domain.stable,
         fit_lumen(case, box) if loaded else None,
-        _about(case, [each for each, _, _ in left_out]),
+        origin(case, [(each.level.case, each.answers) for each, _, _ in left_out]),
     )
 
 
@@ -202,18 +200,3 @@ def _claimed(
 
 def _number(answer: Answer) -> float:
     return np.nan if answer.pressure is None else answer.pressure
-
-
-def _about(case: Case, solved: Sequence[_Solved]) -> dict[str, Any]:
-    outcomes = Counter(each.outcome.name for each in solved[-1].answers)
-    levels = [
-        {"model": level.level.case.model.NAME, "options": repr(level.level.case.model),
-         "accuracy": level.level.case.numerics.accuracy, "cases": len(level.answers)}
-        for level in solved
-    ]  # fmt: skip
-    return {
-        "version": VERSION,
-        "fingerprint": fingerprint(case, case.model, case.numerics),
-        "levels": levels,
-        "outcomes": dict(outcomes),
-    }

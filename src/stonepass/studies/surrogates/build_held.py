@@ -7,11 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stonepass.about import VERSION
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import BadInput
-from stonepass.inputs.case_record import fingerprint
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.load import Load
@@ -25,6 +23,7 @@ from stonepass.studies.surrogates.domain import Domain
 from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions
 from stonepass.studies.surrogates.held_stone import HeldStone
 from stonepass.studies.surrogates.learnt import half_width
+from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.regression import FEWEST, fit_known, joined
 from stonepass.studies.surrogates.solved import MOVES
@@ -47,7 +46,7 @@ Values = Float[np.ndarray, "n functions"]
 
 @array_dataclass
 @dataclass(frozen=True)
-class _Solved:
+class _Cases:
     """Solved cases: conditions, answers, and p with the functions at p."""
 
     at: Setting
@@ -79,12 +78,12 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     def count(number: int) -> int:
         return max(FEWEST, round(effort * number))
 
-    def solved(asked: Conditions, leaks: int) -> _Solved:
+    def solved(asked: Conditions, leaks: int) -> _Cases:
         """Solve cases; with an error estimate the model computes the leak pressure too."""
         cases = [case_at(quick, asked, k) for k in range(len(asked.friction))]
         answers = [*solver.answers(cases[:leaks]), *solver.answers(cases[leaks:], error=False)]
         at = domain.setting(quick, asked)
-        return _Solved(at, answers, physics.learnt(quick, at, answers))
+        return _Cases(at, answers, physics.learnt(quick, at, answers))
 
     asked = domain.training(quick, count(FREE))
     nearly = np.full(len(asked.friction), NEARLY_NONE)
@@ -103,21 +102,15 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     below = physics.solve(quick, at, functions(at)).outcome == MOVES
     third = solved(rest.where(below), count(PUSHED_LEAKS))
     _refuse_lost([*free.answers, *second.answers, *third.answers])
-    both = _Solved(second.at.joined(third.at), [*second.answers, *third.answers],
+    both = _Cases(second.at.joined(third.at), [*second.answers, *third.answers],
                    np.concatenate([second.values, third.values]))  # fmt: skip
     learnt, left_out = _with_changes(base, both)
     error = _claimed(quick, physics, learnt, both, left_out)
-    levels = [{"model": case.model.NAME, "options": repr(case.model), "accuracy": "fast",
-               "cases": len(each.answers)} for each in (free, second, third)]  # fmt: skip
-    about = {
-        "version": VERSION,
-        "fingerprint": fingerprint(case, case.model, case.numerics),
-        "levels": levels,
-    }
+    about = origin(case, [(quick, each.answers) for each in (free, second, third)])
     return Surrogate(case, box, physics, learnt, error, FLOOR, domain.stable, None, about)
 
 
-def _base(free: _Solved) -> SparsePolynomial:
+def _base(free: _Cases) -> SparsePolynomial:
     """Fit ln((π/2 − α)/root) and the functions of p without friction."""
     _, *functions = free.values.T
     widths = np.log(functions[1])
@@ -127,7 +120,7 @@ def _base(free: _Solved) -> SparsePolynomial:
     ])  # fmt: skip
 
 
-def _with_changes(base: SparsePolynomial, solved: _Solved) -> tuple[HeldFunctions, Values]:
+def _with_changes(base: SparsePolynomial, solved: _Cases) -> tuple[HeldFunctions, Values]:
     """Fit what the pressure changes in all functions; return leave-one-out errors too."""
     at, p = solved.at, solved.values[:, 0]
     without = base(at.unit)
@@ -140,7 +133,7 @@ def _with_changes(base: SparsePolynomial, solved: _Solved) -> tuple[HeldFunction
 
 
 def _claimed(
-    case: Case, physics: HeldStone, learnt: HeldFunctions, solved: _Solved, left_out: Values
+    case: Case, physics: HeldStone, learnt: HeldFunctions, solved: _Cases, left_out: Values
 ) -> SparsePolynomial:
     """Return the claimed error from the leave-one-out errors of ln h."""
     known = np.isfinite(left_out[:, 0])

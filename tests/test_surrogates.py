@@ -10,7 +10,7 @@ from scipy.stats import qmc
 
 import stonepass as sp
 from stonepass.cli import main as command_line
-from stonepass.errors import BadInput
+from stonepass.errors import BadInput, Outcome
 from stonepass.model.states.stability import axisymmetric_buckling
 from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
 from stonepass.studies.surrogates import buckling_limit, build
@@ -255,6 +255,20 @@ def test_special_conditions_have_their_outcome(shipped):
     assert found.pressure.mask.tolist() == [False] * 4 + [True] * 4
     assert found.lower_bound[6] > 0.0
     assert found.answered.tolist() == [True] * 4 + [False] * 4
+
+
+@pytest.mark.parametrize(("material", "model"), shipped_surrogates())
+def test_conditions_outside_the_box_alone_have_no_number(material, model):
+    """No condition at all is inside, which must not differ from some that are not."""
+    surrogate = load_surrogate(material, model)
+    inside = {"size_ratio": 1.2, "wall_ratio": 1.3, "friction": 0.3, "confining_pressure": 0.0}
+    assert not surrogate.evaluate(**inside).outside[0]
+    for name, value in (("size_ratio", 1.7), ("wall_ratio", 1.05), ("wall_ratio", 4.1),
+                        ("friction", 1.2), ("confining_pressure", 30e3)):  # fmt: skip
+        found = surrogate.evaluate(**inside | {name: value})
+        assert found.outcomes == [Outcome.NO_SOLUTION]
+        assert found.outside.tolist() == [True]
+        assert found.pressure.mask.tolist() == [True]
 
 
 def test_pressure_scales_with_the_stiffness_and_grows_with_the_stone(shipped):

@@ -183,8 +183,11 @@ def test_a_loose_stone_and_one_beyond_the_closure_have_a_sentence(asking):
         ({"load": {"confining_pressure": "90 kPa"}}, "load.confining_pressure"),
     ],
 )
-def test_outside_the_range_of_the_surrogate_there_is_no_number_but_a_reason(asking, changed, key):
-    found = instant(asking, CASE | changed, **ALL)
+@pytest.mark.parametrize("model", ["paper", "direct"])
+def test_outside_the_range_of_the_surrogate_there_is_no_number_but_a_reason(
+    asking, changed, key, model
+):
+    found = instant(asking, CASE | changed | {"method": {"model": model}}, **ALL)
     assert found["answer"]["outside"] is True
     assert found["answer"]["critical_pressure_kPa"] is None
     assert "finite elements" in found["answer"]["sentence"]

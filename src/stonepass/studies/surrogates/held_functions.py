@@ -55,9 +55,10 @@ class HeldFunctions:
         values = self.base(at.unit)
         count = values.shape[1] - 1
         parts = self._in_pressure(np.stack([half_width(at, values), at.unit[:, 1]], axis=1))
-        parts = parts.reshape(len(values), count, -1)
+        # No conditions at all are allowed, so that no length is left to numpy.
+        parts = parts.reshape(len(values), count, parts.shape[1] // count)
         whole = np.concatenate([values[:, 1:, None], parts], axis=2)
-        return np.ascontiguousarray(whole.reshape(len(values), -1))
+        return np.ascontiguousarray(whole.reshape(len(values), count * whole.shape[2]))
 
     @property
     def _in_pressure(self) -> SparsePolynomial:

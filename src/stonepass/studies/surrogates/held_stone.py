@@ -83,7 +83,7 @@ class HeldStone:
             Base and coefficients of each function, see `HeldFunctions`.
         """
         count = len(learnt)
-        parts = learnt.reshape(count, FUNCTIONS, -1)
+        parts = learnt.reshape(count, FUNCTIONS, learnt.shape[1] // FUNCTIONS)
         friction, opening = at.conditions.friction, opening_pressure(case, at)
         p, found = _balanced_pressure(parts[:, 0], friction)
         pressure = np.where(found, p * opening, np.nan)

@@ -11,12 +11,25 @@ from schemathesis.generation import GenerationMode
 
 SEED = 20221
 TIMEOUT = 120.0  # s; a report takes as long as its job
-# Sections of a valid case. Every second request has them beside its other, generated sections.
-VALID = {
-    "stone": {"size_ratio": 1.2},
-    "ureter": {"wall_ratio": 1.3},
-    "method": {"accuracy": "fast", "seating": "frictionless"},
-}
+# Sections of valid cases, in turn. Every second request has them beside its other, generated
+# sections. A surrogate covers the first and the second wall, but not the third one.
+VALID = (
+    {
+        "stone": {"size_ratio": 1.2},
+        "ureter": {"wall_ratio": 1.3},
+        "method": {"accuracy": "fast", "seating": "frictionless"},
+    },
+    {
+        "stone": {"size_ratio": 1.1},
+        "ureter": {"wall_ratio": 1.5, "material": "latex"},
+        "method": {"model": "direct", "accuracy": "fast"},
+    },
+    {
+        "stone": {"size_ratio": 1.1},
+        "ureter": {"wall_ratio": 1.05, "material": "latex"},
+        "method": {"model": "direct", "accuracy": "fast"},
+    },
+)
 
 
 def fuzz(address: str, count: int) -> Counter[tuple[str, int]]:
@@ -63,7 +76,8 @@ def _ask(operation, mode, count, found) -> None:
         # A report takes as long as its job, so that few of them are asked for.
         every = 20 if "report" in operation.label else 2
         if asked % every == 1 and mode is GenerationMode.POSITIVE:
-            _complete(case.body, 1 + asked // every % 3)
+            turn = asked // every
+            _complete(case.body, VALID[turn // 3 % len(VALID)], 1 + turn % 3)
         response = case.call(timeout=TIMEOUT)
         found[operation.label, response.status_code] += 1
 
@@ -76,11 +90,11 @@ def _ask(operation, mode, count, found) -> None:
                 raise
 
 
-def _complete(body, sections) -> None:
+def _complete(body, valid, sections) -> None:
     """Put sections of a valid case into a request that has a case, in place of generated ones."""
     inner = body.get("question", body) if isinstance(body, dict) else None
     if isinstance(inner, dict) and isinstance(inner.get("case"), dict):
-        inner["case"] |= dict(list(VALID.items())[:sections])
+        inner["case"] |= dict(list(valid.items())[:sections])
         inner |= {key: text for key, text in {"limit": "6 kPa"}.items() if key in inner}
         inner.pop("stiffness", None)
         if sections > 1:

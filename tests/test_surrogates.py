@@ -259,7 +259,7 @@ def test_special_conditions_have_their_outcome(shipped):
 
 @pytest.mark.parametrize(("material", "model"), shipped_surrogates())
 def test_conditions_outside_the_box_alone_have_no_number(material, model):
-    """No condition at all is inside, which must not differ from some that are not."""
+    """An evaluation in which no condition is covered has the same outcome as any other."""
     surrogate = load_surrogate(material, model)
     inside = {"size_ratio": 1.2, "wall_ratio": 1.3, "friction": 0.3, "confining_pressure": 0.0}
     assert not surrogate.evaluate(**inside).outside[0]

@@ -111,7 +111,8 @@ def _material_of(table: dict[str, Any]) -> Material:
                            "left out, because there is no such key",
                            problem.remedy or f"known keys are {known}") from problem  # fmt: skip
         where = f"{MATERIAL}.{key}" if re.fullmatch(r"\w+", key) else MATERIAL
-        remedy = "" if key == "law" else problem.remedy  # that of a law is a Python file
+        # The remedy for an unknown law is a Python file, which a request cannot name.
+        remedy = "" if key == "law" else problem.remedy
         raise BadInput(where, problem.value, problem.allowed, remedy) from problem
 
 

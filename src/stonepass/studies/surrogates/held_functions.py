@@ -55,7 +55,7 @@ class HeldFunctions:
         values = self.base(at.unit)
         count = values.shape[1] - 1
         parts = self._in_pressure(np.stack([half_width(at, values), at.unit[:, 1]], axis=1))
-        # No conditions at all are allowed, so that no length is left to numpy.
+        # The number of conditions may be 0, for which numpy cannot infer the length of an axis.
         parts = parts.reshape(len(values), count, parts.shape[1] // count)
         whole = np.concatenate([values[:, 1:, None], parts], axis=2)
         return np.ascontiguousarray(whole.reshape(len(values), count * whole.shape[2]))

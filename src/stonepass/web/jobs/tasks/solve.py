@@ -53,7 +53,7 @@ class _Telling:
         numerics: Numerics,
         resolution: Resolution | None = None,
     ) -> SeatedState | NoSeat:
-        """Tell about and obtain a seated state; see `StateSolver.seat`."""
+        """Report the progress and obtain a seated state; see `StateSolver.seat`."""
         self._say(f"Seating a stone of size ratio {case.size_ratio:.4f}.")
         return self.states.seat(case, seating, numerics, resolution)
 
@@ -66,7 +66,7 @@ class _Telling:
         wetted: bool,
         leak: bool,
     ) -> list[Critical | NoPush]:
-        """Tell about and obtain critical states; see `StateSolver.push`."""
+        """Report the progress and obtain critical states; see `StateSolver.push`."""
         self._say(f"Pushing a stone of size ratio {case.size_ratio:.4f} until it moves.")
         return self.states.push(case, numerics, resolutions, wetted=wetted, leak=leak)
 
@@ -79,12 +79,12 @@ class _Telling:
         *,
         wetted: bool,
     ) -> list[PushedState | NoPush]:
-        """Tell about and obtain held states; see `StateSolver.hold`."""
+        """Report the progress and obtain held states; see `StateSolver.hold`."""
         self._say(f"Raising the pressure on a held stone in {len(pressures)} steps.")
         return self.states.hold(case, numerics, pressures, resolution, wetted=wetted)
 
     def opening_curve(self, case: Problem, numerics: Numerics) -> OpeningCurve | None:
-        """Tell about and obtain the opening curve; see `StateSolver.opening_curve`."""
+        """Report the progress and obtain the opening curve; see `StateSolver.opening_curve`."""
         self._say("Following the wall as it opens.")
         return self.states.opening_curve(case, numerics)
 

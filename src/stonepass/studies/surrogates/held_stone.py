@@ -30,9 +30,8 @@ from stonepass.studies.surrogates.solved import MOVES, NO_SOLUTION, Solved
 __all__ = ["HeldStone"]
 
 FUNCTIONS = 3  # ln h, (π/2 − α)/root, ln(P_leak/P_s)
-STEPS = (
-    50  # largest number of steps of Newton's method; the surrogates of the package take at most 5
-)
+# Largest number of steps of Newton's method; the surrogates of the package take at most 5.
+STEPS = 50
 TOLERANCE = 1e-10
 GAUSS = 8  # number of quadrature points of the work of the urine
 

@@ -23,6 +23,7 @@ from stonepass.model.energy_balance import advance_force, opened_radius, straine
 from stonepass.model.far_field import urine_pressure
 from stonepass.model.states.loaded import _critical, _set_up, _Setup
 from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
+from stonepass.model.states.uncached import UNCACHED
 from stonepass.strain import INNER_WALL, CauchyGreen
 
 DIRECT = asking(model="direct")
@@ -220,6 +221,18 @@ def test_where_no_state_is_found_the_reason_is_said():
     lost = push_through(case(mu=2.0), "2 kPa", COARSE)
     assert isinstance(lost, NoPush)
     assert lost.reason
+
+
+@pytest.mark.parametrize(("accuracy", "said"), [("standard", True), ("fast", False)])
+def test_a_state_on_a_coarser_mesh_alone_is_told(accuracy, said):
+    """The finer mesh has no state; the reason says that a coarser one has one."""
+    asked = case()
+    found = UNCACHED.push(asked, sp.Numerics("fast"), (COARSE,), wetted=False, leak=False)
+    states = Mock(push=Mock(return_value=[*found, NoPush("no convergence", 1, 0.0)]))
+    answer = sp.PushThrough().solve(asked, sp.Numerics(accuracy), states)
+    assert answer.outcome is Outcome.NO_SOLUTION
+    assert answer.reason.startswith("no convergence")
+    assert ("the accuracy 'fast' may have an answer" in answer.reason) is said
 
 
 # The wall that microbuckles.

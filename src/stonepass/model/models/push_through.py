@@ -23,6 +23,9 @@ from stonepass.model.validity import ring_buckling, soft_law, strain_range
 
 __all__ = ["PushThrough", "PushThroughDetail"]
 
+# Hint for a case that has a solution on a coarser mesh only.
+COARSER = "; there is a state on a coarser mesh, so the accuracy 'fast' may have an answer"
+
 
 @dataclass(frozen=True)
 class PushThrough:
@@ -91,7 +94,9 @@ class PushThrough:
             case, numerics, wanted, wetted=self.wetted, leak=resolution is None
         )
         if isinstance(found, NoPush):
-            return unanswered(case, self, numerics, found.reason, steps=found.newton_steps,
+            on_coarser = any(isinstance(each, Critical) for each in coarser)
+            hint = COARSER if on_coarser and numerics.accuracy != "fast" else ""
+            return unanswered(case, self, numerics, found.reason + hint, steps=found.newton_steps,
                               seconds=found.seconds)  # fmt: skip
         coarse = coarser[0] if coarser and isinstance(coarser[0], Critical) else None
         state = found.state

@@ -200,3 +200,14 @@ def test_the_command_loads_no_finite_elements(tmp_path):
     assert record["stability_margin"] is None
     assert (tmp_path / "b.png").stat().st_size > 10_000
     assert "circumferential_modulus" in (tmp_path / "b.toml").read_text()
+
+
+@pytest.mark.parametrize("over", [2.2e-16, 1e-14, 1e-8])
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+def test_a_contact_too_narrow_to_be_resolved_has_no_answer(over, friction):
+    """The closure divides by 1 − sin α₀, which rounds to 0 for a stone hardly above the lumen."""
+    stone = sp.Stone(size_ratio=1.0 + over, friction=friction)
+    model = sp.ElasticFoundation(circumferential_modulus="100 Pa", longitudinal_modulus="10 GPa")
+    found = sp.solve(sp.Case(stone, sp.Ureter(wall_ratio=1.02), model=model))
+    assert found.outcome is Outcome.NO_SOLUTION
+    assert "too small beside the radius of the stone" in found.reason

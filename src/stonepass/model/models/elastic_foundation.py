@@ -31,6 +31,9 @@ __all__ = ["BeamState", "ElasticFoundation", "ElasticFoundationDetail"]
 
 THICKEST = 1.5  # largest η
 WIDEST = 2.0  # largest ξ
+# Smallest half-length of the contact in radii of the stone. The closure divides by 1 − sin α₀, of
+# which half the square of this ratio is left; rounding would be too large a part of less.
+NARROWEST = 1e-5
 # Largest wall thickness and largest deflection without a warning, in inner radii.
 THIN, SMALL = 0.1, 0.1
 WHY = (
@@ -156,6 +159,13 @@ class ElasticFoundation:
             reason = (
                 f"the beam model does not hold: half the contact length, {a:.3g} inner radii, is "
                 f"not less than the radius of the stone, {xi:.3g}"
+            )
+            return unanswered(case, self, numerics, reason)
+
+        if a < NARROWEST * xi:
+            reason = (
+                f"half the contact length, {a:.3g} inner radii, is too small beside the radius of "
+                f"the stone, {xi:.3g}, to be resolved"
             )
             return unanswered(case, self, numerics, reason)
 

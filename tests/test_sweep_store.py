@@ -432,6 +432,8 @@ def test_results_are_written_to_files(tmp_path, whole):
         assert data.critical_pressure_kPa.to_numpy()[5] == frame.critical_pressure_kPa[5]
         assert data.outcome.to_numpy()[5] == frame.outcome[5]
     assert sorted(p.name for p in tmp_path.iterdir()) == ["r.csv", "r.nc", "r.parquet"]
+    with pytest.raises(sp.BadInput, match=r"ending in \.csv, \.parquet, \.nc"):
+        whole.save(tmp_path / "r.txt")
     with pytest.raises(sp.BadInput, match="in a folder that can be written"):
         whole.save(tmp_path / "none" / "r.csv")
 

@@ -212,6 +212,18 @@ seating = "frictionless"
         ({"method": {"wetted": True}}, "belongs to 'direct'"),
         ({"ureter": {"wall_ratio": 1.3, "thickness": 1}}, "did you mean 'wall_thickness'"),
         ({"vary": {"stone.friction": [0.1]}}, "size of the stone is missing"),
+        (
+            {"vary": {"stone.size_ratio": [1.1], "stone": {"size_ratio": [1.2]}}},
+            "'stone.size_ratio' is given twice",
+        ),
+        (
+            {
+                "vary": {"method.accuracy": ["fast", "standard"], "stone.size_ratio": [1.1]},
+                "models": {"paper": {"accuracy": "fast"}},
+                "method": {},
+            },
+            "'method.accuracy' is fixed and varied",
+        ),
     ],
 )
 def test_a_study_with_a_mistake_is_refused_in_one_sentence(parts, words):
@@ -248,15 +260,54 @@ def test_explicit_points_by_array_and_by_file(tmp_path):
         assert plan_of(vary=vary, points={"file": str(tmp_path / name)}) == plan
     for wrong, words in (
         ({"ureter.material.C10": [1e5]}, "'ureter.material.C10_Pa'"),
-        ({"stone.size_ratio": [1.1, np.nan]}, "row 2 is nan"),
+        ({"stone.size_ratio": [1.1, np.nan]}, "point 2 is nan"),
         ({"stone.size_ratio": [1.1, 70.0]}, "0.1 to 3"),
-        ({"stone.size_ratio": [1.1], "stone.friction": [0.1, 0.2]}, "columns of one length"),
+        (
+            {"stone.size_ratio": [1.1], "stone.friction": [0.1, 0.2]},
+            "numbers of values of the columns is 1, 2",
+        ),
         ({"stone.size_ratio": ["a"]}, "a column of numbers"),
+        ({"stone.size_ratio": [True, False]}, "a column of numbers"),
+        ({"stone.size_ratio": []}, "number of points is 0"),
         ({"file": "none.csv"}, "none.csv"),
     ):
         with pytest.raises(sp.BadInput) as refused:
             plan_of(vary={}, points=wrong)
         assert words in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"stone.size_ratio,stone.size_ratio\n1.1,1.2\n", "given several times"),
+        ("stone.size_ratio,Größe\n1.1,1\n".encode("latin-1"), "a readable csv file"),
+        ("stone.size_ratio\n1.1\n".encode("utf-16"), "points"),
+        (b"stone.size_ratio\n", "number of points is 0"),
+        (b"stone.size_ratio,lenght\n1.1,2\n", "in p.csv, key is lenght"),
+        (b"stone.size_ratio\n2024-01-01\n", "a column of numbers"),
+    ],
+)
+def test_a_points_file_with_a_mistake_is_refused_in_one_sentence(tmp_path, content, words):
+    (tmp_path / "p.csv").write_bytes(content)
+    with pytest.raises(sp.BadInput) as refused:
+        plan_of(vary={}, points={"file": str(tmp_path / "p.csv")})
+    assert words in str(refused.value)
+
+
+def test_blanks_round_the_names_of_a_points_file_do_not_matter(tmp_path):
+    (tmp_path / "p.csv").write_text(" stone.size_ratio , stone.friction\n1.1,0.2\n")
+    plan = plan_of(vary={}, points={"file": str(tmp_path / "p.csv")})
+    assert plan.case(0).cells == {"size_ratio": 1.1, "friction": 0.2}
+
+
+def test_another_accuracy_holds_for_every_model_or_is_refused():
+    models = {"paper": {"accuracy": "reference"}, "direct": {}}
+    quick = plan_of(method={}, models=models).with_accuracy("fast")
+    for k in range(quick.cases):
+        assert build(quick.case(k).values).numerics.accuracy == "fast"
+    varied = plan_of(vary=GRID["vary"] | {"method.accuracy": ["fast", "standard"]}, method={})
+    with pytest.raises(sp.BadInput, match="varied and given"):
+        varied.with_accuracy("fast")
 
 
 # --- the rows

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -10,7 +11,7 @@ from pydantic import BaseModel, ValidationError
 from stonepass.errors import BadInput, refuse_unknown
 from stonepass.io.toml_document import read_document
 
-__all__ = ["parse_table", "read_toml"]
+__all__ = ["merged", "parse_table", "read_toml"]
 
 Schema = TypeVar("Schema", bound=BaseModel)
 
@@ -42,6 +43,20 @@ def read_toml(path: Path, schema: type[Schema]) -> Schema:
         missing or of the wrong type. The message names the file and the key.
     """
     return parse_table(read_document(path), schema, f"in {path.name}, ")
+
+
+def merged(found: dict[str, Any], more: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries of both tables.
+
+    Raises
+    ------
+    BadInput
+        Both tables have the same key, e.g. because TOML has it once quoted and once with a dot.
+    """
+    for key in more:
+        if key in found:
+            raise BadInput(f"'{key}'", "given twice", "given once")
+    return {**found, **more}
 
 
 def parse_table(raw: dict[str, Any], schema: type[Schema], where: str) -> Schema:

@@ -17,7 +17,7 @@ from stonepass.inputs.catalogue import all_inputs, sections
 from stonepass.inputs.overlay import refuse_pairs
 from stonepass.inputs.sections import FileSection
 from stonepass.io.toml_document import read_document
-from stonepass.io.toml_file import parse_table
+from stonepass.io.toml_file import merged, parse_table
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.uncertain_case import uncertain_values
 
@@ -99,5 +99,6 @@ def _leaves(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name, value in table.items():
         key = f"{prefix}{name}"
-        found |= _leaves(value, f"{key}.") if isinstance(value, dict) else {key: value}
+        more = _leaves(value, f"{key}.") if isinstance(value, dict) else {key: value}
+        found = merged(found, more)
     return found

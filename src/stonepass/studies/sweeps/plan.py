@@ -11,11 +11,15 @@ from math import prod
 from typing import Any
 
 from stonepass.array_dataclass import array_dataclass
+from stonepass.errors import require
 from stonepass.studies.sweeps.axes import Axis, Points, Range
 from stonepass.studies.sweeps.sampling import Sampling
 from stonepass.studies.sweeps.varied_input import VariedInput, described, plain
 
 __all__ = ["CaseInputs", "Sweep", "Variant"]
+
+
+ACCURACY = "method.accuracy"
 
 
 @dataclass(frozen=True)
@@ -166,8 +170,20 @@ class Sweep:
         return replace(self, points=self.points.part(first, last))
 
     def with_accuracy(self, accuracy: str) -> Sweep:
-        """Return the plan with another accuracy level of the finite elements for all cases."""
-        return replace(self, fixed={**self.fixed, "method.accuracy": accuracy})
+        """Return the plan with another accuracy level of the finite elements for all cases.
+
+        Raises
+        ------
+        BadInput
+            The accuracy is a varied input.
+        """
+        varied = any(each.key == ACCURACY for each in self.inputs)
+        require(not varied, f"'{ACCURACY}'", "varied and given for all cases", "one of the two")
+        models = tuple(
+            replace(each, values={k: v for k, v in each.values.items() if k != ACCURACY})
+            for each in self.models
+        )
+        return replace(self, fixed={**self.fixed, ACCURACY: accuracy}, models=models)
 
     def describe(self) -> dict[str, Any]:
         """Return a JSON-ready description, from which the digest of the study follows."""

@@ -57,8 +57,9 @@ def read_points_table(
         inputs.append(given)
         columns.append(_checked(given, values, factor, f"{where}, column '{name}'"))
     lengths = {len(each) for each in columns}
-    require(len(lengths) == 1 and lengths != {0}, where, f"columns of {sorted(lengths)} values",
-            "columns of one length, at least 1")  # fmt: skip
+    require(lengths != {0}, f"{where}, number of points", 0, "at least 1")
+    require(len(lengths) == 1, f"{where}, numbers of values of the columns",
+            ", ".join(map(str, sorted(lengths))), "equal")  # fmt: skip
     return Points(tuple(inputs), np.column_stack(columns))
 
 
@@ -71,10 +72,14 @@ def _columns_of(path: Path) -> dict[str, Any]:
     read = module.read_csv if reader == "csv" else module.read_table
     try:
         table = read(str(path))
+        names = [name.strip() for name in table.column_names]
     except (OSError, ValueError) as problem:  # ValueError is the base of the errors of pyarrow
         first = str(problem).splitlines()[0]
         raise BadInput("points", path, f"a readable {reader} file ({first})") from problem
-    return {name: table[name].to_numpy() for name in table.column_names}
+    for name in names:
+        require(names.count(name) == 1, f"in {path.name}, column '{name}'", "given several times",
+                "given once")  # fmt: skip
+    return {name: column.to_numpy() for name, column in zip(names, table.columns, strict=True)}
 
 
 def _input_of(
@@ -82,7 +87,11 @@ def _input_of(
 ) -> tuple[VariedInput, float]:
     """Return the input of a column, and the factor by which its values are converted to SI."""
     unit = unit_of(name)
-    given = input_with(name.removesuffix(f"_{unit}") if unit else name)
+    try:
+        given = input_with(name.removesuffix(f"_{unit}") if unit else name)
+    except BadInput as problem:
+        begin = "" if problem.argument.startswith("in ") else f"{where}, "
+        raise problem.named(f"{begin}{problem.argument}") from problem
     if not given.numeric:
         raise BadInput(f"{where}, column '{name}'", "given", "an input whose values are numbers")
     if given.unit == unit:
@@ -99,14 +108,16 @@ def _input_of(
 def _checked(given: VariedInput, values: Any, factor: float, where: str) -> Float[np.ndarray, " n"]:
     """Return a column in SI units; its extreme values are checked against the declared bounds."""
     try:
+        if np.asarray(values).dtype.kind in "bmM":  # truth values, durations and dates
+            raise TypeError
         numbers = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise BadInput(where, "not numeric", "a column of numbers") from None
     require(numbers.ndim == 1, where, f"of {numbers.ndim} dimensions", "of one dimension")
     bad = np.flatnonzero(~np.isfinite(numbers))
     if len(bad):
         value = float(numbers[bad[0]])
-        raise BadInput(f"{where}, row {bad[0] + 1}", value, "a finite number")
+        raise BadInput(f"{where}, point {bad[0] + 1}", value, "a finite number")
     numbers = numbers * factor
     for extreme in {float(numbers.min()), float(numbers.max())} if len(numbers) else ():
         try:

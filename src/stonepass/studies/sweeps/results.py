@@ -20,6 +20,7 @@ from stonepass.studies.sweeps.tables import labelled, write_csv_table, write_par
 __all__ = ["TABLES", "SweepResults", "read_results"]
 
 TABLES = (".csv", ".parquet", ".nc")
+OTHERS = (".json", ".svg", ".png", ".pdf")  # endings of the summary and of pictures
 
 
 @dataclass(frozen=True, repr=False)
@@ -182,10 +183,10 @@ class SweepResults(Result):
         """
         path = Path(path)
         ending = path.suffix.lower()
-        if ending not in TABLES:
+        if ending in OTHERS:
             super().save(path)
             return
-        check_writable(path, TABLES)
+        check_writable(path, (*TABLES, *OTHERS))
         beside = path.with_name(f".{path.name}.new")
         try:
             if ending == ".nc":

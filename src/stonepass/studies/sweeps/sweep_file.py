@@ -14,6 +14,7 @@ from stonepass.inputs.material_file import find_material
 from stonepass.inputs.opening_curve_file import find_opening_curve
 from stonepass.inputs.shape_file import find_shape
 from stonepass.io.toml_document import read_document
+from stonepass.io.toml_file import merged
 from stonepass.materials.protocol import Material
 from stonepass.model.models.registry import MODELS
 from stonepass.model.models.seated_balance import SeatedBalance
@@ -149,9 +150,9 @@ def _leaves(table: Table, prefix: str = "") -> dict[str, Any]:
         nested = isinstance(value, Mapping) and key not in all_inputs() and not constant
         inside = isinstance(value, Mapping) and key == MATERIAL
         if (nested and key in (*sections(), "")) or inside:
-            found |= _leaves(value, f"{key}.")
+            found = merged(found, _leaves(value, f"{key}."))
         else:
-            found[key] = value
+            found = merged(found, {key: value})
     return found
 
 
@@ -210,7 +211,7 @@ def _check(plan: Sweep) -> None:
     for each in plan.inputs:
         require(each.column not in names, f"'{each.key}'", "varied twice", "varied once")
         names.add(each.column)
-        clash = each.key in plan.fixed
+        clash = each.key in plan.fixed or any(each.key in model.values for model in plan.models)
         require(not clash, f"'{each.key}'", "fixed and varied", "one of the two")
     for model in range(len(plan.models)):
         _check_model(plan, model)

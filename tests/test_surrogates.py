@@ -292,6 +292,8 @@ def test_pressures_may_have_a_unit_and_few_conditions_are_no_special_case(shippe
 
 
 @pytest.mark.parametrize("given", [{"size_ratio": np.nan}, {"friction": -0.1}, {"wall_ratio": "x"},
+                                   {"stiffness": 1e308}, {"friction": 0.1 + 0.1j},
+                                   {"friction": np.ma.masked_equal([0.1, 0.2], 0.2)},
                                    {"friction": [0.1, 0.2], "size_ratio": [1.1, 1.2, 1.3]}])  # fmt: skip
 def test_impossible_inputs_are_refused(shipped, given):
     with pytest.raises(BadInput):
@@ -347,6 +349,14 @@ def test_damaged_files_and_changed_materials_are_refused(shipped, tmp_path):
         path.write_text(json.dumps(document | change))
         with pytest.raises(BadInput, match="build it again"):
             load_surrogate(path)
+    for key in ("box", "case", "floor_Pa", "narrowest_lumen", "about"):
+        for wrong in ({}, {key: "x"}, {key: None}, {key: 3 if key != "floor_Pa" else -1.0}):
+            kept = {name: value for name, value in document.items() if name != key}
+            path.write_text(json.dumps(kept | wrong))
+            if key == "narrowest_lumen" and wrong == {key: 3}:
+                continue  # a possible number
+            with pytest.raises(BadInput):
+                load_surrogate(path)
     path.write_text("{")
     with pytest.raises(BadInput, match="build it again"):
         load_surrogate(path)
@@ -398,6 +408,18 @@ def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
     lines = out.read_text().splitlines()
     assert lines[0].startswith("size_ratio,wall_ratio,friction,confining_pressure_kPa,stiffness")
     assert "NO_SOLUTION" in lines[2]
+    for option, value in (("--confining", "3kPa"), ("--friction", "0.1"), ("--xi", "1.2")):
+        assert main([*command, option, value]) == 2
+        assert f"{option} is" in capsys.readouterr().err
+    for option in ("--xi", "--eta", "--friction", "--stiffness"):
+        both = {"--xi": "1.2", "--eta": "1.3"} | {option: "-1"}
+        asked = [word for pair in both.items() for word in pair]
+        assert main(["surrogate", "evaluate", "ureter", *asked]) == 2
+        assert f"{option} is -1" in capsys.readouterr().err
+    table.write_text("size_ratio,wall_ratio,friction\n1.1,1.3,0.5\n1.2,-1.3,0.5\n")
+    assert main(command) == 2
+    assert "points.csv" in (told := capsys.readouterr().err)
+    assert "3" in told.split("wall_ratio")[0]  # the line of the file
     assert main(["surrogate", "evaluate", "ureter", "--eta", "1.3"]) == 2
     assert "--xi" in capsys.readouterr().err
 

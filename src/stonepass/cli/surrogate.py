@@ -37,6 +37,11 @@ VARIED = ("stone.diameter", "stone.size_ratio", "stone.friction", "ureter.inner_
 # The default box, see `studies.surrogates.box.Box`.
 LARGEST_XI, ETA_RANGE, FRICTION_RANGE = 1.6, "1.1:4", "0:1"
 COLUMNS = ("size_ratio", "wall_ratio", "friction", "confining_pressure_kPa")
+TINY, HUGE = 1e-6, 1e6
+BOUNDS = {"size_ratio": (TINY, HUGE), "wall_ratio": (1.0, HUGE), "friction": (0.0, HUGE),
+          "confining_pressure_kPa": (0.0, HUGE)}  # fmt: skip
+OPTIONS = {"size_ratio": "--xi", "wall_ratio": "--eta", "friction": "--friction",
+           "confining_pressure": "--confining", "stiffness": "--stiffness"}  # fmt: skip
 
 Name = Annotated[
     str,
@@ -239,17 +244,20 @@ def evaluate(
         float | None, typer.Option("--eta", help="Wall ratio.", rich_help_panel=QUESTION)
     ] = None,
     friction: Annotated[
-        float, typer.Option("--friction", help="Friction coefficient.", rich_help_panel=QUESTION)
-    ] = 0.5,
+        float | None,
+        typer.Option(
+            "--friction", help="Friction coefficient.  [default: 0.5]", rich_help_panel=QUESTION
+        ),
+    ] = None,
     confining: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--confining",
             metavar="PRESSURE",
-            help="Confining pressure, e.g. 5.4kPa.",
+            help="Confining pressure, e.g. 5.4kPa.  [default: 0kPa]",
             rich_help_panel=QUESTION,
         ),
-    ] = "0 kPa",
+    ] = None,
     stiffness: Annotated[
         float,
         typer.Option(
@@ -284,7 +292,11 @@ def evaluate(
 
     writable(out, (".csv",))
     asked = _conditions(xi, eta, friction, confining, points)
-    found = load_surrogate(name, model).evaluate(**asked, stiffness=stiffness)
+    surrogate = load_surrogate(name, model)
+    try:
+        found = surrogate.evaluate(**asked, stiffness=stiffness)
+    except BadInput as problem:
+        raise problem.named(OPTIONS.get(problem.argument, problem.argument)) from problem
     if json:
         print_json([each.to_dict() for each in surrogate_records(found)])
     else:
@@ -296,7 +308,11 @@ def evaluate(
 
 
 def _conditions(
-    xi: float | None, eta: float | None, friction: float, confining: str, points: Path | None
+    xi: float | None,
+    eta: float | None,
+    friction: float | None,
+    confining: str | None,
+    points: Path | None,
 ) -> dict[str, Any]:
     """Return the inputs of `Surrogate.evaluate`."""
     from stonepass.units import pressure
@@ -305,13 +321,16 @@ def _conditions(
         for option, value in (("--xi", xi), ("--eta", eta)):
             if value is None:
                 raise BadInput(option, "missing", "given", "or give a table with --points")
-        return {"size_ratio": [xi], "wall_ratio": [eta], "friction": [friction],
-                "confining_pressure": [float(pressure(confining, "--confining"))]}  # fmt: skip
-    if xi is not None or eta is not None:
-        raise BadInput("--points", points, "given without --xi and --eta", "give one of both")
+        outside = float(pressure("0 kPa" if confining is None else confining, "--confining"))
+        return {"size_ratio": [xi], "wall_ratio": [eta], "confining_pressure": [outside],
+                "friction": [0.5 if friction is None else friction]}  # fmt: skip
+    given = {"--xi": xi, "--eta": eta, "--friction": friction, "--confining": confining}
+    for option, unwanted in given.items():
+        if unwanted is not None:
+            raise BadInput(option, unwanted, "left out, because --points has all conditions")
     from stonepass.io.csv_file import read_columns
 
-    read = read_columns(points, COLUMNS[:3], COLUMNS[3:])
+    read = read_columns(points, COLUMNS[:3], COLUMNS[3:], BOUNDS)
     *others, load = (read.get(name) for name in COLUMNS)
     return dict(zip(("size_ratio", "wall_ratio", "friction"), others, strict=True)) | {
         "confining_pressure": 0.0 if load is None else 1e3 * load

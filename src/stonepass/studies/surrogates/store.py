@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from stonepass.errors import BadInput
+from stonepass.errors import BadInput, require
 from stonepass.inputs.build import build_case
 from stonepass.inputs.case_file import values_of
 from stonepass.inputs.case_record import describe_material
@@ -125,18 +125,27 @@ def _read(path: Path) -> Surrogate:
         document = json.loads(path.read_text(encoding="utf-8"))
         packed = path.with_suffix(".npz").read_bytes()
         version = document["format"]
-        digest, material, case = (
-            document[key] for key in ("arrays_digest", "material_digest", "case")
-        )
+        digest = document["arrays_digest"]
     except (OSError, ValueError, KeyError, TypeError):
         raise damaged from None
     if version != FORMAT:
-        raise BadInput("surrogate", f"format {version}", f"format {FORMAT}", "build it again")
+        raise BadInput("format of the surrogate", version, f"the number {FORMAT}", "build it again")
     if hashlib.sha256(packed).hexdigest() != digest:
         raise damaged
+    try:
+        return _rebuilt(path, document, packed)
+    except BadInput:
+        raise
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise damaged from None
+
+
+def _rebuilt(path: Path, document: dict[str, Any], packed: bytes) -> Surrogate:
+    """Return the surrogate that the content of both files describes."""
+    material = document["material_digest"]
     with np.load(io.BytesIO(packed), allow_pickle=False) as parts:
         arrays = {name: parts[name] for name in parts.files}
-    built = build_case(case, path.parent)
+    built = build_case(document["case"], path.parent)
     if _material_digest(built) != material:
         name = built.ureter.material.name
         raise BadInput("surrogate", path, f"built for the present constants of '{name}'",
@@ -160,9 +169,10 @@ def _read(path: Path) -> Surrogate:
     limits = document["box"]
     box = Box(limits["size_ratio"], tuple(limits["wall_ratio"]), tuple(limits["friction"]))
     stable = StableLoads(arrays["stable_wall_ratio"], arrays["stable_factor"],
-                         document["narrowest_lumen"])  # fmt: skip
-    return Surrogate(built, box, physics, learnt, error, document["floor_Pa"], stable, lumen,
-                     document["about"])  # fmt: skip
+                         float(document["narrowest_lumen"]))  # fmt: skip
+    floor, about = float(document["floor_Pa"]), dict(document["about"])
+    require(0.0 <= floor < np.inf, f"floor_Pa in {path.name}", floor, "0 or more", "build it again")
+    return Surrogate(built, box, physics, learnt, error, floor, stable, lumen, about)
 
 
 def _material_digest(case: Case) -> str:

@@ -30,6 +30,7 @@ from stonepass.units import pressure
 
 __all__ = ["Surrogate"]
 
+LARGEST = 1e12  # largest number that an evaluation takes, so that no product overflows
 CHUNK = 32_768  # number of conditions that are evaluated at a time, which bounds the memory
 Given = Any  # a number or an array of numbers
 
@@ -218,16 +219,19 @@ def _checked(given: Mapping[str, Given]) -> dict[str, Float[np.ndarray, " n"]]:
     arrays = {}
     for name, value in given.items():
         try:
+            if np.ma.is_masked(value) or np.iscomplexobj(value):
+                raise TypeError
             arrays[name] = np.asarray(value, dtype=float)
-        except (TypeError, ValueError):
-            raise BadInput(name, value, "a number or an array of numbers") from None
+        except (TypeError, ValueError, OverflowError):
+            allowed = "a number or an array of real numbers, none of them masked"
+            raise BadInput(name, value, allowed) from None
         positive = name in ("size_ratio", "wall_ratio", "stiffness")
-        good = np.isfinite(arrays[name]) & (
-            (arrays[name] > 0.0) if positive else (arrays[name] >= 0.0)
-        )
+        good = (arrays[name] > 0.0) if positive else (arrays[name] >= 0.0)
+        good &= arrays[name] <= LARGEST
         if not good.all():
             worst = float(arrays[name][~good].flat[0])
-            raise BadInput(name, worst, "above 0" if positive else "0 or more")
+            low = "above 0" if positive else "0 or more"
+            raise BadInput(name, worst, f"{low} and at most {LARGEST:g}")
     try:
         together = np.broadcast_arrays(*arrays.values())
     except ValueError:

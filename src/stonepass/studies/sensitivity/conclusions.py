@@ -172,10 +172,13 @@ def _tornado(found: Sensitivity, tornado: Tornado) -> list[str]:
         told = [f"With all inputs at their medians there is no {tornado.quantity}: "
                 f"{centre.describe()}."]  # fmt: skip
     known = [bar for bar in tornado.bars if bar.span is not None]
+    if known and not any(bar.span for bar in known):
+        return [*told, f"None of the inputs changes the {tornado.quantity} alone."]
+    apart = len(known) > 1 and known[0].span != known[-1].span
     if known:
-        than = ", more than any other input" if 1 < len(known) == len(tornado.bars) else ""
+        than = ", more than any other input" if apart and len(known) == len(tornado.bars) else ""
         told.append(f"Alone, {_moved(found, tornado, known[0])}{than}.")
-    if len(known) > 1:
+    if apart:
         told.append(f"{_capital(_moved(found, tornado, known[-1]))}, which is the least.")
     for bar in tornado.bars:
         told += [_missing(found, tornado, bar, end) for end in (bar.low, bar.high)

@@ -208,7 +208,7 @@ def test_the_ranges_hold_for_the_surrogate_itself(asking):
     for key, (section, name) in places.items():
         for end, beyond in (("low", -1e-3), ("high", 1e-3)):
             edge = found["validity"][key][end]
-            if edge == 0.0:
+            if edge in (0.0, 0.1):  # the smallest friction and the smallest stone of an input
                 continue
             for step, outside in ((0.0, False), (beyond, True)):
                 case = {"stone": {"size_ratio": 1.2}, "ureter": {"wall_ratio": 1.5}}
@@ -401,6 +401,55 @@ def test_texts_of_a_request_are_quoted_in_the_commands(asking):
 
 
 # --- problems
+
+
+HUGE = 10**400  # a whole number that is no number of the machine
+
+
+@pytest.mark.parametrize(
+    ("changed", "field", "words"),
+    [
+        ({"stone": {"size_ratio": 1.2, "shape": {"aspect": HUGE}}}, "stone.shape", "'aspect' is 1"),
+        ({"stone": {"size_ratio": 1.2, "shape": {"outline": 1}}}, "stone.shape", "'outline' is 1"),
+        ({"stone": {"size_ratio": 1.2, "shape": {"z": [0, 1, HUGE], "rho": [0, 1, 0]}}}, "stone.shape", "'z' is"),
+        ({"stone": {"size_ratio": 1.2, "shape": {"z": [0, 1, 2]}}}, "stone.shape", "both 'z' and 'rho'"),
+        ({"stone": {"size_ratio": 1.2, "shape": {"radius": 1}}}, "stone.shape", "key is radius"),
+        ({"method": {"closure": "series", "opening_curve": {"angle": [1]}}}, "method.opening_curve", "key is angle"),
+        ({"method": {"closure": "series", "opening_curve": {"alpha_deg": [0], "radius_ratio": [1]}}},
+         "method.opening_curve", "alpha of pair 1"),
+        ({"method": {"closure": "series", "opening_curve": {"alpha_deg": [HUGE], "radius_ratio": [1]}}},
+         "method.opening_curve", "two lists of numbers"),
+    ],
+)  # fmt: skip
+def test_tables_of_an_input_are_refused_with_their_part(asking, changed, field, words):
+    content = json.dumps({"case": CASE | changed})
+    found = asking.post(
+        "/api/v1/instant", content=content, headers={"content-type": "application/json"}
+    )
+    assert (found.status_code, found.json()["field"]) == (422, field)
+    assert words in found.json()["detail"]
+
+
+@pytest.mark.parametrize(
+    ("load", "inside"), [("9.9 kPa", True), ("10 kPa", True), ("11 kPa", False)]
+)
+def test_the_range_of_the_wall_holds_at_the_largest_load(asking, load, inside):
+    case = {
+        "stone": {"size_ratio": 1.2},
+        "ureter": {"wall_ratio": 2.0},
+        "load": {"confining_pressure": load},
+    }
+    found = instant(asking, case)
+    assert found["validity"]["ureter.wall_ratio"]["inside"]
+    assert found["validity"]["ureter.wall_ratio"]["high"] == 4.0
+    assert found["validity"]["load.confining_pressure"]["inside"] is inside
+    assert (found["answer"]["outcome"] == "MOVES") is inside
+
+
+def test_no_range_is_wider_than_what_an_input_may_be(asking):
+    found = instant(asking, CASE, stiffness=20.0)
+    assert found["validity"]["load.confining_pressure"]["high"] == 100e3
+    assert found["validity"]["stone.size_ratio"]["low"] == 0.1
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,7 @@ def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
             return OpeningCurve(tuple(np.radians(alpha).tolist()), tuple(radius.tolist()))
         except BadInput:  # the check of the curve itself gives a better message
             raise
-        except (KeyError, TypeError, ValueError) as problem:
+        except (KeyError, TypeError, ValueError, OverflowError) as problem:
             allowed = "a table of two lists of numbers, " + " and ".join(BOUNDS)
             raise BadInput("opening_curve", value, allowed) from problem
     if not isinstance(value, str | Path):

@@ -56,20 +56,30 @@ def _of_table(table: dict[str, Any]) -> Shape:
         return shape_through(_numbers(table, "z"), _numbers(table, "rho"))
     known = ["aspect", "outline", "deviation", "z", "rho"]
     for key in table:
-        if key not in known[:3]:
+        if key not in known:
             refuse_unknown("key of the shape", key, known)
-    aspect, deviation = table.get("aspect", 1.0), table.get("deviation", 0.0)
-    for name, number in (("aspect", aspect), ("deviation", deviation)):
-        if isinstance(number, bool) or not isinstance(number, int | float):
-            raise BadInput(f"'{name}' of the shape", number, "a number")
+    if points := sorted({"z", "rho"} & set(table)):
+        allowed = "a table with both 'z' and 'rho' and no other key, or with neither"
+        raise BadInput("shape of the stone", f"a table with {' and '.join(points)}", allowed)
+    aspect, deviation = _number(table, "aspect", 1.0), _number(table, "deviation", 0.0)
     outline = _numbers(table, "outline") if "outline" in table else ROUND
-    return Shape(float(aspect), tuple(float(c) for c in outline), float(deviation))
+    return Shape(aspect, tuple(float(c) for c in outline), deviation)
+
+
+def _number(table: dict[str, Any], name: str, default: float) -> float:
+    number = table.get(name, default)
+    if isinstance(number, bool) or not isinstance(number, int | float):
+        raise BadInput(f"'{name}' of the shape", number, "a number")
+    try:
+        return float(number)
+    except OverflowError as problem:
+        raise BadInput(f"'{name}' of the shape", number, "a number") from problem
 
 
 def _numbers(table: dict[str, Any], name: str) -> Float[np.ndarray, " n"]:
     try:
         found = np.asarray(table[name], dtype=float)
-    except (TypeError, ValueError) as problem:
+    except (TypeError, ValueError, OverflowError) as problem:
         raise BadInput(f"'{name}' of the shape", table[name], "a list of numbers") from problem
     if found.ndim != 1:
         raise BadInput(f"'{name}' of the shape", table[name], "a list of numbers")

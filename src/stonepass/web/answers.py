@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from stonepass.errors import BadInput
 from stonepass.inputs.build import in_words
-from stonepass.web.problem_fields import field_of
+from stonepass.web.problem_fields import field_of, part_of_table
 
 __all__ = [
     "FAULT",
@@ -148,5 +148,7 @@ def refused(problem: BadInput, field: str | None = None) -> Response:
         The input that is refused; by default the one that the error is about.
     """
     field = field or field_of(problem)
-    named = in_words(problem, {} if field is None else {problem.argument: field})
+    part = part_of_table(problem.argument)  # a part of an input is named beside the input
+    word = field if part is None else f"{field}, {part}"
+    named = in_words(problem, {} if field is None or word is None else {problem.argument: word})
     return problem_response(422, str(named), field, named.value)

@@ -107,8 +107,10 @@ def _material_of(table: dict[str, Any]) -> Material:
         key = problem.argument.removeprefix("material, ").strip("'")
         if key == "key":  # the table has a key that is not known
             unknown, known = str(problem.value), problem.allowed.removeprefix("one of ")
-            raise BadInput(f"{MATERIAL}.{unknown}", table[unknown],
-                           "left out, because there is no such key",
+            where, value = f"{MATERIAL}.{unknown}", table[unknown]
+            if not re.fullmatch(r"\w+", unknown):
+                where, value = MATERIAL, f"a table with the key '{unknown}'"
+            raise BadInput(where, value, "left out, because there is no such key",
                            problem.remedy or f"known keys are {known}") from problem  # fmt: skip
         where = f"{MATERIAL}.{key}" if re.fullmatch(r"\w+", key) else MATERIAL
         # The remedy for an unknown law is a Python file, which a request cannot name.

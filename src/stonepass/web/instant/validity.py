@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from stonepass.model.load import CONFINING
+from stonepass.model.stone import SIZE_RATIO
 from stonepass.studies.surrogates.surrogate import Surrogate
 from stonepass.web.instant.question import STIFFNESS_INPUT, InstantQuestion, largest_load
 
@@ -16,7 +18,7 @@ def validity(question: InstantQuestion, surrogate: Surrogate) -> dict[str, dict[
     """Return the valid range of every input, in SI units, with a sentence for a reader.
 
     The range of an input is valid for the present values of the others. A stone that is smaller
-    than the lumen is loose, and therefore the smallest size ratio is 0.
+    than the lumen is loose, and therefore every smaller stone has an answer.
 
     Parameters
     ----------
@@ -31,11 +33,12 @@ def validity(question: InstantQuestion, surrogate: Surrogate) -> dict[str, dict[
         and pressures in Pa.
     """
     case, box = question.case, surrogate.box
-    most = question.stiffness * largest_load(surrogate, case.wall_ratio)
+    most = min(question.stiffness * largest_load(surrogate, case.wall_ratio), CONFINING[1])
     confining = float(case.load.confining_pressure)
     low_wall, high_wall = _walls(question, surrogate)
+    smallest = SIZE_RATIO[0]
     found = {
-        "stone.size_ratio": _range(0.0, box.size_ratio, case.size_ratio, "The size ratio"),
+        "stone.size_ratio": _range(smallest, box.size_ratio, case.size_ratio, "The size ratio"),
         "ureter.wall_ratio": _range(low_wall, high_wall, case.wall_ratio, "The wall ratio"),
         "stone.friction": _range(*box.friction, case.stone.friction, "The friction coefficient"),
         "load.confining_pressure": _range(
@@ -47,7 +50,11 @@ def validity(question: InstantQuestion, surrogate: Surrogate) -> dict[str, dict[
     diameter = case.stone_diameter
     if inner is not None and diameter is not None:
         found["stone.diameter"] = _range(
-            0.0, box.size_ratio * inner, diameter, "The diameter of the stone", _millimetres
+            smallest * inner,
+            box.size_ratio * inner,
+            diameter,
+            "The diameter of the stone",
+            _millimetres,
         )
         low, high = (float(inner) * each for each in (low_wall, high_wall))
         if case.ureter.outer_diameter is not None:
@@ -86,9 +93,12 @@ def _walls(question: InstantQuestion, surrogate: Surrogate) -> tuple[float, floa
     confining = float(question.case.load.confining_pressure) / question.stiffness
     most, stable = float(surrogate.case.load.confining_pressure), surrogate.stable
     # Without a load in the box, no wall ratio would help: the load itself is out of range.
-    if most == 0.0 or confining <= most * stable.factor[0]:
+    if most == 0.0 or not most * stable.factor[0] < confining <= most:
         return low, high
-    return float(np.interp(confining / most, stable.factor, stable.wall_ratio)), high
+    enough = int(np.argmax(stable.factor >= confining / most))  # the first wall that bears the load
+    around = slice(enough - 1, enough + 1)
+    walls = stable.wall_ratio[around]
+    return float(np.interp(confining / most, stable.factor[around], walls)), high
 
 
 def _range(low: float, high: float, value: float, name: str, shown: Any = None) -> dict[str, Any]:

@@ -567,6 +567,16 @@ def test_the_results_of_a_sweep_answer_a_study(tmp_path, capsys):
     assert run(["sensitivity", str(path), "--sweep", str(tmp_path / "none")]) == 2
 
 
+def test_inputs_that_change_nothing_are_not_ranked(tmp_path, capsys):
+    """All stones are loose, so that every critical pressure is 0."""
+    study = ITS_STUDY.replace('sweep = "swept"\n', "").replace("3.6 mm to 3.9 mm", "2 mm to 3 mm")
+    assert run(["sensitivity", str(study_file(tmp_path, study)), "--json"]) in (0, 1)
+    told = " ".join(json.loads(capsys.readouterr().out)["conclusions"])
+    assert "None of the inputs changes the critical pressure alone." in told
+    assert "more than any other" not in told
+    assert "the least" not in told
+
+
 def test_a_sweep_of_several_models_answers_for_the_one_with_the_same_options(tmp_path):
     """The model of a sweep is found by its options, whatever its label."""
     fixed = {key: SWEEP[key] for key in ("ureter",)}

@@ -565,6 +565,10 @@ def test_the_results_of_a_sweep_answer_a_study(tmp_path, capsys):
     assert run(["sensitivity", str(other)]) == 2
     assert "fixed inputs of the study" in capsys.readouterr().err
     assert run(["sensitivity", str(path), "--sweep", str(tmp_path / "none")]) == 2
+    assert "--sweep is" in capsys.readouterr().err
+    missing = study_file(tmp_path, ITS_STUDY.replace('"swept"', '"none"'))
+    assert run(["sensitivity", str(missing)]) == 2
+    assert "'sensitivity.sweep' is" in capsys.readouterr().err
 
 
 def test_inputs_that_change_nothing_are_not_ranked(tmp_path, capsys):

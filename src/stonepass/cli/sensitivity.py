@@ -151,9 +151,11 @@ def command(
         try:
             found = sensitivity(study, executor=pool, cache_folder=folder, progress=progress)
         except BadInput as problem:
-            if problem.argument != "surrogate":
+            name = {"surrogate": "surrogate", "folder": "sweep"}.get(problem.argument)
+            if name is None:
                 raise
-            raise problem.named("--surrogate") from problem
+            in_file = f"in {study_file.name}, 'sensitivity.{name}'"
+            raise problem.named(in_file if given[name] is None else f"--{name}") from problem
     if json:
         print_json(found.to_dict())
     else:

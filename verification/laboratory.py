@@ -78,6 +78,7 @@ SURFACES = {
     "latex": ("latex", Load(), (1.3, 2.5)),
 }
 CONDITIONS = 40
+PAGES = 4
 MEDIAN, TAIL = 0.015, 0.06  # bounds of the median and the 95 % quantile of the relative error
 
 
@@ -267,7 +268,8 @@ def _page():
             count = _printed(browser, found, Path(folder))
         pages.append(count)
         rows.append((name, str(count)))
-    check = Check("a report prints on two A4 pages", ", ".join(map(str, pages)), pages == [2, 2])
+    few = max(pages) <= PAGES
+    check = Check(f"a report prints on {PAGES} A4 pages at most", ", ".join(map(str, pages)), few)
     return [check], ("Number of pages of a report, printed by Chromium.", header, rows)
 
 

@@ -38,15 +38,17 @@ ul { padding-left: 1.1rem; margin: .3rem 0; } li { margin: .25rem 0; }
 }
 @page { size: A4; margin: 13mm 15mm; }
 @media print {
-  body { font-size: 9.6pt; line-height: 1.36; margin: 0; padding: 0; max-width: none; }
+  body { font-size: 8.8pt; line-height: 1.3; margin: 0; padding: 0; max-width: none; }
   h1 { font-size: 15pt; } h2 { font-size: 11.5pt; margin: .8rem 0 .2rem; break-after: avoid; }
   h3 { font-size: 10.5pt; } .alert h2, .decide h2 { font-size: 10.5pt; }
   table { font-size: 8.6pt; } th, td { padding: .16rem .4rem; }
   .cards { grid-template-columns: 1fr 1fr; gap: .4rem; } .card { padding: .35rem .6rem; }
   .card p, .about { font-size: 8.2pt; } .card table { font-size: 9pt; } li { margin: .1rem 0; }
-  img { max-width: 96mm; } .pair { display: flex; gap: 6mm; } .pair > div { flex: 1 1 0; }
+  img { max-width: 80mm; max-height: 130mm; margin: .2rem auto; } .pair { display: flex; gap: 6mm; } .pair > div { flex: 1 1 0; }
   .pair p { font-size: 8.6pt; } .inputs { font-size: 8.8pt; }
   img, tr, .card, .alert, .decide, .pair { break-inside: avoid; } tr.group { break-after: avoid; }
-  .sources, footer, td .about { font-size: 7.8pt; } a { color: inherit; text-decoration: none; }
+  td .about { display: inline; margin-left: .6em; }
+  .sources { columns: 2; column-gap: 6mm; } .sources > p { break-after: avoid; }
+  .sources, footer, td .about { font-size: 7.4pt; } a { color: inherit; text-decoration: none; }
 }
 """

@@ -44,7 +44,8 @@ ul { padding-left: 1.1rem; margin: .3rem 0; } li { margin: .25rem 0; }
   table { font-size: 8.6pt; } th, td { padding: .16rem .4rem; }
   .cards { grid-template-columns: 1fr 1fr; gap: .4rem; } .card { padding: .35rem .6rem; }
   .card p, .about { font-size: 8.2pt; } .card table { font-size: 9pt; } li { margin: .1rem 0; }
-  img { max-width: 80mm; max-height: 130mm; margin: .2rem auto; } .pair { display: flex; gap: 6mm; } .pair > div { flex: 1 1 0; }
+  img { max-width: 80mm; max-height: 130mm; margin: .2rem auto; }
+  .pair { display: flex; gap: 6mm; } .pair > div { flex: 1 1 0; }
   .pair p { font-size: 8.6pt; } .inputs { font-size: 8.8pt; }
   img, tr, .card, .alert, .decide, .pair { break-inside: avoid; } tr.group { break-after: avoid; }
   td .about { display: inline; margin-left: .6em; }

@@ -97,3 +97,11 @@ def test_exceptions_survive_a_process_boundary():
         sp.Stone(size_ratio=40.0)
     again = pickle.loads(pickle.dumps(refusal.value))
     assert str(again) == str(refusal.value)
+
+
+@pytest.mark.parametrize(("inner", "outer"), [("1.1 mm", "1.122 mm"), ("0.3 mm", "3 mm")])
+def test_a_wall_at_the_bound_is_not_refused_for_the_rounding_of_its_quotient(inner, outer):
+    assert sp.Ureter(inner, outer).wall_ratio in (
+        pytest.approx(1.02, rel=1e-12),
+        pytest.approx(10.0, rel=1e-12),
+    )

@@ -15,6 +15,7 @@ from stonepass.units import Length, Quantity, format_length
 __all__ = ["BY_RATIO", "WALL_RATIO", "Ureter"]
 
 WALL_RATIO = (1.02, 10.0)
+ROUNDING = 1e-9  # relative distance outside these bounds that a rounded quotient may have
 CONSISTENT = 1e-9  # largest relative difference of two values of one length or ratio
 BY_RATIO = "give the inner diameter with the outer one or the wall thickness, or the ratio alone"
 
@@ -162,7 +163,8 @@ def _ratio(inner: Length, outer: Length) -> float:
     require(outer > inner, "outer diameter", format_length(outer), allowed)
     low, high = WALL_RATIO
     ratio = outer / inner
-    require(low <= ratio <= high, "wall_ratio", ratio, f"a number from {low:g} to {high:g}")
+    inside = low * (1.0 - ROUNDING) <= ratio <= high * (1.0 + ROUNDING)
+    require(inside, "wall_ratio", ratio, f"a number from {low:g} to {high:g}")
     return ratio
 
 

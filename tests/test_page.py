@@ -3,6 +3,7 @@
 import json
 import re
 import shlex
+import time
 
 import pytest
 from page_browser import ANSWERED, SECONDS, settled
@@ -193,6 +194,20 @@ def test_solve_is_cancelled(page):
     page.get_by_label("Model of the finite elements").select_option("direct")
     page.get_by_role("button", name="Solve").click()
     page.get_by_role("button", name="Cancel").click()
+    page.get_by_text("The solve was cancelled.").wait_for()
+    assert page.get_by_role("button", name="Solve").is_enabled()
+
+
+def test_solve_is_cancelled_before_the_server_has_accepted_it(page):
+    def late(route):
+        time.sleep(0.5)
+        route.continue_()
+
+    page.route("**/api/v1/jobs", late)
+    page.get_by_label("Diameter across the ureter", exact=True).fill("4.39")
+    page.get_by_label("Model of the finite elements").select_option("direct")
+    page.get_by_role("button", name="Solve").dispatch_event("click")
+    page.get_by_role("button", name="Cancel").dispatch_event("click")
     page.get_by_text("The solve was cancelled.").wait_for()
     assert page.get_by_role("button", name="Solve").is_enabled()
 

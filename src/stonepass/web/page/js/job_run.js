@@ -38,7 +38,8 @@ export function jobRun(label, hint) {
         rest(problem.message, true);
         refused(problem);
       };
-      stop = () => {}; // until this job has begun, there is nothing to cancel
+      let unwanted = false; // whether it was cancelled before the server had accepted it
+      stop = () => (unwanted = true);
       show("The question is sent.", 0);
       try {
         stop = await startJob(body, (state) => {
@@ -51,6 +52,7 @@ export function jobRun(label, hint) {
           } else if (state.status === "cancelled") rest("The work was cancelled.");
           else fail(new Problem(state.problem?.status, state.problem ?? { detail: "The work failed." }));
         });
+        if (unwanted) stop();
       } catch (error) {
         if (!(error instanceof Problem)) throw error;
         fail(error);

@@ -51,7 +51,8 @@ export function solvePanel(changed) {
 
   async function run() {
     const asked = { key: keyOf(question) };
-    stop = () => {}; // until this job has begun, there is nothing to cancel
+    let unwanted = false; // whether it was cancelled before the server had accepted it
+    stop = () => (unwanted = true);
     running = asked.key;
     working("The solve is waiting for a free worker.", 0);
     let ended = false;
@@ -59,6 +60,7 @@ export function solvePanel(changed) {
       stop = await startJob(job(), (state) => {
         ended = told(asked, state);
       });
+      if (unwanted) stop();
       if (ended) running = "";
     } catch (error) {
       failed(error.message);

@@ -91,7 +91,13 @@ def _ask(operation, mode, count, found) -> None:
 
 
 def _complete(body, valid, sections) -> None:
-    """Put sections of a valid case into a request that has a case, in place of generated ones."""
+    """Put sections of a valid case into a request that has a case, in place of generated ones.
+
+    A question about a file keeps the id of the file alone, which is then well formed but unknown.
+    """
+    if isinstance(body, dict) and body.get("kind") == "friction":
+        for key in set(body) - {"kind", "upload"}:
+            del body[key]
     inner = body.get("question", body) if isinstance(body, dict) else None
     if isinstance(inner, dict) and isinstance(inner.get("case"), dict):
         inner["case"] |= dict(list(valid.items())[:sections])

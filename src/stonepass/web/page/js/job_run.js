@@ -38,11 +38,9 @@ export function jobRun(label, hint) {
         rest(problem.message, true);
         refused(problem);
       };
-      let unwanted = false; // whether it was cancelled before the server had accepted it
-      stop = () => (unwanted = true);
       show("The question is sent.", 0);
       try {
-        stop = await startJob(body, (state) => {
+        const begun = startJob(body, (state) => {
           if (state.status === "queued") show("The question is waiting for a free worker.", 0);
           else if (state.status === "running")
             show(state.progress?.sentence || "The question is being answered.", partOf(state));
@@ -52,7 +50,8 @@ export function jobRun(label, hint) {
           } else if (state.status === "cancelled") rest("The work was cancelled.");
           else fail(new Problem(state.problem?.status, state.problem ?? { detail: "The work failed." }));
         });
-        if (unwanted) stop();
+        stop = begun.stop;
+        await begun.accepted;
       } catch (error) {
         if (!(error instanceof Problem)) throw error;
         fail(error);

@@ -7,10 +7,25 @@ const ENDED = ["done", "failed", "cancelled"];
 /**
  * Start a job and follow it.
  *
- * `told(state)` is called with every state of the job until it has ended. Returns a function that
- * cancels the job.
+ * `told(state)` is called with every state of the job until it has ended. `stop()` cancels the job,
+ * also before the server has accepted it; `accepted` is a promise of this moment.
  */
-export async function startJob(body, told) {
+export function startJob(body, told) {
+  let cancel = () => {};
+  let unwanted = false;
+  const accepted = begin(body, told).then((found) => {
+    cancel = found;
+    if (unwanted) cancel();
+  });
+  const stop = () => {
+    unwanted = true;
+    cancel();
+  };
+  return { stop, accepted };
+}
+
+/** Ask for a job and follow it; return a function that cancels it. */
+async function begin(body, told) {
   const begun = await post("jobs", body);
   const place = begun.links?.self || `jobs/${begun.id}`;
   let over = false;

@@ -51,16 +51,15 @@ export function solvePanel(changed) {
 
   async function run() {
     const asked = { key: keyOf(question) };
-    let unwanted = false; // whether it was cancelled before the server had accepted it
-    stop = () => (unwanted = true);
     running = asked.key;
     working("The solve is waiting for a free worker.", 0);
     let ended = false;
     try {
-      stop = await startJob(job(), (state) => {
+      const begun = startJob(job(), (state) => {
         ended = told(asked, state);
       });
-      if (unwanted) stop();
+      stop = begun.stop;
+      await begun.accepted;
       if (ended) running = "";
     } catch (error) {
       failed(error.message);

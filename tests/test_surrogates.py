@@ -11,6 +11,8 @@ from scipy.stats import qmc
 import stonepass as sp
 from stonepass.cli import main as command_line
 from stonepass.errors import BadInput, Outcome
+from stonepass.inputs.command_options import command_options
+from stonepass.inputs.material_file import find_material
 from stonepass.model.states.stability import axisymmetric_buckling
 from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
 from stonepass.studies.surrogates import buckling_limit, build
@@ -441,6 +443,14 @@ def test_the_shown_command_builds_this_surrogate(material, model, monkeypatch, c
     assert main([*words[1:-1], str(out), "--workers", "1", "--no-cache"]) == 0
     assert asked == [(surrogate.case, surrogate.box)]
     assert load_surrogate(out) == surrogate
+
+
+def test_a_case_with_a_table_of_constants_has_no_options():
+    """A table cannot be written on a command line."""
+    table = {"law": "neo-hookean", "C10": "70 kPa", "strain_range": [0.5, 1.5], "source": "mine"}
+    wall = sp.Ureter(wall_ratio=1.3, material=find_material(table))
+    with pytest.raises(BadInput, match="use a case file"):
+        command_options(sp.Case(sp.Stone(size_ratio=1.2), wall))
 
 
 def test_further_cases_are_where_two_fits_differ_and_apart_from_each_other():

@@ -351,7 +351,11 @@ def _describe(surrogate: Any) -> None:
     from stonepass.cli.terminal import show
     from stonepass.report.surrogate_table import surrogate_table
 
-    show(surrogate_table(surrogate), "This command builds it:", f"  {_build_command(surrogate)}")
+    try:
+        told = ["This command builds it:", f"  {_build_command(surrogate)}"]
+    except BadInput:  # its wall or its stone has no name
+        told = ["It was built from a case file."]
+    show(surrogate_table(surrogate), *told)
 
 
 def _build_command(surrogate: Any) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from stonepass.declaration import Kind
+from stonepass.errors import BadInput
 from stonepass.inputs.case_file import held_values, values_of
 from stonepass.inputs.catalogue import all_inputs
 from stonepass.model.case import Case
@@ -27,7 +28,7 @@ def command_options(case: Case, left_out: Collection[str] = ()) -> list[str]:
     Raises
     ------
     BadInput
-        The material or the shape cannot be named on a command line; see `case_file.values_of`.
+        An input cannot be named on a command line, e.g. a law that is given by its constants.
     """
     words: list[str] = []
     held = held_values(case)
@@ -35,6 +36,8 @@ def command_options(case: Case, left_out: Collection[str] = ()) -> list[str]:
         declared = all_inputs()[key]
         if held[key] == declared.default or key in left_out:
             continue
+        if isinstance(value, dict):  # a law by its constants, or a shape by its points
+            raise BadInput(key, "a table", "a name or a file", "use a case file")
         names = declared.declaration.option.split("/")
         if declared.declaration.kind is Kind.FLAG:
             words.append(names[0] if value else names[-1])

@@ -1,13 +1,18 @@
 """Ctrl-C, TERM and a killed parent: a parallel command ends, and leaves neither process nor file."""
 
+import math
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
 import pytest
+
+from stonepass.studies import executor as executors
+from stonepass.studies.sweeps.workers import PoolWorkers
 
 PROCESSES = Path("/proc")
 pytestmark = pytest.mark.skipif(not PROCESSES.is_dir(), reason="processes are listed by Linux")
@@ -102,3 +107,39 @@ def test_workers_end_with_their_parent(started, tmp_path, sent):
     process.communicate(timeout=PATIENCE)
     assert process.returncode != 0
     wait_until(lambda: not group(process.pid))
+
+
+def test_a_killed_worker_is_told_in_one_sentence(started, tmp_path):
+    process = started(WORK, str(tmp_path))
+    wait_until(lambda: len(list(tmp_path.glob("began-*"))) == 2)
+    for each in group(process.pid):
+        if b"spawn_main" in (PROCESSES / str(each) / "cmdline").read_bytes():
+            os.kill(each, signal.SIGKILL)
+            break
+    _, said = process.communicate(timeout=PATIENCE)
+    assert "StonepassError: a worker process was killed" in said.splitlines()[-1]
+    wait_until(lambda: not group(process.pid))
+
+
+def test_a_worker_that_is_killed_while_another_one_starts_leaves_no_pool_that_waits(monkeypatch):
+    """The pool is broken then, and the process that was just starting is not told to end."""
+    begun, plain = [], executors._Worker.start
+
+    def start(process):
+        plain(process)
+        begun.append(process)
+        if len(begun) == 2:
+            os.kill(begun[0].pid, signal.SIGKILL)
+            time.sleep(0.5)  # the pool finds out before it knows the second process
+
+    monkeypatch.setattr(executors._Worker, "start", start)
+    with PoolWorkers(2).open() as workers:
+        lost = [workers.executor.submit(time.sleep, 60.0) for _ in range(2)]
+        assert all(each.exception(PATIENCE) for each in lost)
+        renewing = threading.Thread(target=workers.renew, daemon=True)
+        renewing.start()
+        renewing.join(PATIENCE)
+        waiting = renewing.is_alive()
+        begun[1].kill()  # so that a failing test ends
+        assert not waiting
+        assert workers.executor.submit(math.sqrt, 4.0).result(PATIENCE) == 2.0

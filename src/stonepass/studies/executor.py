@@ -16,21 +16,32 @@ import time
 import warnings
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    wait,
+)
 from contextlib import contextmanager, suppress
-from multiprocessing.connection import Connection
+from multiprocessing import connection
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, TextIO, TypeVar
 
-from stonepass.errors import CacheWarning
+from stonepass.errors import CacheWarning, StonepassError
 from stonepass.io.text_file import WRITING
 
-__all__ = ["CORES", "InProcessExecutor", "executor_for", "process_pool", "stream"]
+__all__ = ["CORES", "KILLED", "InProcessExecutor", "executor_for", "process_pool", "stream"]
 
 CORES = os.cpu_count() or 1  # number of processors
 BLOCK_SECONDS = 1.0  # time in s after which a block ends; its remaining items are sent again
 LARGEST_BLOCK = 256  # largest number of items in a block
 IN_FLIGHT = 64  # largest number of blocks that were sent and have not returned
+KILLED = (
+    "a worker process was killed, which the system does when memory runs out: use fewer workers, "
+    "or close other programs."
+)
 GRACE = 1.0  # time in s that a process has to end by itself after the work was cancelled
 
 Item = TypeVar("Item")
@@ -75,7 +86,7 @@ def process_pool(workers: int) -> Iterator[Executor]:
     pool = ProcessPoolExecutor(workers, context, _begin_worker, (reading,))
     try:
         yield pool
-        pool.shutdown()
+        _shut_down(pool, context)
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)
         writing.close()
@@ -96,17 +107,37 @@ class _Worker(SpawnProcess):
 
 
 class _RecordingContext(SpawnContext):
-    """A context that records the processes it starts, so that they can be ended."""
+    """A context that records its processes, so that they can be ended."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.started: list[_Worker] = []
+        self._made: list[_Worker] = []
+
+    @property
+    def started(self) -> list[_Worker]:
+        """The processes whose start did not fail."""
+        return [each for each in self._made if each.pid is not None]
 
     def Process(self, *args: Any, **settings: Any) -> _Worker:  # type: ignore[override]
         """Return a new process that has not been started."""
         process = _Worker(*args, **settings)
-        self.started.append(process)
+        self._made.append(process)
         return process
+
+    def join_processes(self) -> None:
+        """Wait for the processes to end; if one of them was killed, kill the others."""
+        running = self.started
+        while running:
+            connection.wait([each.sentinel for each in running])
+            running = [each for each in running if each.is_alive()]
+            if self.broken:
+                for each in running:
+                    each.kill()
+
+    @property
+    def broken(self) -> bool:
+        """True if a process was killed, or ended with an error."""
+        return any(each.exitcode not in (None, 0) for each in self.started)
 
     def end_processes(self) -> None:
         """Wait up to `GRACE` seconds for the processes to end, and kill the others."""
@@ -116,6 +147,19 @@ class _RecordingContext(SpawnContext):
         for process in self.started:
             if process.is_alive():
                 process.kill()
+
+
+def _shut_down(pool: Executor, context: _RecordingContext) -> None:
+    """Let the processes finish their work and end.
+
+    A pool whose process was killed is broken, and up to Python 3.11 its shutdown can wait for ever
+    for another process: one that was just starting is not told to end, and one that waits for a
+    lock which the killed process held cannot read that it should. The others are therefore killed.
+    """
+    closing = threading.Thread(target=pool.shutdown, daemon=True)
+    closing.start()
+    context.join_processes()
+    closing.join()
 
 
 @contextmanager
@@ -135,14 +179,14 @@ def _interrupts_blocked() -> Iterator[None]:
 _noted: list[warnings.WarningMessage] = []
 
 
-def _begin_worker(parent: Connection) -> None:
+def _begin_worker(parent: connection.Connection) -> None:
     """Prepare a process of the pool: it ignores Ctrl-C, and ends when its parent process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
     warnings.showwarning = _note
 
 
-def _end_with(parent: Connection) -> None:
+def _end_with(parent: connection.Connection) -> None:
     """End this process once the other end of the pipe is closed, but not while it writes a file."""
     with suppress(EOFError, OSError):
         parent.recv_bytes()
@@ -209,6 +253,8 @@ def stream(
 
     Raises
     ------
+    StonepassError
+        A process of the executor was killed.
     Exception
         An error of `work` is passed on; blocks that have not begun are then cancelled.
     """
@@ -233,6 +279,8 @@ def stream(
                 size = _block_size(len(results), seconds)
                 for (index, _), result in zip(block, results, strict=False):
                     yield index, result
+    except BrokenExecutor as problem:
+        raise StonepassError(KILLED) from problem
     finally:
         for future in pending:
             future.cancel()

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from concurrent.futures import BrokenExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from stonepass.errors import StonepassError
+from stonepass.studies.executor import KILLED
 from stonepass.studies.sweeps.blocks import case_seconds
 from stonepass.studies.sweeps.plan import Sweep
 from stonepass.studies.sweeps.workers import Workers
@@ -67,7 +69,10 @@ def estimated(plan: Sweep, left: int, workers: Workers) -> Estimate | None:
         return None
     # The middle of each of equal parts, because the first cases of a grid may be the easy ones.
     indices = [int((k + 0.5) * plan.cases / MEASURED) for k in range(MEASURED)]
-    seconds = workers.executor.submit(case_seconds, plan, indices, LONGEST).result()
+    try:
+        seconds = workers.executor.submit(case_seconds, plan, indices, LONGEST).result()
+    except BrokenExecutor as problem:
+        raise StonepassError(KILLED) from problem
     return Estimate(left, float(np.mean(seconds)), workers.count)
 
 

@@ -11,6 +11,7 @@ from schemathesis.generation import GenerationMode
 
 SEED = 20221
 TIMEOUT = 120.0  # s; a report takes as long as its job
+UNKNOWN = 64 * "0"  # a well-formed id of an upload that does not exist
 # Sections of valid cases, in turn. Every second request has them beside its other, generated
 # sections. A surrogate covers the first and the second wall, but not the third one.
 VALID = (
@@ -75,7 +76,9 @@ def _ask(operation, mode, count, found) -> None:
         asked += 1
         # A report takes as long as its job, so that few of them are asked for.
         every = 20 if "report" in operation.label else 2
-        if asked % every == 1 and mode is GenerationMode.POSITIVE:
+        if asked == 1 and operation.label == "POST /api/v1/jobs":
+            case.body = {"kind": "friction", "upload": UNKNOWN}
+        elif asked % every == 1 and mode is GenerationMode.POSITIVE:
             turn = asked // every
             _complete(case.body, VALID[turn // 3 % len(VALID)], 1 + turn % 3)
         response = case.call(timeout=TIMEOUT)
@@ -91,13 +94,7 @@ def _ask(operation, mode, count, found) -> None:
 
 
 def _complete(body, valid, sections) -> None:
-    """Put sections of a valid case into a request that has a case, in place of generated ones.
-
-    A question about a file keeps the id of the file alone, which is then well formed but unknown.
-    """
-    if isinstance(body, dict) and body.get("kind") == "friction":
-        for key in set(body) - {"kind", "upload"}:
-            del body[key]
+    """Put sections of a valid case into a request that has a case, in place of generated ones."""
     inner = body.get("question", body) if isinstance(body, dict) else None
     if isinstance(inner, dict) and isinstance(inner.get("case"), dict):
         inner["case"] |= dict(list(valid.items())[:sections])

@@ -15,7 +15,7 @@ from stonepass.fe.axisymmetric.inner_wall import inner_wall, set_at_nodes
 from stonepass.fe.axisymmetric.mesh import Layout, place, structured_mesh
 from stonepass.fe.axisymmetric.problem import Tube
 from stonepass.fe.axisymmetric.profile import Profile
-from stonepass.fe.axisymmetric.wall import SYMBOLS, cauchy_stress, wall_energy
+from stonepass.fe.axisymmetric.wall import SYMBOLS, cauchy_stress, rounded_symbols, wall_energy
 from stonepass.fe.core.grading import graded, growing, intervals
 from stonepass.fe.core.lobatto import lobatto
 from stonepass.fe.core.newton import newton
@@ -299,6 +299,40 @@ def test_the_engine_knows_every_function_a_law_may_use():
         assert ng.CF(found)(mesh(1.1, 0.1)) == pytest.approx(expected)
 
 
+def test_a_rounded_kink_is_sharp_while_its_width_is_zero():
+    width, mesh = ng.Parameter(0.0), structured_mesh(LAYOUT)
+    symbols, x = rounded_symbols(width), ng.x - 1.1  # 0 at the place of the evaluation
+    larger, smaller = symbols.maximum(x, -0.3), symbols.minimum(0.2, x)
+    at = mesh(1.1, 0.1)
+    assert ng.CF(larger)(at) == pytest.approx(0.0, abs=1e-15)
+    assert ng.CF(smaller)(at) == pytest.approx(0.0, abs=1e-15)
+    width.Set(0.4)
+    assert ng.CF(larger)(at) == pytest.approx((-0.3 + 0.5) / 2.0)
+    assert ng.CF(smaller)(at) == pytest.approx((0.2 - np.hypot(0.2, 0.4)) / 2.0)
+
+
+def test_the_width_of_a_kink_changes_the_tangent_alone():
+    """A wall of springs that resist tension alone: max(C_zz − 1, 0)²."""
+
+    def energy(C, place, xp):
+        part = xp.maximum(C.zz - 1.0, 0.0)
+        return 0.5 * (C.rr + C.tt + C.zz - 3.0) + part * part
+
+    tube = Tube(energy=energy, wall_ratio=1.5, half_length=4.0)
+    d = discretise(tube, Arc.at(Profile(1.2)), LAYOUT, 2)
+    d.fields.w.Set(1e-3 * ng.y * (ng.y - 1.0))
+    system = FormSystem(wall_form(d), d.state, free_unknowns(d, ""), d.kink_width)
+    before = system.residual()
+    tangents = []
+    for width in (0.0, 0.1, 0.0):
+        system.factorise(width)
+        tangents.append(system.form.mat.AsVector().FV().NumPy().copy())
+        assert d.kink_width.Get() == 0.0
+    assert system.residual() == before
+    assert np.array_equal(tangents[0], tangents[2])
+    assert np.abs(tangents[1] - tangents[0]).max() > 0.01 * np.abs(tangents[0]).max()
+
+
 class Scalar:
     """x² = 2 as a system: Newton's own test."""
 
@@ -308,7 +342,7 @@ class Scalar:
     def residual(self):
         return abs(self.x**2 - 2.0)
 
-    def direction(self, *, again=False):
+    def direction(self, *, again=False, width=0.0):
         if not again:
             self.slope = 2.0 * self.x
         self.solves += 1
@@ -331,7 +365,7 @@ def test_newton_finds_a_root_and_counts():
 
 def test_a_used_factorisation_that_does_not_serve_is_taken_back():
     class Jumpy(Scalar):
-        def direction(self, *, again=False):
+        def direction(self, *, again=False, width=0.0):
             super().direction(again=again)
             if again:
                 self.change = -1e3  # away from the root
@@ -341,6 +375,34 @@ def test_a_used_factorisation_that_does_not_serve_is_taken_back():
     assert report.converged
     assert report.steps == 5  # Newton's own count, from 1: 1.5, 1.417, 1.414216, …
     assert system.x == pytest.approx(np.sqrt(2.0), rel=1e-14)
+
+
+def test_kinks_are_rounded_after_a_short_step_until_a_full_one():
+    class Scripted(Scalar):
+        """Every second direction allows a step of 1/8 only; the norm then falls by a tenth."""
+
+        def __init__(self):
+            self.norm, self.widths = 1.0, []
+
+        def residual(self):
+            return self.norm
+
+        def direction(self, *, again=False, width=0.0):
+            assert not again
+            self.widths.append(width)
+            self.before = self.norm
+
+        def move(self, step):
+            largest = (
+                1.0 if len(self.widths) % 3 == 0 else 0.125 if len(self.widths) % 3 == 1 else 0.5
+            )
+            self.norm = 0.8 * self.before if step <= largest else 2.0 * self.before
+
+    system = Scripted()
+    newton(system, 1e-8, most=7)
+    # The steps are 1/8, 1/2 and 1, again and again.
+    assert [width > 0.0 for width in system.widths] == [False, True, True] * 2 + [False]
+    assert system.widths[1] == pytest.approx(1e-5 * np.sqrt(0.8 / 1e-8))
 
 
 def test_newton_ends_on_what_is_not_finite():

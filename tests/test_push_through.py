@@ -384,3 +384,12 @@ def test_only_a_wall_that_microbuckles_is_said_to():
     bare = push_through(case("ureter", 1.3, 1.1), "1 kPa", COARSE)
     assert not bare.microbuckled
     assert not any("buckle on a fine scale" in str(text) for text in bare.warnings())
+
+
+@pytest.mark.parametrize(("xi", "eta", "mu", "kilopascal"), [(1.231, 1.777, 0.673, 26.68)])
+def test_a_wall_in_which_many_fibres_begin_to_buckle_has_a_state(xi, eta, mu, kilopascal):
+    """Newton's method alternates between the two sides of the onset if its tangent has a kink."""
+    answer = sp.solve(case("ureter", eta, xi, mu), FAST)
+    assert answer.outcome is Outcome.MOVES
+    assert answer.pressure / 1e3 == pytest.approx(kilopascal, rel=1e-3)
+    assert "loaded_imbalance" not in [each.code for each in answer.warnings]

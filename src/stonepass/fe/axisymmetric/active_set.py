@@ -75,7 +75,7 @@ def solve_active_set(
         d = discretise(tube, Arc.at(stone), layout, resolution.order)
         interpolate_start(d, start)
         free = free_unknowns(d, INNER, friction=start.origin is not None)
-        system = FormSystem(_form(d, start, friction), d.state, free)
+        system = FormSystem(_form(d, start, friction), d.state, free, d.kink_width)
         tolerance = residual_tolerance(system, start.force)
         report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
         steps += report.steps

@@ -12,7 +12,14 @@ import numpy as np
 from stonepass.fe.axisymmetric.contact import Arc
 from stonepass.fe.axisymmetric.mesh import INNER, Layout, structured_mesh
 from stonepass.fe.axisymmetric.problem import Tube
-from stonepass.fe.axisymmetric.wall import PLACE, SYMBOLS, outside_work, strain, wall_energy
+from stonepass.fe.axisymmetric.wall import (
+    PLACE,
+    SYMBOLS,
+    outside_work,
+    rounded_symbols,
+    strain,
+    wall_energy,
+)
 from stonepass.fe.core.lobatto import lobatto_rule
 from stonepass.fe.core.systems import FormSystem
 
@@ -74,6 +81,9 @@ class Discretisation:
     stiffening : ngsolve.Parameter
         Shear modulus of the matrix that the homotopy of `newton_or_homotopy` adds, in units of the
         modulus; zero otherwise.
+    kink_width : ngsolve.Parameter
+        Width over which a tangent rounds kinks of the energy density (see `newton`); zero
+        otherwise.
     rule : ngsolve.IntegrationRule
         Gauss–Lobatto rule on the edges of the inner wall.
     order : int
@@ -87,6 +97,7 @@ class Discretisation:
     state: Any
     arc: Arc
     stiffening: Any
+    kink_width: Any
     rule: Any
     order: int
     whole: bool
@@ -151,9 +162,16 @@ def discretise(tube: Tube, arc: Arc, layout: Layout, order: int) -> Discretisati
             ng.H1(mesh, order=order, definedon=inner),
         ]
     )
-    state, stiffening = ng.GridFunction(space), ng.Parameter(0.0)
     return Discretisation(
-        tube, mesh, state, arc, stiffening, lobatto_rule(order), order, layout.whole
+        tube,
+        mesh,
+        ng.GridFunction(space),
+        arc,
+        ng.Parameter(0.0),
+        ng.Parameter(0.0),
+        lobatto_rule(order),
+        order,
+        layout.whole,
     )
 
 
@@ -174,7 +192,7 @@ def wall_form(d: Discretisation, *, condense: bool = True) -> Any:
     """
     tube, (u, w, p, *_) = d.tube, d.trial
     form = ng.BilinearForm(d.state.space, condense=condense)
-    energy = wall_energy(tube.energy, u, w, p, d.stiffening)
+    energy = wall_energy(tube.energy, u, w, p, d.stiffening, rounded_symbols(d.kink_width))
     form += ng.Variation(energy.Compile() * ng.dx(bonus_intorder=2))
     if tube.outside_pressure:
         work = outside_work(u, w, tube.outside_pressure, hydrostatic=tube.hydrostatic)

@@ -97,6 +97,7 @@ def solve_fitted_contact(
         scale=np.full(len(edges), (start.contact[1] - start.contact[0]) / 2.0),
         apply=move_edges,
         conditions=lambda: np.array([d.state.vec[index] for index in at_edges]),
+        kink_width=d.kink_width,
     )
     tolerance = residual_tolerance(system, start.force)
     report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)

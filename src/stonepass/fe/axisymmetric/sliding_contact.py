@@ -179,16 +179,42 @@ def _dry(
     friction: float,
     condition: Condition | None,
 ) -> tuple[Configuration, Report]:
-    """Apply pressure and friction; the condition is imposed only when both have been reached."""
+    """Apply friction and pressure, or friction and the condition, in one step or in several.
+
+    With a condition, every step solves for the pressure at which the condition is violated by a
+    part of what it is at the start. If the stone is seated without friction and without fluid
+    there, and the condition is that the axial force vanishes, every step is thus a critical state.
+    """
     begin = np.array([start.pressure, start.friction])
     way = np.array([pressure, friction]) - begin
+    dry, missed = replace(start, wetting=0.0), 0.0
+    trail = [dry]
+    if condition is not None:
+        load(workspace, dry)
+        missed = condition()
 
     def attempt(reached: Configuration, fraction: float) -> tuple[Configuration, Report]:
         at_pressure, at_friction = (float(value) for value in begin + fraction * way)
-        last = condition if fraction == 1.0 else None
-        return _newton(workspace, replace(reached, friction=at_friction), at_pressure, last)
+        if condition is None:
+            return _newton(workspace, replace(reached, friction=at_friction), at_pressure, None)
+        if reached is not trail[-1]:
+            trail.append(reached)
+        if len(trail) > 1:
+            at_pressure = _extrapolated(trail[-2], trail[-1], at_friction)
 
-    return _bisected(replace(start, wetting=0.0), attempt)
+        def partly() -> float:
+            return condition() - (1.0 - fraction) * missed
+
+        return _newton(workspace, replace(reached, friction=at_friction), at_pressure, partly)
+
+    return _bisected(dry, attempt)
+
+
+def _extrapolated(before: Configuration, now: Configuration, friction: float) -> float:
+    """Return the pressure at a friction coefficient on the straight line through two states."""
+    change = now.friction - before.friction
+    slope = 0.0 if change == 0.0 else (now.pressure - before.pressure) / change
+    return max(now.pressure + slope * (friction - now.friction), 0.0)
 
 
 def _wetted(
@@ -259,6 +285,7 @@ def _newton(
         scale=np.array([half, half, max(pressure, PRESSURE_SCALE)])[:unknown],
         apply=apply,
         conditions=conditions,
+        kink_width=d.kink_width,
     )
     tolerance = residual_tolerance(system, problem.force, 2.0 * TOLERANCE)
     report = newton(system, tolerance, most=MOST_STEPS, polish=POLISH)

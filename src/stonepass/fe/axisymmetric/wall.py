@@ -16,7 +16,16 @@ import ngsolve as ng
 from stonepass.fe.axisymmetric.problem import Energy
 from stonepass.strain import CauchyGreen, Place
 
-__all__ = ["PLACE", "SYMBOLS", "Strain", "cauchy_stress", "outside_work", "strain", "wall_energy"]
+__all__ = [
+    "PLACE",
+    "SYMBOLS",
+    "Strain",
+    "cauchy_stress",
+    "outside_work",
+    "rounded_symbols",
+    "strain",
+    "wall_energy",
+]
 
 # The array namespace `xp` with which a material law is evaluated on NGSolve coefficient functions.
 SYMBOLS = SimpleNamespace(
@@ -34,6 +43,31 @@ SYMBOLS = SimpleNamespace(
     minimum=lambda a, b: ng.IfPos(ng.CF(a) - ng.CF(b), ng.CF(b), ng.CF(a)),
     abs=lambda a: ng.IfPos(a, a, -1.0 * a),
 )
+
+
+def rounded_symbols(width: Any) -> SimpleNamespace:
+    """Return the namespace `SYMBOLS` with a larger and a smaller value that have no kink.
+
+    The larger of a and b is (a + b + √((a − b)² + width²))/2, which differs from it by half the
+    width at most, where a = b.
+
+    Parameters
+    ----------
+    width : ngsolve.Parameter
+        Width of the rounded kink; the kink is not rounded while it is zero.
+    """
+
+    def maximum(a: Any, b: Any) -> Any:
+        a, b = ng.CF(a), ng.CF(b)
+        away = a - b
+        rounded = 0.5 * (a + b + ng.sqrt(away * away + width * width))
+        return ng.IfPos(width, rounded, SYMBOLS.maximum(a, b))
+
+    def minimum(a: Any, b: Any) -> Any:
+        return -1.0 * maximum(-1.0 * ng.CF(a), -1.0 * ng.CF(b))
+
+    return SimpleNamespace(**vars(SYMBOLS) | {"maximum": maximum, "minimum": minimum})
+
 
 # Reference coordinates as NGSolve coefficient functions; the mesh coordinates are x = R and y = Z.
 PLACE = Place(ng.x, ng.y)
@@ -75,7 +109,9 @@ def strain(u: Any, w: Any) -> Strain:
     return Strain(F_rr=1.0 + du[0], F_rz=du[1], F_zr=dw[0], F_zz=1.0 + dw[1], F_tt=1.0 + u / ng.x)
 
 
-def wall_energy(energy: Energy, u: Any, w: Any, p: Any, stiffening: Any = 0.0) -> Any:
+def wall_energy(
+    energy: Energy, u: Any, w: Any, p: Any, stiffening: Any = 0.0, symbols: Any = SYMBOLS
+) -> Any:
     """Return the Lagrangian (U − p (J − 1)) R per reference area of the meridian section.
 
     The factor 2π is omitted. See Π in docs/theory.md, section "Seated state".
@@ -91,11 +127,13 @@ def wall_energy(energy: Energy, u: Any, w: Any, p: Any, stiffening: Any = 0.0) -
     stiffening : float or symbol
         Shear modulus of a neo-Hookean matrix that the homotopy adds, in units of the modulus; 0 for
         the wall itself.
+    symbols : namespace
+        Array namespace with which the energy is evaluated.
     """
     s = strain(u, w)
     C = s.C
     matrix = 0.5 * stiffening * (C.rr + C.tt + C.zz - 3.0)
-    return (energy(C, PLACE, SYMBOLS) + matrix - p * (s.J - 1.0)) * ng.x
+    return (energy(C, PLACE, symbols) + matrix - p * (s.J - 1.0)) * ng.x
 
 
 def outside_work(u: Any, w: Any, pressure: Any, *, hydrostatic: bool) -> Any:

@@ -22,6 +22,9 @@ LADDER = (0.05, 0.02, 0.01, 0.005, 0.0)
 # A factorisation is reused after a step that reduces the norm by the factor FAST, for as long as
 # each further step reduces the norm by the factor STEADY.
 FAST, STEADY = 0.1, 0.3
+# After a step shorter than SHORT, and until a full step, tangents round kinks of the energy: over
+# WIDTH times the square root of norm/tolerance, but at most over WIDEST.
+SHORT, WIDTH, WIDEST = 0.2, 1e-5, 0.1
 
 
 @dataclass(frozen=True)
@@ -59,10 +62,11 @@ class System(Protocol):
     def residual(self) -> float:
         """Return the norm of the residual at the current state."""
 
-    def direction(self, *, again: bool = False) -> None:
+    def direction(self, *, again: bool = False, width: float = 0.0) -> None:
         """Compute the Newton direction and store the current state as its origin.
 
-        If `again` is true, the last factorisation is reused instead of a new one.
+        If `again` is true, the last factorisation is reused instead of a new one. In a new tangent,
+        but not in the residual, kinks of the energy are rounded over `width`.
         """
 
     def move(self, step: float) -> None:
@@ -90,6 +94,13 @@ def newton(system: System, tolerance: float, most: int = 40, polish: float = 1.0
     `STEADY`. These further steps are not counted: each costs about a tenth of a step with a new
     factorisation.
 
+    The slope of the residual may jump where the energy of a wall has a kink, for example where
+    fibres begin to buckle. Newton steps then lead from one side of many kinks to the other and
+    back, and only short steps reduce the norm. After such a step, and until a full step succeeds,
+    the tangent, but not the residual, is that of an energy with rounded kinks (Jacobian smoothing;
+    X. Chen, L. Qi and D. Sun, Mathematics of Computation 67, 519–540, 1998). The solution does not
+    depend on the rounding.
+
     Parameters
     ----------
     system : System
@@ -108,17 +119,20 @@ def newton(system: System, tolerance: float, most: int = 40, polish: float = 1.0
         The iteration has not converged if the tangent is singular, if the residual is not finite
         even after the smallest step, or if `most` steps were not enough.
     """
-    norm = system.residual()
+    norm, rounded = system.residual(), False
     for count in range(most):
         if norm <= tolerance:
             if count > 0:
                 norm = _same_tangent(system, norm, polish * tolerance)
             return Report(count, norm, "")
+        width = min(WIDTH * math.sqrt(norm / tolerance), WIDEST) if rounded else 0.0
         try:
-            system.direction()
+            system.direction(width=width)
         except SingularTangent:
             return Report(count, norm, "the tangent matrix is singular")
-        norm, last = _line_search(system, norm), norm
+        last = norm
+        norm, step = _line_search(system, norm)
+        rounded = step < SHORT or (rounded and step < 1.0)
         if not math.isfinite(norm):
             return Report(count + 1, last, "an iterate had no finite residual")
         if norm <= FAST * last:
@@ -172,16 +186,16 @@ def newton_or_homotopy(
     return Report(steps, last.residual, last.reason)
 
 
-def _line_search(system: System, start: float) -> float:
-    """Halve the step until the norm is sufficiently below `start`; return the new norm."""
+def _line_search(system: System, start: float) -> tuple[float, float]:
+    """Halve the step until the norm is sufficiently below `start`; return new norm and step."""
     step = 1.0
     while True:
         system.move(step)
         norm = system.residual()
         if norm <= start * (1.0 - SUFFICIENT_DECREASE * step):  # false if the norm is NaN
-            return norm
+            return norm, step
         if step <= SMALLEST_STEP:
-            return norm
+            return norm, step
         step = max(step / 2.0, SMALLEST_STEP)
 
 

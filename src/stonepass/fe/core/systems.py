@@ -32,10 +32,12 @@ class FormSystem:
         The current state.
     free : ngsolve.BitArray
         Mask of the unknowns that are solved for; the others keep their values.
+    kink_width : ngsolve.Parameter, optional
+        Width over which the form rounds kinks of its energy; zero outside of `factorise`.
     """
 
-    def __init__(self, form: Any, state: Any, free: Any) -> None:
-        self.form, self.state, self.free = form, state, free
+    def __init__(self, form: Any, state: Any, free: Any, kink_width: Any = None) -> None:
+        self.form, self.state, self.free, self._kink_width = form, state, free, kink_width
         self._keep = ng.Projector(free, True)
         self._inverse: Any = None
         self._coupling = free & state.space.FreeDofs(True)
@@ -70,13 +72,13 @@ class FormSystem:
         self.recall(kept)
         return float(ng.Norm(self._change)) * np.finfo(float).eps / ROUNDED
 
-    def direction(self, *, again: bool = False) -> None:
+    def direction(self, *, again: bool = False, width: float = 0.0) -> None:
         """Compute the Newton direction; with `again`, reuse the last factorisation."""
         self._origin.data = self.state.vec
         if not self._known:
             self.evaluate(self._force)
         if not again:
-            self.factorise()
+            self.factorise(width)
         self.solve(self._force, self._change)
         self._known = False
 
@@ -98,10 +100,15 @@ class FormSystem:
         self._known = False
         self.state.vec.data = kept
 
-    def factorise(self) -> None:
+    def factorise(self, width: float = 0.0) -> None:
         """Assemble the tangent at the current state and factorise its condensed part.
 
         The sparsity pattern never changes, so it is analysed only once.
+
+        Parameters
+        ----------
+        width : float
+            Width over which kinks of the energy are rounded in the tangent, zero or positive.
 
         Raises
         ------
@@ -109,13 +116,23 @@ class FormSystem:
             The factorisation failed.
         """
         try:
-            self.form.AssembleLinearization(self.state.vec)
+            self._linearise(width)
             if self._inverse is None:
                 self._inverse = self.form.mat.Inverse(self._coupling, inverse="umfpack")
             else:
                 self._inverse.Update()
         except Exception as problem:  # NGSolve's exception types have no public names
             raise SingularTangent from problem
+
+    def _linearise(self, width: float) -> None:
+        if width == 0.0 or self._kink_width is None:
+            self.form.AssembleLinearization(self.state.vec)
+            return
+        self._kink_width.Set(width)
+        try:
+            self.form.AssembleLinearization(self.state.vec)
+        finally:
+            self._kink_width.Set(0.0)
 
     def solve(self, rhs: Any, into: Any) -> None:
         """Solve tangent × `into` = `rhs`, including the condensed unknowns; overwrite `rhs`."""
@@ -147,6 +164,8 @@ class BorderedSystem(FormSystem):
     conditions : callable
         ``conditions()`` returns the left-hand sides of the scalar equations at the current state,
         as an array (scalars,); they vanish at the solution.
+    kink_width
+        See `FormSystem`.
     """
 
     def __init__(
@@ -159,8 +178,9 @@ class BorderedSystem(FormSystem):
         scale: Float[np.ndarray, " scalars"],
         apply: Callable[[Float[np.ndarray, " scalars"]], bool],
         conditions: Callable[[], Float[np.ndarray, " scalars"]],
+        kink_width: Any = None,
     ) -> None:
-        super().__init__(form, state, free)
+        super().__init__(form, state, free, kink_width)
         self.values, self._scale, self._apply, self._conditions = values, scale, apply, conditions
         self._columns = [state.vec.CreateVector() for _ in values]
         self._shifted = state.vec.CreateVector()
@@ -184,14 +204,14 @@ class BorderedSystem(FormSystem):
         # `math.hypot` does not overflow, so the line search also rejects a step to huge numbers.
         return math.hypot(super().residual(), *self._missed.tolist())
 
-    def direction(self, *, again: bool = False) -> None:
+    def direction(self, *, again: bool = False, width: float = 0.0) -> None:
         """Compute the Newton direction of the bordered system by block elimination."""
         self._origin_values = self.values
         if not again:
             if not self._known:
                 self.residual()
             partial = self._by_values()
-        super().direction(again=again)
+        super().direction(again=again, width=width)
         missed = self._missed - self._along(self._change)
         if not again:
             for column in self._columns:
@@ -242,6 +262,8 @@ class BorderedSystem(FormSystem):
         length = float(ng.Norm(way))
         if length == 0.0:
             return np.zeros_like(self._missed)
+        if not math.isfinite(length):
+            return np.full_like(self._missed, np.nan)
         increment = DIFFERENCE * max(float(ng.Norm(self._origin)), 1.0) / length
         self.state.vec.data = self._origin + increment * way
         slope = (self._conditions() - self._missed) / increment

@@ -144,9 +144,28 @@ def _solve(
 ) -> SlidingState | Failure:
     """Solve the dry contact and then, if the problem is wetted, the wetted contact.
 
-    If there is a `condition`, the pressure is an unknown and `pressure` is its first guess.
+    If there is a `condition`, the pressure is an unknown and `pressure` is its first guess. If the
+    first route to the state fails, or ends at a state that is not admissible, a second one is
+    tried, which may end at another state.
     """
-    found, report = _dry(workspace, start, pressure, friction, condition)
+    dry = replace(start, wetting=0.0)
+    if condition is None:
+        return _finished(workspace, _loaded(workspace, dry, pressure, friction), None)
+    found = _finished(workspace, _imposed(workspace, dry, pressure, friction, condition), condition)
+    if isinstance(found, SlidingState) or (dry.pressure, dry.friction) == (pressure, friction):
+        return found
+    other = _finished(
+        workspace, _loaded(workspace, dry, pressure, friction, condition, step=0.5), condition
+    )
+    steps = found.steps + other.steps
+    return replace(other if isinstance(other, SlidingState) else found, steps=steps)
+
+
+def _finished(
+    workspace: Workspace, reached: tuple[Configuration, Report], condition: Condition | None
+) -> SlidingState | Failure:
+    """Apply the wetting, check the state, and evaluate it."""
+    found, report = reached
     steps = report.steps
     if report.converged and workspace.problem.wetted:
         found, report = _wetted(workspace, found, condition)
@@ -172,40 +191,54 @@ def _solve(
     )
 
 
-def _dry(
+def _loaded(
     workspace: Workspace,
-    start: Configuration,
+    dry: Configuration,
     pressure: float,
     friction: float,
-    condition: Condition | None,
+    condition: Condition | None = None,
+    step: float = 1.0,
 ) -> tuple[Configuration, Report]:
-    """Apply friction and pressure, or friction and the condition, in one step or in several.
+    """Apply pressure and friction; a condition is imposed only when both have been reached.
 
-    With a condition, every step solves for the pressure at which the condition is violated by a
-    part of what it is at the start. If the stone is seated without friction and without fluid
-    there, and the condition is that the axial force vanishes, every step is thus a critical state.
+    `step` is the first part of the load that is tried.
     """
-    begin = np.array([start.pressure, start.friction])
+    begin = np.array([dry.pressure, dry.friction])
     way = np.array([pressure, friction]) - begin
-    dry, missed = replace(start, wetting=0.0), 0.0
-    trail = [dry]
-    if condition is not None:
-        load(workspace, dry)
-        missed = condition()
 
     def attempt(reached: Configuration, fraction: float) -> tuple[Configuration, Report]:
         at_pressure, at_friction = (float(value) for value in begin + fraction * way)
-        if condition is None:
-            return _newton(workspace, replace(reached, friction=at_friction), at_pressure, None)
+        last = condition if fraction == 1.0 else None
+        return _newton(workspace, replace(reached, friction=at_friction), at_pressure, last)
+
+    return _bisected(dry, attempt, step)
+
+
+def _imposed(
+    workspace: Workspace, dry: Configuration, guess: float, friction: float, condition: Condition
+) -> tuple[Configuration, Report]:
+    """Apply friction and impose the condition, in one step or in several.
+
+    Every step solves for the pressure at which the condition is violated by a part of what it is at
+    the start. If the stone is seated without friction and without fluid there, and the condition is
+    that the axial force vanishes, every step is thus a critical state.
+    """
+    load(workspace, dry)
+    missed, trail = condition(), [dry]
+
+    def attempt(reached: Configuration, fraction: float) -> tuple[Configuration, Report]:
+        at_friction = dry.friction + fraction * (friction - dry.friction)
         if reached is not trail[-1]:
             trail.append(reached)
         if len(trail) > 1:
-            at_pressure = _extrapolated(trail[-2], trail[-1], at_friction)
+            pressure = _extrapolated(trail[-2], trail[-1], at_friction)
+        else:
+            pressure = dry.pressure + fraction * (guess - dry.pressure)
 
         def partly() -> float:
             return condition() - (1.0 - fraction) * missed
 
-        return _newton(workspace, replace(reached, friction=at_friction), at_pressure, partly)
+        return _newton(workspace, replace(reached, friction=at_friction), pressure, partly)
 
     return _bisected(dry, attempt)
 
@@ -233,14 +266,16 @@ def _wetted(
 
 
 def _bisected(
-    start: Configuration, attempt: Callable[[Configuration, float], tuple[Configuration, Report]]
+    start: Configuration,
+    attempt: Callable[[Configuration, float], tuple[Configuration, Report]],
+    step: float = 1.0,
 ) -> tuple[Configuration, Report]:
     """Apply a load in one step; if a step fails, bisect it, down to 1/8 of the load.
 
     ``attempt(reached, fraction)`` solves for a fraction of the load, starting from the
-    configuration that has been reached, which it does not change.
+    configuration that has been reached, which it does not change. `step` is the first fraction.
     """
-    reached, fraction, step, steps = start, 0.0, 1.0, 0
+    reached, fraction, steps = start, 0.0, 0
     while True:
         ahead = min(fraction + step, 1.0)
         found, report = attempt(reached, ahead)

@@ -1,7 +1,6 @@
 """Surrogates of the direct model: functions of the pressure, their balance, exact results."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,9 +8,9 @@ from scipy.stats import qmc
 
 import stonepass as sp
 from stonepass.cli import run
-from stonepass.errors import BadInput, Outcome
+from stonepass.errors import Outcome
 from stonepass.model.energy_balance import advance_force, opened_radius
-from stonepass.studies.conditions import Conditions, case_at
+from stonepass.studies.conditions import Conditions, case_at, lumen_ratios
 from stonepass.studies.surrogates.box import Box, opening_pressure
 from stonepass.studies.surrogates.build import build_surrogate
 from stonepass.studies.surrogates.check import check_surrogate
@@ -23,41 +22,46 @@ from stonepass.studies.surrogates.solved import MOVES, NO_SOLUTION
 from stonepass.studies.surrogates.store import load_surrogate, save_surrogate
 
 
-def case_of(material="latex"):
+def case_of(material="latex", load="0 kPa"):
     return sp.Case(
         sp.Stone(size_ratio=1.2, friction=0.3),
         sp.Ureter(wall_ratio=1.4, material=material),
+        sp.Load(load),
         model=sp.PushThrough(),
         numerics=sp.Numerics("fast"),
     )
 
 
-def setting(case, size, wall, friction):
-    count = len(size)
-    asked = Conditions(*(np.array(each, dtype=float) for each in (size, wall, friction)),
-                       np.zeros(count))  # fmt: skip
-    return Box().setting(case, asked, np.ones(count), 1.0)
+def setting(case, size, wall, friction, factor=0.0):
+    given = [np.array(each, dtype=float) for each in (size, wall, friction)]
+    asked = Conditions(*given, np.full(len(size), factor))
+    lumen = lumen_ratios(case, asked.wall_ratio, asked.load_factor)
+    return Box().setting(case, asked, lumen, 0.9)
 
 
 def test_coefficients_in_the_pressure_are_those_of_the_correction():
-    """base + p × correction, whether p is set last or first."""
+    """base + p × correction, whether p is set last or first, with and without a load."""
     rng = np.random.default_rng(1)
-    base = SparsePolynomial(np.array([[0, 0, 0, 0], [1, 0, 0, 0], [0, 2, 0, 0]]),
+    base = SparsePolynomial(np.array([[0, 0, 0, 0], [1, 0, 0, 1], [0, 2, 0, 0]]),
                             rng.normal(0.0, 0.1, (3, 4)))  # fmt: skip
-    correction = SparsePolynomial(
-        np.array([[0, 0, 0], [1, 0, 2], [1, 0, 0], [0, 1, 1], [2, 1, 3]]), rng.normal(size=(5, 3))
-    )
+    terms = [[0, 0, 0, 0], [1, 0, 2, 0], [1, 0, 0, 2], [0, 1, 1, 1], [2, 1, 3, 0]]
+    correction = SparsePolynomial(np.array(terms), rng.normal(size=(5, 3)))
+    functions = HeldFunctions(base, correction)
     u = qmc.Sobol(3, seed=2).random(8)
-    at = setting(case_of(), 1.0 + 0.6 * u[:, 0], 1.2 + u[:, 1], np.full(8, 0.3))
-    coefficients = HeldFunctions(base, correction)(at).reshape(8, 3, -1)
     p = HIGHEST * u[:, 2]
-    without = base(at.unit)
-    points = np.stack([half_width(at, without), at.unit[:, 1], p / HIGHEST], axis=1)
-    expected = without[:, 1:] + p[:, None] * correction(points)
-    cosines = np.cos(np.arange(coefficients.shape[2] - 1) * np.arccos(2 * u[:, 2:] - 1))
-    found = coefficients[:, :, 0] + p[:, None] * np.einsum("nfk,nk->nf", coefficients[:, :, 1:],
-                                                           cosines)  # fmt: skip
-    assert np.allclose(found, expected, atol=1e-12)
+    cosines = np.cos(np.arange(4) * np.arccos(2 * u[:, 2:] - 1))
+    for factor, learnt in ((0.0, functions), (0.0, functions.without_load()), (0.7, functions)):
+        case = case_of(load="3 kPa")
+        at = setting(case, 1.0 + 0.6 * u[:, 0], 1.2 + u[:, 1], np.full(8, 0.3), factor)
+        assert np.all(at.unit[:, 3] > 0.0) == (factor > 0.0)
+        coefficients = learnt(at).reshape(8, 3, -1)
+        without = base(at.unit)
+        points = np.stack(
+            [half_width(at, without), at.unit[:, 1], p / HIGHEST, at.unit[:, 3]], axis=1
+        )
+        expected = without[:, 1:] + p[:, None] * correction(points)
+        changes = np.einsum("nfk,nk->nf", coefficients[:, :, 1:], cosines)
+        assert np.allclose(coefficients[:, :, 0] + p[:, None] * changes, expected, atol=1e-12)
 
 
 def test_the_balance_is_solved_or_has_a_bound():
@@ -80,12 +84,14 @@ def test_the_balance_is_solved_or_has_a_bound():
     assert found.quantities["leak_pressure"][2] == pytest.approx(np.e * opening[2])
 
 
-@pytest.mark.parametrize("material", ["latex", "ureter"])
-def test_exact_values_give_the_answer_of_the_model(shared_solutions, material):
+@pytest.mark.parametrize(
+    ("material", "load"), [("latex", "0 kPa"), ("ureter", "0 kPa"), ("latex", "6 kPa")]
+)
+def test_exact_values_give_the_answer_of_the_model(shared_solutions, material, load):
     """Radius and dissipation follow from P_ucr as in the energy balance of the model."""
-    case = case_of(material)
+    case = case_of(material, load)
     answer = sp.critical_pressure(case)
-    at = setting(case, [1.2], [1.4], [0.3])
+    at = setting(case, [1.2], [1.4], [0.3], 1.0)
     physics = HeldStone()
     p, *values = physics.learnt(case, at, [answer])[0]
     row = np.array([[each for value in values for each in (value, 0.0)]])
@@ -153,18 +159,14 @@ def test_files_and_rows_hold_everything(shipped, tmp_path, capsys):
     assert {"leak_pressure_Pa", "friction_work_Pa", "opened_radius"} <= set(frame.columns)
 
 
-def test_a_load_is_refused():
-    with pytest.raises(BadInput, match="confining pressure"):
-        build_surrogate(replace(case_of(), load=sp.Load("1 kPa")))
-
-
 @pytest.mark.slow
-def test_a_surrogate_of_your_own_is_built_and_checked():
+@pytest.mark.parametrize(("load", "effort"), [("0 kPa", 0.15), ("4 kPa", 0.08)])
+def test_a_surrogate_of_your_own_is_built_and_checked(load, effort):
     box = Box(size_ratio=1.3, wall_ratio=(1.4, 2.0), friction=(0.1, 0.6))
-    built = build_surrogate(case_of(), box, sp.JobSolver(), effort=0.15)
+    built = build_surrogate(case_of(load=load), box, sp.JobSolver(), effort)
     found = check_surrogate(built, sp.JobSolver(), 24)
     assert found.cases == found.same_outcome == 24
     assert found.largest < 0.01
-    at = Conditions(np.array([1.2]), np.array([1.6]), np.array([0.4]), np.zeros(1))
+    at = Conditions(np.array([1.2]), np.array([1.6]), np.array([0.4]), np.array([0.5]))
     answer = sp.critical_pressure(case_at(built.case, at, 0))
     assert built.solve(at).pressure[0] == pytest.approx(answer.pressure, rel=0.005)

@@ -21,7 +21,7 @@ from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.units import Pressure
 
-__all__ = ["Conditions", "case_at", "joined", "lumen_ratios", "transmural"]
+__all__ = ["Conditions", "case_at", "joined", "lumen_ratios", "transmural", "urine_pressures"]
 
 
 @array_dataclass
@@ -106,6 +106,43 @@ def transmural(
     return np.asarray(inflation(inner_ratio, wall_ratio, law, case.load.prestretch))
 
 
+def urine_pressures(
+    case: Case,
+    inner_ratio: Float[np.ndarray, " n"],
+    wall_ratio: Float[np.ndarray, " n"],
+    load_factor: Float[np.ndarray, " n"],
+) -> Float[np.ndarray, " n"]:
+    """Compute the urine pressure that holds many tubes at an inner radius.
+
+    The ground matrix of the law is included.
+
+    Parameters
+    ----------
+    case : Case
+        Its material and load are used.
+    inner_ratio : array (n)
+        Inner radius ratio r_a/R_a.
+    wall_ratio : array (n)
+        Wall ratio η.
+    load_factor : array (n)
+        Factor on the confining pressure of the case.
+
+    Returns
+    -------
+    array (n)
+        Urine pressure in Pa.
+
+    References
+    ----------
+    Liu et al. 2022, Eq. 12; docs/theory.md, "Far field".
+    """
+    law, load = case.ureter.material.law, case.load
+    across = np.asarray(inflation(inner_ratio, wall_ratio, law, load.prestretch))
+    if load.confining_pressure == 0.0:
+        return across
+    return across + load_factor * np.asarray(confining_traction(inner_ratio, wall_ratio, load))
+
+
 def lumen_ratios(
     case: Case, wall_ratio: Float[np.ndarray, " n"], load_factor: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, " n"]:
@@ -129,13 +166,12 @@ def lumen_ratios(
     ----------
     docs/theory.md, "Far field".
     """
-    load, law = case.load, case.ureter.material.law
+    load = case.load
     if load.confining_pressure == 0.0 and load.prestretch == 1.0:
         return np.ones(len(wall_ratio))
 
     def urine(ratio: np.ndarray, eta: np.ndarray, factor: np.ndarray) -> np.ndarray:
-        across = inflation(ratio, eta, law, load.prestretch)
-        return np.asarray(across + factor * confining_traction(ratio, eta, load))
+        return urine_pressures(case, ratio, eta, factor)
 
     widest = 1.2 / np.sqrt(load.prestretch)
     ends = (np.full(len(wall_ratio), SMALLEST_LUMEN), np.full(len(wall_ratio), widest))

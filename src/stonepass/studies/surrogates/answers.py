@@ -89,6 +89,11 @@ class SurrogateAnswers:
 
         Pressures are in kPa and angles in degrees; units are part of the keys.
         """
+        columns = self._columns()
+        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+    def _columns(self) -> dict[str, Any]:
+        """Return the columns of `to_rows` as lists."""
         columns: dict[str, Any] = {}
         for name, values in self.inputs.items():
             pressure = name.endswith("pressure")
@@ -103,7 +108,7 @@ class SurrogateAnswers:
         for name, values in self.quantities.items():
             unit, factor = _SHOWN[UNITS[name]]
             columns[name + unit] = _plain(values, factor)
-        return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+        return columns
 
     def save(self, path: str | Path) -> None:
         """Write `to_rows` as CSV; an existing file is replaced.
@@ -119,9 +124,8 @@ class SurrogateAnswers:
             The file has another ending or cannot be written.
         """
         require(Path(path).suffix == ".csv", "file", path, "a file with the ending .csv")
-        rows = self.to_rows()
-        header = list(rows[0]) if rows else ["outcome"]
-        write_csv(Path(path), header, ([row[name] for name in header] for row in rows))
+        columns = self._columns()
+        write_csv(Path(path), columns, zip(*columns.values(), strict=True))
 
     def to_frame(self) -> Any:
         """Return a pandas table with one row per condition; units are in the column names."""

@@ -16,10 +16,9 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
 from stonepass.errors import require
 from stonepass.model.case import Case
-from stonepass.model.far_field import confining_traction, inflation
 from stonepass.model.stone import FRICTION, SIZE_RATIO
 from stonepass.model.ureter import WALL_RATIO
-from stonepass.studies.conditions import Conditions, joined, lumen_ratios
+from stonepass.studies.conditions import Conditions, joined, lumen_ratios, urine_pressures
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
 from stonepass.studies.surrogates.stable_loads import StableLoads
 
@@ -230,10 +229,7 @@ def opening_pressure(case: Case, at: Setting) -> Float[np.ndarray, " n"]:
     at : Setting
     """
     asked = at.conditions
-    law, load = case.ureter.material.law, case.load
-    across = np.asarray(inflation(asked.size_ratio, asked.wall_ratio, law, load.prestretch))
-    outside = confining_traction(asked.size_ratio, asked.wall_ratio, load)
-    return across + asked.load_factor * np.asarray(outside)
+    return urine_pressures(case, asked.size_ratio, asked.wall_ratio, asked.load_factor)
 
 
 def fit_lumen(case: Case, box: Box) -> SparsePolynomial:

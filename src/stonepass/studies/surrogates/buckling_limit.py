@@ -14,12 +14,15 @@ from stonepass.units import format_pressure
 
 __all__ = ["MARGIN", "stable_loads"]
 
-MARGIN = 0.6  # largest load of a surrogate, as a fraction of the load at which the tube buckles
+# Largest load of a surrogate, as a fraction of the load at which the tube buckles.
+MARGIN = 0.6
 WALLS = 49  # number of wall ratios at which the largest load is computed
 STEPS = 12  # number of bisections for each of them
 
 
-def stable_loads(case: Case, wall_ratio: tuple[float, float]) -> StableLoads:
+def stable_loads(
+    case: Case, wall_ratio: tuple[float, float], margin: float = MARGIN
+) -> StableLoads:
     """Compute the largest loads that a surrogate covers.
 
     Parameters
@@ -28,6 +31,8 @@ def stable_loads(case: Case, wall_ratio: tuple[float, float]) -> StableLoads:
         Its material, load and length of the tube are used.
     wall_ratio : (float, float)
         Smallest and largest wall ratio η.
+    margin : float
+        Largest load as a fraction of the load at which the tube buckles, above 0, at most 1.
 
     Raises
     ------
@@ -43,13 +48,13 @@ def stable_loads(case: Case, wall_ratio: tuple[float, float]) -> StableLoads:
     require(bool(np.isfinite(whole).all()), "confining pressure",
             format_pressure(case.load.confining_pressure),
             "so small that the thinnest wall of the box keeps a lumen")  # fmt: skip
-    factors = np.array([_largest_factor(case, eta) for eta in walls.tolist()])
+    factors = np.array([_largest_factor(case, eta, margin) for eta in walls.tolist()])
     return StableLoads(walls, factors, float(lumen_ratios(case, walls, factors).min()))
 
 
-def _largest_factor(case: Case, wall_ratio: float) -> float:
+def _largest_factor(case: Case, wall_ratio: float, margin: float) -> float:
     """Return the largest load factor with the margin to buckling, found by bisection."""
-    low, high = 0.0, min(1.0 / MARGIN, CONFINING[1] / case.load.confining_pressure)
+    low, high = 0.0, min(1.0 / margin, CONFINING[1] / case.load.confining_pressure)
     if _stable(case, wall_ratio, high):
         return 1.0
     for _ in range(STEPS):
@@ -58,7 +63,7 @@ def _largest_factor(case: Case, wall_ratio: float) -> float:
             low = middle
         else:
             high = middle
-    return MARGIN * low
+    return margin * low
 
 
 def _stable(case: Case, wall_ratio: float, factor: float) -> bool:

@@ -13,6 +13,7 @@ from stonepass.array_types import Bool, Float
 from stonepass.errors import BadInput
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
+from stonepass.model.load import Load
 from stonepass.model.models.push_through import PushThrough
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.studies.case_solver import CaseSolver, JobSolver
@@ -31,7 +32,7 @@ from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain
-from stonepass.studies.surrogates.regression import fit_known, joined
+from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.surrogate import Surrogate
 
@@ -82,7 +83,6 @@ def build_surrogate(
         left_out.append((level, values, left))
     assert learnt is not None
     error = _claimed(case, physics, left_out)
-    loaded = case.load.confining_pressure > 0.0
     return Surrogate(
         case,
         box,
@@ -91,7 +91,7 @@ def build_surrogate(
         error,
         FLOOR,
         domain.stable,
-        fit_lumen(case, box) if loaded else None,
+        fit_lumen(case, box) if case.load != Load() else None,
         origin(case, [(each.level.case, each.answers) for each, _, _ in left_out]),
     )
 
@@ -178,7 +178,7 @@ def _corrected(
     points = level.at.unit if before is None else before.by_width(level.at)
     factor = None if before is None else level.at.conditions.friction
     degrees, total = level.level.degrees, level.level.total
-    fits = [fit_known(points, each, degrees, total, factor) for each in rest.T]
+    fits = [fit_polynomial(points, each, degrees, total, factor) for each in rest.T]
     added = joined([each.polynomial for each in fits])
     learnt = LearntFunctions(added) if before is None else before.corrected(added)
     return learnt, np.stack([each.left_out for each in fits], axis=1)

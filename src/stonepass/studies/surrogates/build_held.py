@@ -10,38 +10,62 @@ import numpy as np
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import BadInput
+from stonepass.materials.relaxed_energy import Microbuckling
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.load import Load
 from stonepass.model.numerics import Numerics
 from stonepass.studies.case_solver import CaseSolver
 from stonepass.studies.conditions import Conditions, case_at
-from stonepass.studies.surrogates.box import Box, Setting
-from stonepass.studies.surrogates.buckling_limit import stable_loads
+from stonepass.studies.surrogates.box import Box, Setting, fit_lumen
+from stonepass.studies.surrogates.buckling_limit import MARGIN, stable_loads
 from stonepass.studies.surrogates.claimed_error import FLOOR, claimed_error
 from stonepass.studies.surrogates.domain import Domain
-from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions
+from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions, in_contact
 from stonepass.studies.surrogates.held_stone import HeldStone
-from stonepass.studies.surrogates.learnt import half_width
 from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
-from stonepass.studies.surrogates.regression import FEWEST, fit_known, joined
+from stonepass.studies.surrogates.regression import FEWEST, fit_polynomial, joined
 from stonepass.studies.surrogates.solved import MOVES
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_held_stone"]
 
+# Largest load as a fraction of the load at which the tube buckles, if the fibres of the wall
+# microbuckle. Above it thin walls have several states, whose pressures differ by up to 1 %.
+WRINKLED = 0.4
 NEARLY_NONE = 1e-4  # friction coefficient of the cases that stand for no friction
-FREE, GENTLE, PUSHED = 384, 96, 448  # number of cases of the three levels
 GENTLER = 0.3  # factor on the friction of the second level
-# Numbers of cases of the levels whose leak pressure is computed too; that takes several times as
-# long.
-FREE_LEAKS, GENTLE_LEAKS, PUSHED_LEAKS = 160, 32, 128
-BASE, BASE_TOTAL = (20, 16, 0, 0), 20  # degrees of the functions without friction
-CHANGE, CHANGE_TOTAL = (8, 8, 8), 8  # degrees of what the pressure changes
 MOST_LOST = 0.05  # largest fraction of cases without an answer
 
 Values = Float[np.ndarray, "n functions"]
+
+
+@dataclass(frozen=True)
+class _Sizes:
+    """Numbers of cases of the three levels, and the degrees of the polynomials.
+
+    Attributes
+    ----------
+    free, gentle, pushed : (int, int)
+        Number of cases of a level, and number of those whose leak pressure is computed too; that
+        takes several times as long.
+    base : tuple of 4 int
+        Largest degrees of the functions without friction in the coordinates of the box.
+    change : tuple of 4 int
+        Largest degrees of what the pressure changes, see `in_contact`.
+    """
+
+    free: tuple[int, int]
+    gentle: tuple[int, int]
+    pushed: tuple[int, int]
+    base: tuple[int, int, int, int]
+    change: tuple[int, int, int, int]
+
+
+UNLOADED = _Sizes((384, 160), (96, 32), (448, 128), (20, 16, 0, 0), (8, 8, 8, 0))
+LOADED = _Sizes((2048, 256), (160, 48), (1024, 160), (20, 16, 0, 8), (8, 8, 8, 5))
+BASE_TOTAL, CHANGE_TOTAL = 20, 8  # largest total degrees of both
 
 
 @array_dataclass
@@ -64,16 +88,18 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     Raises
     ------
     BadInput
-        The case has a load, or too many cases have no answer.
+        Too many cases have no answer.
 
     References
     ----------
     docs/surrogates.md, "The direct model".
     """
-    if case.load != Load():
-        raise BadInput("confining pressure", "given", "0 for a surrogate of the direct model")
+    loaded = case.load.confining_pressure > 0.0
+    sizes = LOADED if loaded else UNLOADED
     quick = replace(case, numerics=Numerics("fast", case.numerics.half_length))
-    domain, physics = Domain(box, stable_loads(case, box.wall_ratio)), HeldStone()
+    wrinkles = isinstance(case.ureter.material.law, Microbuckling)
+    stable = stable_loads(case, box.wall_ratio, WRINKLED if wrinkles else MARGIN)
+    domain, physics = Domain(box, stable), HeldStone()
 
     def count(number: int) -> int:
         return max(FEWEST, round(effort * number))
@@ -85,49 +111,52 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
         at = domain.setting(quick, asked)
         return _Cases(at, answers, physics.learnt(quick, at, answers))
 
-    asked = domain.training(quick, count(FREE))
+    asked = domain.training(quick, count(sizes.free[0]))
     nearly = np.full(len(asked.friction), NEARLY_NONE)
-    free = solved(replace(asked, friction=nearly), count(FREE_LEAKS))
-    base = _base(free)
+    free = solved(replace(asked, friction=nearly), count(sizes.free[1]))
+    base = _base(free, sizes)
 
-    gentle = count(GENTLE)
-    asked = domain.training(quick, gentle + count(PUSHED))
+    gentle = count(sizes.gentle[0])
+    asked = domain.training(quick, gentle + count(sizes.pushed[0]))
     first = np.arange(len(asked.friction)) < gentle
     little = asked.where(first)
-    second = solved(replace(little, friction=GENTLER * little.friction), count(GENTLE_LEAKS))
-    functions, _ = _with_changes(base, second)
+    second = solved(replace(little, friction=GENTLER * little.friction), count(sizes.gentle[1]))
+    functions, _ = _with_changes(base, second, sizes)
 
     rest = asked.where(~first)
     at = domain.setting(quick, rest)
     below = physics.solve(quick, at, functions(at)).outcome == MOVES
-    third = solved(rest.where(below), count(PUSHED_LEAKS))
+    third = solved(rest.where(below), count(sizes.pushed[1]))
     _refuse_lost([*free.answers, *second.answers, *third.answers])
     both = _Cases(second.at.joined(third.at), [*second.answers, *third.answers],
                    np.concatenate([second.values, third.values]))  # fmt: skip
-    learnt, left_out = _with_changes(base, both)
+    learnt, left_out = _with_changes(base, both, sizes)
     error = _claimed(quick, physics, learnt, both, left_out)
     about = origin(case, [(quick, each.answers) for each in (free, second, third)])
-    return Surrogate(case, box, physics, learnt, error, FLOOR, domain.stable, None, about)
+    lumen = fit_lumen(case, box) if case.load != Load() else None
+    return Surrogate(case, box, physics, learnt, error, FLOOR, domain.stable, lumen, about)
 
 
-def _base(free: _Cases) -> SparsePolynomial:
+def _base(free: _Cases, sizes: _Sizes) -> SparsePolynomial:
     """Fit ln((π/2 − α)/root) and the functions of p without friction."""
     _, *functions = free.values.T
     widths = np.log(functions[1])
     return joined([
-        fit_known(free.at.unit, each, BASE, BASE_TOTAL).polynomial
+        fit_polynomial(free.at.unit, each, sizes.base, BASE_TOTAL).polynomial
         for each in (widths, *functions)
     ])  # fmt: skip
 
 
-def _with_changes(base: SparsePolynomial, solved: _Cases) -> tuple[HeldFunctions, Values]:
+def _with_changes(
+    base: SparsePolynomial, solved: _Cases, sizes: _Sizes
+) -> tuple[HeldFunctions, Values]:
     """Fit what the pressure changes in all functions; return leave-one-out errors too."""
     at, p = solved.at, solved.values[:, 0]
     without = base(at.unit)
-    points = np.stack([half_width(at, without), at.unit[:, 1], p / HIGHEST], axis=1)
+    points = in_contact(at, without, p)
     rest = solved.values[:, 1:] - without[:, 1:]
     rest[~(p <= HIGHEST)] = np.nan  # beyond the largest pressure of a surrogate, or unknown
-    fits = [fit_known(points, each, CHANGE, CHANGE_TOTAL, p) for each in rest.T]
+    fits = [fit_polynomial(points, each, sizes.change, CHANGE_TOTAL, p) for each in rest.T]
     functions = HeldFunctions(base, joined([each.polynomial for each in fits]))
     return functions, np.stack([each.left_out for each in fits], axis=1)
 

@@ -1,28 +1,30 @@
 """The learnt functions of a surrogate of the direct model, as polynomials of the urine pressure.
 
-The functions without friction depend on the stone and the wall only, and vary fast where the
-contact widens from a line to a band; many cheap cases are fitted. What the urine pressure changes
-in them is a smooth function of the half-width of the contact without friction, of the wall, and of
-the pressure.
+The functions without friction depend on the stone, the wall and the load only, and vary fast where
+the contact widens from a line to a band; many cheap cases are fitted. What the urine pressure
+changes in them is a smooth function of the half-width of the contact without friction, of the wall,
+of the pressure, and of the load.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.studies.surrogates.box import Setting
-from stonepass.studies.surrogates.learnt import half_width
+from stonepass.studies.surrogates.learnt import LOAD, half_width
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 
-__all__ = ["HIGHEST", "HeldFunctions"]
+__all__ = ["HIGHEST", "HeldFunctions", "in_contact"]
 
 # Largest urine pressure of a surrogate, divided by the pressure that opens the tube to the width of
 # the stone. Close to 1 and above it many cases have no solution.
 HIGHEST = 0.95
+PRESSURE = 2  # number of the coordinate p/`HIGHEST` of the corrections
 
 
 @array_dataclass
@@ -40,8 +42,7 @@ class HeldFunctions:
         All functions without friction, as polynomials of the coordinates of the box
         (`Setting.unit`).
     correction : SparsePolynomial
-        All functions but the first one: polynomials of the half-width of the contact without
-        friction divided by π/2, of the coordinate of the wall, and of p/`HIGHEST`.
+        All functions but the first one: polynomials of the coordinates `in_contact`.
     """
 
     base: SparsePolynomial
@@ -54,18 +55,47 @@ class HeldFunctions:
         """
         values = self.base(at.unit)
         count = values.shape[1] - 1
-        parts = self._in_pressure(np.stack([half_width(at, values), at.unit[:, 1]], axis=1))
+        parts = self._in_pressure(in_contact(at, values, np.zeros(len(values))))
         # The number of conditions may be 0, for which numpy cannot infer the length of an axis.
         parts = parts.reshape(len(values), count, parts.shape[1] // count)
         whole = np.concatenate([values[:, 1:, None], parts], axis=2)
         return np.ascontiguousarray(whole.reshape(len(values), count * whole.shape[2]))
 
-    @property
+    def without_load(self) -> HeldFunctions:
+        """Return the functions for tubes without a load, which have fewer terms."""
+        return replace(
+            self, base=self.base.fixed(LOAD, 0.0), correction=self.correction.fixed(LOAD, 0.0)
+        )
+
+    @cached_property
     def _in_pressure(self) -> SparsePolynomial:
         """The coefficients of the correction in p, as polynomials of the other coordinates."""
         degrees, coefficients = self.correction.degrees, self.correction.coefficients
-        pairs, places = np.unique(degrees[:, :2], axis=0, return_inverse=True)
-        highest = int(degrees[:, 2].max(initial=0))
-        spread = np.zeros((len(pairs), coefficients.shape[1], highest + 1))
-        spread[np.ravel(places), :, degrees[:, 2]] = coefficients
-        return SparsePolynomial(pairs, spread.reshape(len(pairs), -1))
+        rest = degrees.copy()
+        rest[:, PRESSURE] = 0
+        others, places = np.unique(rest, axis=0, return_inverse=True)
+        highest = int(degrees[:, PRESSURE].max(initial=0))
+        spread = np.zeros((len(others), coefficients.shape[1], highest + 1))
+        spread[np.ravel(places), :, degrees[:, PRESSURE]] = coefficients
+        return SparsePolynomial(others, spread.reshape(len(others), -1))
+
+
+def in_contact(
+    at: Setting, without: Float[np.ndarray, "n functions"], p: Float[np.ndarray, " n"]
+) -> Float[np.ndarray, "n 4"]:
+    """Return the coordinates of the corrections, each between 0 and 1.
+
+    They are the half-width of the contact without friction divided by π/2, the coordinate of the
+    wall, p/`HIGHEST`, and the coordinate of the load.
+
+    Parameters
+    ----------
+    at : Setting
+        The n conditions.
+    without : array (n, functions)
+        The functions without friction.
+    p : array (n)
+        Urine pressure divided by the pressure that opens the tube to the width of the stone.
+    """
+    _, wall, _, narrowed = at.unit.T
+    return np.stack([half_width(at, without), wall, p / HIGHEST, narrowed], axis=1)

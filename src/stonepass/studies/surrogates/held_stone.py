@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebval
@@ -20,9 +21,9 @@ from scipy.optimize import elementwise
 from stonepass.array_types import Float
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.far_field import inflation
 from stonepass.model.models.push_through import PushThroughDetail
 from stonepass.model.states.loaded_state import PushedState
+from stonepass.studies.conditions import urine_pressures
 from stonepass.studies.surrogates.box import Setting, opening_pressure
 from stonepass.studies.surrogates.held_functions import HIGHEST
 from stonepass.studies.surrogates.solved import MOVES, NO_SOLUTION, Solved
@@ -146,14 +147,15 @@ def _balanced_pressure(
 
 def _opened(case: Case, at: Setting, pressure: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
     """Return r_a/R_a of the tube under the urine pressure, which is at most `HIGHEST` P_s."""
-    law, asked = case.ureter.material.law, at.conditions
+    factor = at.conditions.load_factor
 
-    def excess(radius: np.ndarray, wall: np.ndarray, urine: np.ndarray) -> np.ndarray:
-        return np.asarray(inflation(radius, wall, law)) - urine
+    def excess(radius: np.ndarray, wall: np.ndarray, part: np.ndarray, urine: np.ndarray) -> Any:
+        return urine_pressures(case, radius, wall, part) - urine
 
-    ends = (np.ones(len(pressure)), np.maximum(asked.size_ratio, 1.0))
-    found = elementwise.find_root(excess, ends, args=(asked.wall_ratio, pressure))
-    return np.where(found.success, found.x, 1.0)
+    ends = (at.lumen, np.maximum(at.conditions.size_ratio, at.lumen))
+    args = (at.conditions.wall_ratio, factor, pressure)
+    found = elementwise.find_root(excess, ends, args=args)
+    return np.where(found.success, found.x, at.lumen)
 
 
 def _work(
@@ -162,12 +164,15 @@ def _work(
     radius: Float[np.ndarray, " n"],
     pressure: Float[np.ndarray, " n"],
 ) -> Float[np.ndarray, " n"]:
-    """Return I(P)/(π R_s²) = (r_a² P − 2 ∫ r p(r) dr)/ξ² in Pa, which is equal to D."""
-    law, asked = case.ureter.material.law, at.conditions
+    """Return I(P)/(π R_s²) = (r_a² P − 2 ∫ r p(r) dr)/ξ² in Pa, which is equal to D.
+
+    The integral extends from the lumen to r_a.
+    """
+    asked = at.conditions
     points, weights = np.polynomial.legendre.leggauss(GAUSS)
     inside = np.zeros(len(radius))
     for point, weight in zip(points.tolist(), weights.tolist(), strict=True):
-        r = 1.0 + (point + 1.0) / 2.0 * (radius - 1.0)
-        inside += weight * r * np.asarray(inflation(r, asked.wall_ratio, law))
-    inside *= (radius - 1.0) / 2.0
+        r = at.lumen + (point + 1.0) / 2.0 * (radius - at.lumen)
+        inside += weight * r * urine_pressures(case, r, asked.wall_ratio, asked.load_factor)
+    inside *= (radius - at.lumen) / 2.0
     return (radius**2 * pressure - 2.0 * inside) / asked.size_ratio**2

@@ -17,7 +17,7 @@ from stonepass.array_types import Float
 from stonepass.studies.surrogates.box import Setting
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 
-__all__ = ["LearntFunctions", "half_width"]
+__all__ = ["LOAD", "LearntFunctions", "half_width"]
 
 LOAD = 3  # number of the load's coordinate
 

@@ -17,7 +17,7 @@ from stonepass.array_types import Float, Int
 from stonepass.errors import BadInput
 from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_products
 
-__all__ = ["FEWEST", "Fitted", "fit_known", "fit_polynomial", "joined"]
+__all__ = ["FEWEST", "Fitted", "fit_polynomial", "joined"]
 
 FEWEST = 8  # smallest number of cases that a function is fitted to
 DECAY = 0.8  # preference of a term over another one whose degree is higher by 1
@@ -36,7 +36,7 @@ class Fitted:
         A single function.
     left_out : array (n)
         Difference at each point between the polynomial that is fitted to all other points, with the
-        chosen terms, and the value at this point.
+        chosen terms, and the value at this point; NaN where there is no value.
     """
 
     polynomial: SparsePolynomial
@@ -50,46 +50,20 @@ def fit_polynomial(
     total: int,
     factor: Float[np.ndarray, " n"] | None = None,
 ) -> Fitted:
-    """Fit a sparse polynomial to values at points.
+    """Fit a sparse polynomial to the values that exist at points.
 
     Parameters
     ----------
     points : array (n, d)
         Coordinates between 0 and 1.
     values : array (n)
-        Values at the points, all finite.
+        Values at the points; NaN where they do not exist.
     largest : tuple of d int
         Largest degree of a term in each coordinate.
     total : int
         Largest total degree of a term.
     factor : array (n), optional
         Known factors: the fitted values are the polynomial times the factor.
-    """
-    pool = _pool(largest, total)
-    columns = chebyshev_products(points, pool)
-    if factor is not None:
-        columns = columns * factor
-    favour = DECAY ** pool.sum(axis=1)
-    chosen, best = _pursue(columns, values, favour)
-    terms = chosen[:best]
-    matrix = columns[terms].T
-    Q, R = np.linalg.qr(matrix)
-    coefficients = np.linalg.solve(R, Q.T @ values)
-    leverage = np.clip((Q**2).sum(axis=1), 0.0, 1.0 - 1e-9)
-    left_out = (matrix @ coefficients - values) / (1.0 - leverage)
-    return Fitted(SparsePolynomial(pool[terms], coefficients[:, None]), left_out)
-
-
-def fit_known(
-    points: Float[np.ndarray, "n d"],
-    values: Float[np.ndarray, " n"],
-    largest: tuple[int, ...],
-    total: int,
-    factor: Float[np.ndarray, " n"] | None = None,
-) -> Fitted:
-    """Fit a sparse polynomial to the values that exist; see `fit_polynomial`.
-
-    The leave-one-out differences are NaN where `values` are.
 
     Raises
     ------
@@ -100,11 +74,20 @@ def fit_known(
     if known.sum() < FEWEST:
         raise BadInput("number of cases with an answer", f"{known.sum()} of {len(known)}",
                        f"at least {FEWEST}", "make the box smaller")  # fmt: skip
-    some = None if factor is None else factor[known]
-    found = fit_polynomial(points[known], values[known], largest, total, some)
+    pool = _pool(largest, total)
+    columns = chebyshev_products(points[known], pool)
+    if factor is not None:
+        columns = columns * factor[known]
+    some = values[known]
+    chosen, best = _pursue(columns, some, DECAY ** pool.sum(axis=1))
+    terms = chosen[:best]
+    matrix = columns[terms].T
+    Q, R = np.linalg.qr(matrix)
+    coefficients = np.linalg.solve(R, Q.T @ some)
+    leverage = np.clip((Q**2).sum(axis=1), 0.0, 1.0 - 1e-9)
     left_out = np.full(len(values), np.nan)
-    left_out[known] = found.left_out
-    return Fitted(found.polynomial, left_out)
+    left_out[known] = (matrix @ coefficients - some) / (1.0 - leverage)
+    return Fitted(SparsePolynomial(pool[terms], coefficients[:, None]), left_out)
 
 
 def joined(polynomials: list[SparsePolynomial]) -> SparsePolynomial:

@@ -161,7 +161,8 @@ def _rebuilt(path: Path, document: dict[str, Any], packed: bytes) -> Surrogate:
     physics: SeatedContact | HeldStone
     learnt: LearntFunctions | HeldFunctions
     if isinstance(built.model, PushThrough):
-        assert correction is not None
+        if correction is None or correction.degrees.shape[1] != base.degrees.shape[1]:
+            raise ValueError
         physics, learnt = HeldStone(), HeldFunctions(base, correction)
     else:
         physics = SeatedContact(arrays["shear"], arrays["axial"])

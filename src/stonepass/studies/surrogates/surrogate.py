@@ -202,9 +202,7 @@ class Surrogate:
     @cached_property
     def _without_load(self) -> LearntFunctions | HeldFunctions:
         """The learnt functions of tubes without a confining pressure, which are faster."""
-        if self.lumen is None or isinstance(self.learnt, HeldFunctions):
-            return self.learnt
-        return self.learnt.without_load()
+        return self.learnt if self.lumen is None else self.learnt.without_load()
 
     def _lumen(self, at: Conditions) -> Float[np.ndarray, " n"]:
         natural = self.case.load.prestretch == 1.0

@@ -26,6 +26,7 @@ from stonepass.studies.surrogates.polynomial import SparsePolynomial, chebyshev_
 from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
+from stonepass.studies.surrogates.solved import LOOSE
 from stonepass.studies.surrogates.stable_loads import StableLoads
 from stonepass.studies.surrogates.store import load_surrogate, save_surrogate, shipped_surrogates
 
@@ -381,6 +382,31 @@ def test_a_surrogate_of_your_own_is_built_and_checked(tmp_path):
     assert found.same_outcome == 24
     assert found.largest < 0.005
     assert found.within > 0.9
+
+
+@pytest.mark.slow
+def test_a_pre_stretch_without_a_confining_pressure_narrows_the_lumen():
+    case = sp.Case(
+        sp.Stone(size_ratio=1.2),
+        sp.Ureter(wall_ratio=1.5, material="latex"),
+        sp.Load(prestretch=1.1),
+        sp.SeatedBalance(seating="frictionless"),
+        sp.Numerics("fast"),
+    )
+    built = build_surrogate(case, Box(1.3, (1.4, 1.8), (0.1, 0.6)), sp.JobSolver(), 0.03)
+    at = Conditions(*(np.array([each]) for each in (1.15, 1.6, 0.4, 1.0)))
+    answer = sp.critical_pressure(case_at(built.case, at, 0))
+    assert built.solve(at).pressure[0] == pytest.approx(answer.pressure, rel=0.01)
+    narrow = Conditions(*(np.array([each]) for each in (0.97, 1.6, 0.4, 1.0)))
+    assert built.solve(narrow).outcome[0] != LOOSE  # the lumen is 0.953
+
+
+def test_an_empty_table_of_answers_has_its_whole_header(shipped, tmp_path):
+    for count in (0, 1):
+        found = shipped.evaluate(size_ratio=np.full(count, 1.2), wall_ratio=1.3, friction=0.5)
+        found.save(tmp_path / f"{count}.csv")
+    empty, one = ((tmp_path / f"{count}.csv").read_text().splitlines() for count in (0, 1))
+    assert empty == one[:1]
 
 
 def test_models_and_options_without_a_surrogate_are_refused():

@@ -294,6 +294,23 @@ def test_a_points_file_with_a_mistake_is_refused_in_one_sentence(tmp_path, conte
     assert words in str(refused.value)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "stone.size_ratio;stone.friction\n1.1;0.3\n1.2;0.5\n",
+        "stone.size_ratio;stone.friction\n1,1;0,3\n1,2;0,5\n",
+        "stone.size_ratio\tstone.friction\n1.1\t0.3\n1.2\t0.5\n",
+        "# design of May\n\n# two coefficients\nstone.size_ratio,stone.friction\n1.1,0.3\n1.2,0.5\n",
+        "\ufeffstone.size_ratio,stone.friction\r\n1.1,0.3\r\n1.2,0.5\r\n",
+    ],
+)
+def test_points_files_of_spreadsheets_are_read(tmp_path, text):
+    (tmp_path / "p.csv").write_text(text, encoding="utf-8", newline="")
+    plan = plan_of(vary={}, points={"file": str(tmp_path / "p.csv")})
+    found = [(each["size_ratio"], each["friction"]) for each in (c.cells for c in plan.block(0, 2))]
+    assert found == [(1.1, 0.3), (1.2, 0.5)]
+
+
 def test_blanks_round_the_names_of_a_points_file_do_not_matter(tmp_path):
     (tmp_path / "p.csv").write_text(" stone.size_ratio , stone.friction\n1.1,0.2\n")
     plan = plan_of(vary={}, points={"file": str(tmp_path / "p.csv")})

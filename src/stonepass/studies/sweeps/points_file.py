@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ __all__ = ["EXTRA", "read_points_table"]
 
 EXTRA = "studies"  # the extra of stonepass that installs pyarrow
 DEGREES = np.pi / 180.0
+LONGEST_PREAMBLE = 200  # largest number of lines in which the header is looked for
 
 
 def read_points_table(
@@ -69,9 +71,8 @@ def _columns_of(path: Path) -> dict[str, Any]:
     if reader is None:
         raise BadInput("points", path, "a file whose name ends in .csv or .parquet")
     module = library(f"pyarrow.{reader}", "read points", EXTRA)
-    read = module.read_csv if reader == "csv" else module.read_table
     try:
-        table = read(str(path))
+        table = _read_csv(module, path) if reader == "csv" else module.read_table(str(path))
         names = [name.strip() for name in table.column_names]
     except (OSError, ValueError) as problem:  # ValueError is the base of the errors of pyarrow
         first = str(problem).splitlines()[0]
@@ -80,6 +81,26 @@ def _columns_of(path: Path) -> dict[str, Any]:
         require(names.count(name) == 1, f"in {path.name}, column '{name}'", "given several times",
                 "given once")  # fmt: skip
     return {name: column.to_numpy() for name, column in zip(names, table.columns, strict=True)}
+
+
+def _read_csv(module: Any, path: Path) -> Any:
+    """Read a table whose cells are separated by commas, semicolons or tabs.
+
+    Empty lines and lines that begin with ``#`` are ignored above the header. If semicolons or tabs
+    separate the cells and the first row has a comma, commas are decimal points.
+    """
+    with path.open("rb") as file:
+        lines = [line.strip() for line in islice(file, LONGEST_PREAMBLE)]
+    start = next((k for k, each in enumerate(lines) if each and not each.startswith(b"#")), 0)
+    header, *first = lines[start : start + 2] or [b""]
+    delimiter = next((each for each in (";", "\t") if each.encode() in header), ",")
+    decimal = "," if delimiter != "," and any(b"," in each for each in first) else "."
+    return module.read_csv(
+        str(path),
+        read_options=module.ReadOptions(skip_rows=start),
+        parse_options=module.ParseOptions(delimiter=delimiter),
+        convert_options=module.ConvertOptions(decimal_point=decimal),
+    )
 
 
 def _input_of(

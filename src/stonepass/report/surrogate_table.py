@@ -66,7 +66,7 @@ def _loads(surrogate: Surrogate) -> str:
         return text
     whole = stable.wall_ratio[np.argmax(stable.factor == 1.0)]
     return (
-        f"{text}; in walls thinner than η {whole:.3g} less, because the tube would buckle: "
+        f"{text}; in walls thinner than η {whole:.3g} less, because the tube is close to buckling: "
         f"{stable.factor[0] * most:.2g} kPa at η {stable.wall_ratio[0]:g}"
     )
 

@@ -108,8 +108,8 @@ def _build(
 ) -> int:
     """Build a surrogate; --confining is the largest confining pressure of its box.
 
-    Several hundred to some thousand cases are solved. An interrupted command goes on where it stopped, because the
-    solved states are in the cache folder.
+    Several hundred to some thousand cases are solved. An interrupted command goes on where it
+    stopped, because the solved states are in the cache folder.
     """
     from stonepass.cli.terminal import counting, writable, wrote
     from stonepass.studies.case_solver import JobSolver

@@ -237,13 +237,14 @@ def test_a_surrogate_covers_its_own_model_walls_and_loads_only(tmp_path):
     someone = patient(tmp_path)
     case, at = someone.case(), Conditions(*np.array([[1.2], [1.4], [0.3], [1.0]]))
     assert covering_surrogate(case, at).covers(at)
-    direct = covering_surrogate(replace(case, model=PushThrough()), at)
-    assert direct.surrogate.case.model == PushThrough()
+    for load in ("0 kPa", "1 kPa"):
+        direct = covering_surrogate(replace(case, model=PushThrough(), load=Load(load)), at)
+        assert direct.surrogate.case.model == PushThrough()
     for other in (
         replace(case, load=Load(prestretch=1.1)),
         replace(case, model=SeatedBalance(as_printed=True)),
         replace(case, model=PushThrough(wetted=True)),
-        replace(case, model=PushThrough(), load=Load("1 kPa")),
+        replace(case, model=PushThrough(), load=Load("8 kPa")),  # 5.5 kPa at this wall
         replace(case, stone=Stone(size_ratio=1.2, shape=Shape(1.5))),
     ):
         assert covering_surrogate(other, at) is None

@@ -189,9 +189,16 @@ def test_the_direct_model_answers_at_once_too(open_page, server):
     assert pressure(again) == pressure(page)
 
 
-def test_solve_is_cancelled(page):
-    page.get_by_label("Diameter across the ureter", exact=True).fill("4.37")
+def ask_for_a_long_solve(page, stone):
+    """Fill in a case of the direct model that takes most of a minute."""
+    page.get_by_label("Diameter across the ureter", exact=True).fill(stone)
+    page.get_by_label("Wall thickness", exact=True).fill("1.7")
+    page.get_by_label("Friction coefficient", exact=True).fill("0.98")
     page.get_by_label("Model of the finite elements").select_option("direct")
+
+
+def test_solve_is_cancelled(page):
+    ask_for_a_long_solve(page, "4.37")
     page.get_by_role("button", name="Solve").click()
     page.get_by_role("button", name="Cancel").click()
     page.get_by_text("The solve was cancelled.").wait_for()
@@ -204,8 +211,7 @@ def test_solve_is_cancelled_before_the_server_has_accepted_it(page):
         route.continue_()
 
     page.route("**/api/v1/jobs", late)
-    page.get_by_label("Diameter across the ureter", exact=True).fill("4.39")
-    page.get_by_label("Model of the finite elements").select_option("direct")
+    ask_for_a_long_solve(page, "4.39")
     page.get_by_role("button", name="Solve").dispatch_event("click")
     page.get_by_role("button", name="Cancel").dispatch_event("click")
     page.get_by_text("The solve was cancelled.").wait_for()

@@ -379,7 +379,7 @@ def test_a_used_factorisation_that_does_not_serve_is_taken_back():
 
 def test_kinks_are_rounded_after_a_short_step_until_a_full_one():
     class Scripted(Scalar):
-        """Every second direction allows a step of 1/8 only; the norm then falls by a tenth."""
+        """The directions allow steps of 1/8, 1/2 and 1 in turn; each cuts the norm to four fifths."""
 
         def __init__(self):
             self.norm, self.widths = 1.0, []

@@ -70,14 +70,8 @@ class HeldFunctions:
     @cached_property
     def _in_pressure(self) -> SparsePolynomial:
         """The coefficients of the correction in p, as polynomials of the other coordinates."""
-        degrees, coefficients = self.correction.degrees, self.correction.coefficients
-        rest = degrees.copy()
-        rest[:, PRESSURE] = 0
-        others, places = np.unique(rest, axis=0, return_inverse=True)
-        highest = int(degrees[:, PRESSURE].max(initial=0))
-        spread = np.zeros((len(others), coefficients.shape[1], highest + 1))
-        spread[np.ravel(places), :, degrees[:, PRESSURE]] = coefficients
-        return SparsePolynomial(others, spread.reshape(len(others), -1))
+        degrees, spread = self.correction.by_degree(PRESSURE)
+        return SparsePolynomial(degrees, spread.T.reshape(len(degrees), -1))
 
 
 def in_contact(

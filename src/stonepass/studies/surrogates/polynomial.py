@@ -67,13 +67,33 @@ class SparsePolynomial:
         row for each degree in this coordinate and each function.
         """
         column = int(np.flatnonzero(self.degrees.any(axis=0)).max(initial=0))
+        degrees, spread = self.by_degree(column)
+        return column, degrees, spread.reshape(-1, len(degrees))
+
+    def by_degree(
+        self, column: int
+    ) -> tuple[Int[np.ndarray, "terms d"], Float[np.ndarray, "k functions terms"]]:
+        """Return the terms in all coordinates but one, and their coefficients by its degree.
+
+        Parameters
+        ----------
+        column : int
+            Number of the coordinate; its degrees in the returned terms are 0.
+        """
+        degrees, places = self._without(column)
+        highest = int(self.degrees[:, column].max(initial=0))
+        spread = np.zeros((highest + 1, self.coefficients.shape[1], len(degrees)))
+        spread[self.degrees[:, column], :, places] = self.coefficients
+        return degrees, spread
+
+    def _without(
+        self, column: int
+    ) -> tuple[Int[np.ndarray, "others d"], Int[np.ndarray, " terms"]]:
+        """Return the different terms in the other coordinates, and the place of each term there."""
         rest = self.degrees.copy()
         rest[:, column] = 0
         degrees, places = np.unique(rest, axis=0, return_inverse=True)
-        highest = int(self.degrees[:, column].max(initial=0))
-        spread = np.zeros((highest + 1, self.coefficients.shape[1], len(degrees)))
-        spread[self.degrees[:, column], :, np.ravel(places)] = self.coefficients
-        return column, degrees, spread.reshape(-1, len(degrees))
+        return degrees, np.ravel(places)
 
     def fixed(self, column: int, value: float) -> SparsePolynomial:
         """Return the functions with one coordinate fixed at a value; its degrees become 0.
@@ -88,11 +108,9 @@ class SparsePolynomial:
             Its value, 0 to 1.
         """
         factors = np.cos(self.degrees[:, column] * np.arccos(2.0 * value - 1.0))
-        rest = self.degrees.copy()
-        rest[:, column] = 0
-        degrees, places = np.unique(rest, axis=0, return_inverse=True)
+        degrees, places = self._without(column)
         coefficients = np.zeros((len(degrees), self.coefficients.shape[1]))
-        np.add.at(coefficients, np.ravel(places), factors[:, None] * self.coefficients)
+        np.add.at(coefficients, places, factors[:, None] * self.coefficients)
         return SparsePolynomial(degrees, coefficients)
 
 

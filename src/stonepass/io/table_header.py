@@ -13,7 +13,7 @@ from collections.abc import Collection, Sequence
 from stonepass.errors import BadInput
 from stonepass.io.column_names import is_unit, unit_of
 
-__all__ = ["NUMBER", "layout_of", "without_units"]
+__all__ = ["LONGEST_PREAMBLE", "NUMBER", "layout_of", "without_units"]
 
 NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
 DELIMITERS = (",", ";", "\t")
@@ -36,7 +36,7 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
     lines : sequence of str
         Lines of the file.
     required : collection of str
-        Names of the columns that the table must have.
+        Names of the columns that the table must have; empty if any names will do.
     """
     declared = _DECLARED.fullmatch(lines[0]) if lines else None
     candidates = (declared[1],) if declared and declared[1] in DELIMITERS else DELIMITERS
@@ -45,7 +45,7 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
         for number, line in enumerate(lines[:LONGEST_PREAMBLE])
         if line.strip() and not line.lstrip().startswith("#") and (number or not declared)
     ]
-    for number, line in shown:
+    for number, line in shown if required else ():
         for delimiter in candidates:
             if set(required) <= set(_cells(line, delimiter)):
                 return delimiter, number

@@ -13,6 +13,7 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput, require
 from stonepass.io.column_names import unit_of
 from stonepass.io.optional_imports import library
+from stonepass.io.table_header import LONGEST_PREAMBLE, layout_of
 from stonepass.io.text_file import existing
 from stonepass.studies.sweeps.axes import Points
 from stonepass.studies.sweeps.varied_input import VariedInput
@@ -22,7 +23,6 @@ __all__ = ["EXTRA", "read_points_table"]
 
 EXTRA = "studies"  # the extra of stonepass that installs pyarrow
 DEGREES = np.pi / 180.0
-LONGEST_PREAMBLE = 200  # largest number of lines in which the header is looked for
 
 
 def read_points_table(
@@ -84,17 +84,16 @@ def _columns_of(path: Path) -> dict[str, Any]:
 
 
 def _read_csv(module: Any, path: Path) -> Any:
-    """Read a table whose cells are separated by commas, semicolons or tabs.
+    """Read a table whose cells are separated by commas, semicolons or tabs (see `layout_of`).
 
-    Empty lines and lines that begin with ``#`` are ignored above the header. If semicolons or tabs
-    separate the cells and the first row has a comma, commas are decimal points.
+    If semicolons or tabs separate the cells and the first row has a comma, commas are decimal
+    points.
     """
-    with path.open("rb") as file:
-        lines = [line.strip() for line in islice(file, LONGEST_PREAMBLE)]
-    start = next((k for k, each in enumerate(lines) if each and not each.startswith(b"#")), 0)
-    header, *first = lines[start : start + 2] or [b""]
-    delimiter = next((each for each in (";", "\t") if each.encode() in header), ",")
-    decimal = "," if delimiter != "," and any(b"," in each for each in first) else "."
+    with path.open(encoding="utf-8-sig") as file:
+        lines = [line.rstrip("\r\n") for line in islice(file, LONGEST_PREAMBLE)]
+    delimiter, start = layout_of(lines, ())
+    first = "".join(lines[start + 1 : start + 2])
+    decimal = "," if delimiter != "," and "," in first else "."
     return module.read_csv(
         str(path),
         read_options=module.ReadOptions(skip_rows=start),

@@ -42,6 +42,7 @@ export function solvePanel(changed) {
   let question = null;
   let instant = null;
   let answer = null; // {key, record}
+  let failure = null; // {key, text}: why the last solve gave no answer
   let stop = () => {};
   let running = "";
 
@@ -52,6 +53,7 @@ export function solvePanel(changed) {
   async function run() {
     const asked = { key: keyOf(question) };
     running = asked.key;
+    failure = null;
     working("The solve is waiting for a free worker.", 0);
     let ended = false;
     try {
@@ -62,7 +64,7 @@ export function solvePanel(changed) {
       await begun.accepted;
       if (ended) running = "";
     } catch (error) {
-      failed(error.message);
+      failed(asked, error.message);
     }
   }
 
@@ -84,6 +86,7 @@ export function solvePanel(changed) {
       changed(current());
     } else
       failed(
+        asked,
         state.status === "cancelled"
           ? "The solve was cancelled."
           : (state.problem?.detail ?? "The solve failed."),
@@ -105,9 +108,10 @@ export function solvePanel(changed) {
     cancel.hidden = true;
     setProgress(progress, null);
   }
-  function failed(text) {
+  function failed(asked, text) {
+    failure = { key: asked.key, text };
     rest();
-    write(detail, text);
+    draw();
   }
 
   function keyOf(of) {
@@ -129,12 +133,14 @@ export function solvePanel(changed) {
           ? `Solved for earlier inputs: ${reading(answer.record)}`
           : "A solve takes a few seconds and covers all inputs.",
       );
-      fill(
-        detail,
-        "The ",
-        term("push-through", "direct"),
-        " model has no closure and goes beyond the paper’s.",
-      );
+      if (failure?.key === keyOf(question)) write(detail, failure.text);
+      else
+        fill(
+          detail,
+          "The ",
+          term("push-through", "direct"),
+          " model has no closure and goes beyond the paper’s.",
+        );
       return;
     }
     const [value, error] = withError(record.critical_pressure_kPa, record.critical_pressure_error_kPa);

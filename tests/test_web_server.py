@@ -1,7 +1,9 @@
 """The server at a socket: slow, malformed and many clients; address and start."""
 
+import json
 import socket
 import time
+from http.client import HTTPResponse
 
 import pytest
 from web_server import CASE, HOST, Limits, at, exchange, server
@@ -57,7 +59,12 @@ def answers(port):
 def test_malformed_requests_are_refused(port, sent, status):
     with socket.create_connection(("127.0.0.1", port), 5.0) as made:
         made.sendall(sent)
-        assert made.recv(65536).split(b" ")[1].startswith(status)
+        with HTTPResponse(made) as answer:
+            answer.begin()
+            assert str(answer.status).encode().startswith(status)
+            assert answer.headers["content-type"] == "application/problem+json"
+            assert answer.headers["content-security-policy"]
+            assert json.loads(answer.read())["status"] == answer.status
     assert answers(port)
 
 

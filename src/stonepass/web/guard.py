@@ -24,7 +24,7 @@ from starlette.responses import RedirectResponse, Response
 from stonepass.web.answers import FAULT, problem_response
 from stonepass.web.settings import ServerSettings
 
-__all__ = ["COOKIE", "POLICY", "Guard"]
+__all__ = ["COOKIE", "HEADERS", "POLICY", "Guard"]
 
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]

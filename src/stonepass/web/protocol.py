@@ -14,10 +14,13 @@ from typing import Any
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from stonepass.web.answers import problem_response
+from stonepass.web.guard import HEADERS
 from stonepass.web.settings import Limits
 
 __all__ = ["limited_protocol"]
 
+MALFORMED = "What was sent is not a request of HTTP/1.1, or its head is longer than allowed."
 SLACK = 5.0  # time in s after which a body is cut off that the guard does not read
 
 
@@ -61,6 +64,18 @@ class _LimitedProtocol(H11Protocol):
         super().data_received(data)
         state = self.conn.their_state
         self._await(state if state in (h11.IDLE, h11.SEND_BODY) else None)
+
+    def send_400_response(self, msg: str) -> None:
+        """Answer by a problem, where uvicorn would answer by a line of text."""
+        refusal = problem_response(400, MALFORMED)
+        refusal.headers.update(HEADERS | {"cache-control": "no-store", "connection": "close"})
+        for event in (
+            h11.Response(status_code=400, headers=refusal.raw_headers, reason=b"Bad Request"),
+            h11.Data(data=bytes(refusal.body)),
+            h11.EndOfMessage(),
+        ):
+            self.transport.write(self.conn.send(event))
+        self.transport.close()
 
     def pause_writing(self) -> None:
         """Note that the client does not read what has been sent."""

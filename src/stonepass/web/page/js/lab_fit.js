@@ -6,6 +6,7 @@ import { dropZone } from "./drop.js";
 import { checkField, listField, quantityField } from "./fields.js";
 import { sentence } from "./glossary.js";
 import { jobRun } from "./job_run.js";
+import { labSection } from "./lab_section.js";
 import { drawn } from "./pictures/axes.js";
 import { fitPicture } from "./pictures/fit.js";
 import { decimals, digits } from "./units.js";
@@ -57,30 +58,15 @@ export async function fitSection(take) {
     relative.element,
     run.element,
   );
-  form.addEventListener("submit", (event) => {
-    event.preventDefault();
-    start();
-  });
   showFields();
-  fill(
+  return labSection({
+    title: "Constants of a wall",
+    form,
     results,
-    h(
-      "div",
-      { class: "card empty" },
-      h("h3", {}, "What you will see"),
-      h(
-        "p",
-        { class: "quiet" },
-        "The fitted constants with their 95 % intervals, the curve beside the data, and what in the data speaks against the law.",
-      ),
-    ),
-  );
-  return h(
-    "section",
-    { class: "stack", "aria-label": "Constants of a wall" },
-    h("h2", {}, "Constants of a wall"),
-    h("div", { class: "columns" }, form, results),
-  );
+    expected:
+      "The fitted constants with their 95 % intervals, the curve beside the data, and what in the data speaks against the law.",
+    start,
+  });
 
   async function choose(given) {
     file = given;

@@ -6,6 +6,7 @@ import { dropZone } from "./drop.js";
 import { checkField, listField, quantityField } from "./fields.js";
 import { sentence } from "./glossary.js";
 import { jobRun } from "./job_run.js";
+import { labSection } from "./lab_section.js";
 import { micrograph } from "./micrograph.js";
 import { drawn } from "./pictures/axes.js";
 import { spreadPicture } from "./pictures/spread.js";
@@ -59,29 +60,14 @@ export function frictionSection(take) {
     level.element,
     run.element,
   );
-  form.addEventListener("submit", (event) => {
-    event.preventDefault();
-    start();
-  });
-  fill(
+  return labSection({
+    title: "Friction of a surface",
+    form,
     results,
-    h(
-      "div",
-      { class: "card empty" },
-      h("h3", {}, "What you will see"),
-      h(
-        "p",
-        { class: "quiet" },
-        "The image with the paths along which heights are read (move their ends with the mouse or the arrow keys), the friction coefficient, and how it changes with every choice of the analysis.",
-      ),
-    ),
-  );
-  return h(
-    "section",
-    { class: "stack", "aria-label": "Friction of a surface" },
-    h("h2", {}, "Friction of a surface"),
-    h("div", { class: "columns" }, form, results),
-  );
+    expected:
+      "The image with the paths along which heights are read (move their ends with the mouse or the arrow keys), the friction coefficient, and how it changes with every choice of the analysis.",
+    start,
+  });
 
   async function choose(given) {
     file = given;

@@ -1,5 +1,6 @@
 """What the API answers at once: information, instant answers, and how they can be repeated."""
 
+import itertools
 import json
 import shlex
 import tomllib
@@ -11,11 +12,12 @@ from web_server import CASE, THIN, client
 import stonepass as sp
 from stonepass.cli import run
 from stonepass.inputs.catalogue import all_inputs
+from stonepass.model.far_field import lumen_ratio
 from stonepass.studies.sensitivity.evaluator import OUTCOMES, Evaluations
 from stonepass.studies.sensitivity.size_search import search_sizes
 from stonepass.web.documented import InstantDocument
 from stonepass.web.instant.answer import CAUSES
-from stonepass.web.instant.question import named_surrogate
+from stonepass.web.instant.question import largest_load, named_surrogate
 from stonepass.web.instant.words import digits
 from stonepass.web.section.build import case_of_section, section_of
 from stonepass.web.section.grid import SectionGrid, digest, grid_of
@@ -289,14 +291,25 @@ def test_the_stored_sections_are_those_of_the_present_constants(material):
     grid = grid_of(material)
     assert grid is not None
     assert len(digest(material)) == 64
-    assert grid.values["inner_r"].shape[:2] == (len(grid.size_ratio), len(grid.wall_ratio))
+    axes = (len(grid.fraction), len(grid.wall_ratio), len(grid.part))
+    assert grid.values["inner_r"].shape[:3] == axes
     assert all(np.isfinite(each).all() for each in grid.values.values())
 
 
-def test_an_interpolated_section_is_near_the_solved_one():
-    size, wall = 1.21, 1.32  # between the solved ones
-    answer = sp.PressureJob(case_of_section("ureter", size, wall), wall=True).run(None)
-    solved, drawn = section_of(answer), grid_of("ureter").section(size, wall)
+@pytest.mark.parametrize("material", ["ureter", "latex"])
+def test_sections_cover_the_confining_pressures_of_the_instant_answer(material):
+    grid, surrogate = grid_of(material), sp.load_surrogate(material, "paper")
+    for wall in np.linspace(1.1, 4.0, 20):
+        most = largest_load(surrogate, float(wall))
+        assert grid.largest_load(float(wall)) == pytest.approx(most, rel=1e-12)
+
+
+@pytest.mark.parametrize("confining", [0.0, 2800.0])
+def test_an_interpolated_section_is_near_the_solved_one(confining):
+    fraction, wall = 0.37, 1.32  # between the solved ones
+    case, tube = case_of_section("ureter", fraction, wall, confining)
+    solved = section_of(sp.PressureJob(case, wall=True).run(None))
+    drawn = grid_of("ureter").section(case.size_ratio, wall, confining, tube)
     for name in ("inner_z", "inner_r", "outer_z", "outer_r"):
         assert np.abs(getattr(solved, name) - getattr(drawn, name)).max() < 0.01, name
     assert drawn.contact_angle == pytest.approx(solved.contact_angle, abs=np.radians(1.0))
@@ -305,17 +318,42 @@ def test_an_interpolated_section_is_near_the_solved_one():
 
 def test_a_section_is_exact_at_a_solved_place_and_never_inside_the_stone():
     grid = grid_of("latex")
-    size, wall = float(grid.size_ratio[3]), float(grid.wall_ratio[4])
-    section = grid.section(size, wall)
-    over = size - 1.0
-    stored = 1.0 + over * grid.values["inner_r"][3, 4]
-    inside = np.hypot(section.inner_z, section.inner_r) > size * (1.0 + 1e-9)
+    i, j, k = 5, 4, 2
+    wall = float(grid.wall_ratio[j])
+    confining = float(grid.part[k]) * grid.largest_load(wall)
+    case, tube = case_of_section("latex", float(grid.fraction[i]), wall, confining)
+    section = grid.section(case.size_ratio, wall, confining, tube)
+    stored = tube.inner + (case.size_ratio - tube.inner) * grid.values["inner_r"][i, j, k]
+    inside = np.hypot(section.inner_z, section.inner_r) > case.size_ratio * (1.0 + 1e-9)
     assert np.allclose(section.inner_r[inside], stored[inside], atol=1e-12)
-    for each in np.linspace(1.001, 1.6, 30):
-        for eta in (1.1, 1.37, 4.0):
-            found = grid.section(float(each), eta)
-            assert np.hypot(found.inner_z, found.inner_r).min() > each - 1e-9
+    for fraction in np.linspace(0.001, 1.0, 30):
+        for eta, load in itertools.product((1.1, 1.37, 4.0), (0.0, 0.4, 1.0)):
+            confining = load * grid.largest_load(eta)
+            case, tube = case_of_section("latex", float(fraction), eta, confining)
+            found = grid.section(case.size_ratio, eta, confining, tube)
+            assert np.hypot(found.inner_z, found.inner_r).min() > case.size_ratio - 1e-9
             assert (found.outer_r > found.inner_r).all()
+
+
+def test_a_section_under_a_load_scales_with_the_stiffness(asking):
+    soft = CASE | {"load": {"confining_pressure": "2 kPa"}}
+    stiff = CASE | {"load": {"confining_pressure": "4 kPa"}}
+    one = instant(asking, soft, include=["section"])["section"]
+    two = instant(asking, stiff, include=["section"], stiffness=2.0)["section"]
+    assert one["inner"] == two["inner"]
+    doubled = 2.0 * np.array(one["contact"]["pressure_kPa"])
+    assert two["contact"]["pressure_kPa"] == pytest.approx(doubled, abs=3e-4)
+
+
+def test_a_loose_stone_under_a_load_lies_in_the_narrowed_tube(asking):
+    case = CASE | {"stone": {"diameter": "3 mm"}, "load": {"confining_pressure": "2 kPa"}}
+    found = instant(asking, case, include=["section"])
+    assert found["answer"]["outcome"] == "LOOSE"
+    (radius,) = set(found["section"]["inner"]["r"])
+    law = sp.Ureter(material="ureter").material.law
+    lumen = lumen_ratio(4.54 / 3.5, law, sp.Load("2 kPa"))
+    assert radius == pytest.approx(lumen, abs=1e-4)
+    assert radius < 0.99
 
 
 def test_a_stored_section_of_other_constants_is_not_used(monkeypatch):

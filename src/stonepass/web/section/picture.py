@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.model.case import Case
-from stonepass.web.section.grid import PLACES, STATIONS, Section, grid_of
+from stonepass.model.load import Load
+from stonepass.units import Pressure
+from stonepass.web.section.grid import PLACES, STATIONS, Section, free_tube, grid_of
 from stonepass.web.section.points import EXTENT, contact_points, outline_points
 
 __all__ = ["instant_section"]
@@ -19,7 +22,7 @@ ANGLES = 61  # number of points of the outline of the stone
 def instant_section(case: Case, stiffness: float) -> dict[str, Any] | None:
     """Return the section of a case in the form of `outline.solved_section`.
 
-    The sections were solved for a friction coefficient of 0.5 and no load. ``exact`` is False.
+    The sections were solved for a friction coefficient of 0.5. ``exact`` is False.
 
     Parameters
     ----------
@@ -30,15 +33,20 @@ def instant_section(case: Case, stiffness: float) -> dict[str, Any] | None:
     Returns
     -------
     dict or None
-        None if the stone is no sphere, if the wall is under a load, or if the sizes are outside the
-        range of the solved sections.
+        None if the stone is no sphere, if the tube is pre-stretched or its confining pressure is no
+        dead load, or if sizes or pressure are outside the range of the solved sections.
     """
     grid, load = grid_of(case.ureter.material.reference), case.load
     size, wall = case.size_ratio, case.wall_ratio
-    unloaded = load.confining_pressure == 0.0 and load.prestretch == 1.0
-    if grid is None or not unloaded or not case.stone.shape.spherical:
+    # A wall that is n times as stiff deforms under n times the pressure as one of the material.
+    confining = float(load.confining_pressure) / stiffness
+    described = load.prestretch == 1.0 and (confining == 0.0 or load.confinement == "dead")
+    if grid is None or not described or not case.stone.shape.spherical:
         return None
-    if not grid.covers(size, wall):
+    if not grid.covers(size, wall, confining):
+        return None
+    tube = free_tube(replace(case, load=Load(Pressure(confining))))
+    if tube is None:
         return None
     angle = np.linspace(0.0, np.pi, ANGLES)
     found: dict[str, Any] = {
@@ -46,11 +54,11 @@ def instant_section(case: Case, stiffness: float) -> dict[str, Any] | None:
         "stone": outline_points(-size * np.cos(angle), size * np.sin(angle)),
         "urine_pressure_kPa": 0.0,
     }
-    if size <= 1.0:
-        rest = Section(PLACES, np.ones_like(PLACES), PLACES, np.full_like(PLACES, wall), np.pi / 2,
-                       np.zeros_like(STATIONS))  # fmt: skip
+    if size <= tube.inner:
+        radii = [np.full_like(PLACES, radius) for radius in (tube.inner, tube.outer)]
+        rest = Section(PLACES, radii[0], PLACES, radii[1], np.pi / 2.0, np.zeros_like(STATIONS))
         return found | _outlines(rest, size) | {"contact": None, "seal": None}
-    section = grid.section(size, wall)
+    section = grid.section(size, wall, confining, tube)
     return found | _outlines(section, size) | _contact(section, size, stiffness)
 
 

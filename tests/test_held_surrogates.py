@@ -128,7 +128,7 @@ def test_special_conditions_have_their_outcome(shipped):
         size_ratio=[0.9, 1.2, 1.5, 1.7, 1.2],
         wall_ratio=1.4,
         friction=[0.3, 0.0, 1.0, 0.3, 0.3],
-        confining_pressure=[0, 0, 0, 0, 1e3],
+        confining_pressure=[0, 0, 0, 0, 11e3],
     )
     names = [each.name for each in found.outcomes]
     assert names == ["LOOSE", "MOVES", "NO_SOLUTION", "NO_SOLUTION", "NO_SOLUTION"]

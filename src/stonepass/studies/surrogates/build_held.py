@@ -25,6 +25,7 @@ from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions, 
 from stonepass.studies.surrogates.held_stone import HeldStone
 from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
+from stonepass.studies.surrogates.refinement import least_certain
 from stonepass.studies.surrogates.regression import FEWEST, fit_polynomial, joined
 from stonepass.studies.surrogates.solved import MOVES
 from stonepass.studies.surrogates.surrogate import Surrogate
@@ -47,9 +48,10 @@ class _Sizes:
 
     Attributes
     ----------
-    free, gentle, pushed : (int, int)
+    free, gentle, pushed, refined : (int, int)
         Number of cases of a level, and number of those whose leak pressure is computed too; that
-        takes several times as long.
+        takes several times as long. The cases of `refined` join the third level where the
+        surrogate is least certain.
     base : tuple of 4 int
         Largest degrees of the functions without friction in the coordinates of the box.
     change : tuple of 4 int
@@ -59,13 +61,14 @@ class _Sizes:
     free: tuple[int, int]
     gentle: tuple[int, int]
     pushed: tuple[int, int]
+    refined: tuple[int, int]
     base: tuple[int, int, int, int]
     change: tuple[int, int, int, int]
 
 
-UNLOADED = _Sizes((384, 160), (96, 32), (448, 128), (20, 16, 0, 0), (8, 8, 8, 0))
-LOADED = _Sizes((2048, 256), (160, 48), (1024, 160), (20, 16, 0, 8), (8, 8, 8, 5))
-BASE_TOTAL, CHANGE_TOTAL = 20, 8  # largest total degrees of both
+UNLOADED = _Sizes((384, 160), (96, 32), (448, 128), (64, 8), (20, 16, 0, 0), (16, 12, 8, 0))
+LOADED = _Sizes((2048, 256), (160, 48), (1024, 160), (256, 32), (20, 16, 0, 8), (16, 12, 8, 6))
+BASE_TOTAL, CHANGE_TOTAL = 20, 16  # largest total degrees of both
 
 
 @array_dataclass
@@ -77,13 +80,28 @@ class _Cases:
     answers: list[Answer]
     values: Values
 
+    def joined(self, other: _Cases) -> _Cases:
+        """Return the cases of both."""
+        return _Cases(
+            self.at.joined(other.at),
+            [*self.answers, *other.answers],
+            np.concatenate([self.values, other.values]),
+        )
+
+    def part(self, rows: slice) -> _Cases:
+        """Return some of the cases."""
+        chosen = np.zeros(len(self.answers), dtype=bool)
+        chosen[rows] = True
+        return _Cases(self.at.where(chosen), self.answers[rows], self.values[rows])
+
 
 def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) -> Surrogate:
     """Build a surrogate of the direct model; for parameters see `build.build_surrogate`.
 
     Three levels of cases are solved: nearly without friction, with little friction, and with the
     friction of the box. Cases of the third level whose pressure would be above the largest one of a
-    surrogate, by the fit to the second level, are left out.
+    surrogate, by the fit to the second level, are left out. Further cases with the friction of the
+    box are solved where the surrogate is least certain.
 
     Raises
     ------
@@ -127,12 +145,23 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     at = domain.setting(quick, rest)
     below = physics.solve(quick, at, functions(at)).outcome == MOVES
     third = solved(rest.where(below), count(sizes.pushed[1]))
-    _refuse_lost([*free.answers, *second.answers, *third.answers])
-    both = _Cases(second.at.joined(third.at), [*second.answers, *third.answers],
-                   np.concatenate([second.values, third.values]))  # fmt: skip
+    both = second.joined(third)
+
+    candidates = domain.candidates(quick)
+    there = domain.setting(quick, candidates)
+
+    def pressures(half: slice) -> Float[np.ndarray, " m"]:
+        fitted, _ = _with_changes(base, both.part(half), sizes)
+        found: Float[np.ndarray, " m"] = physics.solve(quick, there, fitted(there)).pressure
+        return found
+
+    chosen = np.zeros(len(candidates.friction), dtype=bool)
+    chosen[least_certain(pressures, there.unit, count(sizes.refined[0]))] = True
+    both = both.joined(solved(candidates.where(chosen), count(sizes.refined[1])))
+    _refuse_lost([*free.answers, *both.answers])
     learnt, left_out = _with_changes(base, both, sizes)
     error = _claimed(quick, physics, learnt, both, left_out)
-    about = origin(case, [(quick, each.answers) for each in (free, second, third)])
+    about = origin(case, [(quick, each.answers) for each in (free, both)])
     lumen = fit_lumen(case, box) if case.load != Load() else None
     return Surrogate(case, box, physics, learnt, error, FLOOR, domain.stable, lumen, about)
 

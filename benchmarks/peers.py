@@ -25,6 +25,8 @@ FINE = 0.025
 ALLOWED = (0.5, 0.02, 0.01)
 OURS = ("fast", "standard")
 ALONE = ", state alone"
+# Between the parts of the name of a ratio, and after the name of that to which a target applies.
+SEPARATOR, MARK = " | ", " *"
 # By seating and element: smallest ratio of the processor times of CalculiX and stonepass.
 TARGETS = {
     ("frictionless", "CAX8"): 100.0,
@@ -200,15 +202,21 @@ def ratios(kind: str, found: list[Solved], exact: Solved) -> Iterator[Row]:
             chosen = each is best
             yield Row(
                 "peers",
-                f"{kind}: {other.who} over {each.who}" + (", as accurate" if chosen else ""),
+                _compared(kind, element, each) + (MARK if chosen else ""),
                 other.cpu / each.cpu,
                 "×",
                 TARGETS[kind, element] if chosen else None,
                 at_least=True,
             )
         if best is None:
-            yield Row("peers", f"{kind}: none of ours as accurate as {other.who}", 0.0, "×",
-                      TARGETS[kind, element], at_least=True)  # fmt: skip
+            what = SEPARATOR.join([kind, element, "none is as accurate", ""])
+            yield Row("peers", what, 0.0, "×", TARGETS[kind, element], at_least=True)
+
+
+def _compared(kind: str, element: str, mine: Solved) -> str:
+    """Return seating, element of CalculiX, our accuracy, and whether we estimate the error."""
+    accuracy = mine.who.removeprefix("stonepass, ").removesuffix(ALONE)
+    return SEPARATOR.join([kind, element, accuracy, "no" if ALONE in mine.who else "yes"])
 
 
 def cold_ratios(kind: str, found: list[Solved]) -> Iterator[Row]:
@@ -217,5 +225,6 @@ def cold_ratios(kind: str, found: list[Solved]) -> Iterator[Row]:
                "--friction", "0.475", "--seating", kind)  # fmt: skip
     cold = stonepass(*command, "--no-cache").cpu
     for other in (each for each in found if not each.who.startswith("stonepass")):
-        what = f"{kind}: {other.who} over a cold command, error estimated"
+        element = other.who.rpartition(" ")[2]
+        what = SEPARATOR.join([kind, element, "standard, cold command", "yes"])
         yield Row("peers", what, other.cpu / cold, "×")

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[1]
 SECTIONS = {
-    "peers": "Beside CalculiX on the exported deck",
-    "duels": "Beside CalculiX at its best",
+    "peers": "Comparison with CalculiX on the exported deck",
+    "duels": "Comparison with CalculiX decks tuned to one case",
     "scaling": "Growth with unknowns",
     "one answer": "One answer, after import (processor time)",
     "many": "Many answers (clock)",

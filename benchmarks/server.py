@@ -324,9 +324,13 @@ def page(document: dict[str, object]) -> str:
     for row in document["rows"]:
         target = ""
         if row["target"] is not None:
-            sign = "≥" if row["at_least"] else "≤"
-            target = f"{sign} {row['target']:g} {row['unit']}: {'met' if row['met'] else 'missed'}"
-        lines.append(f"| {row['what']} | {row['value']:.4g} {row['unit']} | {target} |")
+            number = f"{row['target']:g} {row['unit']}".rstrip()
+            # No more than all requests can be without an error, and no fewer than none with one.
+            bound = number == "100 %" if row["at_least"] else number == "0"
+            sign = "=" if bound else "≥" if row["at_least"] else "≤"
+            target = f"{sign} {number}: {'met' if row['met'] else 'missed'}"
+        value = f"{row['value']:.4g} {row['unit']}".rstrip()
+        lines.append(f"| {row['what']} | {value} | {target} |")
     return before + START + "\n".join(lines) + "\n" + END + rest.split(END)[1]
 
 

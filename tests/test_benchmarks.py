@@ -59,7 +59,7 @@ def test_the_page_has_every_number(benchmarks):
     from page import page
 
     rows = [
-        Row("peers", "one over the other", 123.0, "×", 100.0, at_least=True),
+        Row("peers", "pressed | CAX8 | fast | no *", 123.0, "×", 100.0, at_least=True),
         Row("memory", "largest", 345.0, "MB", 300.0),
     ]
     beside = {
@@ -80,6 +80,7 @@ def test_the_page_has_every_number(benchmarks):
         "contact_angle_error_deg": 0.25,
         "equator_pressure_error": 0.0125,
         "critical_pressure_error": 0.0075,
+        "ours_cpu_s": {"stonepass, fast, state alone": 0.45, "stonepass, standard": 2.08},
         "ratios": {"stonepass, fast, state alone": 14.0, "stonepass, standard": 3.0},
     }
     found = {
@@ -98,7 +99,10 @@ def test_the_page_has_every_number(benchmarks):
         found, {"peers": "Peers", "duels": "At its best", "scaling": "Growth", "memory": "Memory"}
     )
     for words in ("processor times of 3 decks", "123 ×", "met", "**missed**", "31.50", "0.500%", "| residual | 12% |", "abc",
-                  "rows 3, 4", "5 of 8", "0.25°", "1.25%", "| 14 × | – | 3 × |"):  # fmt: skip
+                  "rows through the wall (3, 4)", "5 of 8", "0.25°", "1.25%",
+                  "| pressed | CAX8 | fast \\* | no | 123 × | ≥ 100 × | met |",
+                  "| 0.45 s, 14 × | – | – | 2.08 s, 3 × |",
+                  "| pressed | no | 14 × | a tube; `fast` | 14 × | a tube; `fast` |"):  # fmt: skip
         assert words in text
 
 

@@ -31,7 +31,8 @@ def tube_of(law: Law, wall_ratio: float, load: Load, half_length: float) -> Tube
     preserve the volume only on average, weighted with the polynomials of the pressure. A motion v
     that preserves the volume on average but not at every point changes the energy by −p (div v)²,
     where p is the pressure in the wall. On coarse meshes that would make a stable wall unstable; κ
-    is large enough to prevent it. See "Volume beside the constraint" in docs/theory.md.
+    is large enough to prevent it. See "Stabilisation of the volume between the pressure nodes" in
+    docs/theory.md.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""At what urine pressure does a kidney stone pass a ureter, and what is the largest that can?
+"""At what urine pressure does a kidney stone in a ureter move, and what is the largest that moves?
 
 A Python implementation of the stone–ureter interaction model of Liu et al. 2022
 (doi 10.1016/j.jmbbm.2022.105432), with its errata corrected openly. Research use only.

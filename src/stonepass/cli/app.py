@@ -100,7 +100,7 @@ app = typer.Typer(
     name="stonepass",
     cls=_Group,
     help="At what urine pressure does a kidney stone move in a ureter, and what is the largest "
-    "stone that can pass? Research use only. Not a medical device.",
+    "stone that moves? Research use only. Not a medical device.",
     epilog="'stonepass COMMAND --help' shows the options of a command, with examples. "
     "'stonepass --install-completion' teaches your shell to complete commands and options.\n\n"
     f"Exit codes: {EXIT_CODES}.",

@@ -160,9 +160,13 @@ def _error(
     width = fine.downstream_angle - fine.contact_angle
     equator = fine.equator_contact_pressure
     return ErrorEstimate(
-        contact_angle=level.claim(coarse.contact_angle - fine.contact_angle, width),
-        equator_contact_pressure=level.claim(coarse.equator_contact_pressure - equator, equator),
+        contact_angle=level.contact_claim(coarse.contact_angle - fine.contact_angle, width),
+        equator_contact_pressure=level.contact_claim(
+            coarse.equator_contact_pressure - equator, equator
+        ),
         critical_pressure=(
-            None if pressure is None else level.claim(coarse.urine_pressure - pressure, pressure)
+            None
+            if pressure is None
+            else level.pressure_claim(coarse.urine_pressure - pressure, pressure)
         ),
     )

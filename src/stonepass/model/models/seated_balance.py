@@ -402,7 +402,7 @@ def _error(
     if seated.error is None or seated.coarse is None or found is None:
         return seated.error
     pressure = closure.end_pressure(seated.coarse) if coarse is None else coarse.pressure
-    claim = numerics.level.claim(pressure - found.pressure, found.pressure)
+    claim = numerics.level.pressure_claim(pressure - found.pressure, found.pressure)
     return replace(seated.error, critical_pressure=claim)
 
 

@@ -111,10 +111,10 @@ def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
     middle = (state.downstream_angle + state.contact_angle) / 2.0
     inner = np.abs(state.theta - middle) <= INNER * width
     ripple = np.abs(state.contact_pressure - coarse.pressure_at(state.theta))[inner].max()
-    angle = level.claim(state.contact_angle - coarse.contact_angle, width)
+    angle = level.contact_claim(state.contact_angle - coarse.contact_angle, width)
     return ErrorEstimate(
         contact_angle=float(angle + state.contact_angle_uncertainty),
-        equator_contact_pressure=level.claim(float(ripple), state.equator_contact_pressure),
+        equator_contact_pressure=level.contact_claim(float(ripple), state.equator_contact_pressure),
     )
 
 

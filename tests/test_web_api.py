@@ -350,8 +350,8 @@ def test_a_loose_stone_under_a_load_lies_in_the_narrowed_tube(asking):
     found = instant(asking, case, include=["section"])
     assert found["answer"]["outcome"] == "LOOSE"
     (radius,) = set(found["section"]["inner"]["r"])
-    law = sp.Ureter(material="ureter").material.law
-    lumen = lumen_ratio(4.54 / 3.5, law, sp.Load("2 kPa"))
+    wall = sp.Ureter("3.5 mm", "4.54 mm")
+    lumen = lumen_ratio(wall.wall_ratio, wall.material.law, sp.Load("2 kPa"))
     assert radius == pytest.approx(lumen, abs=1e-4)
     assert radius < 0.99
 

@@ -144,6 +144,9 @@ class SectionGrid:
     ) -> Section:
         """Return the interpolated section of a stone that is larger than the lumen.
 
+        Closer to the lumen than the smallest solved size (0.4 % of the way to the largest one) the
+        scaled parts are constant.
+
         Parameters
         ----------
         size_ratio, wall_ratio : float

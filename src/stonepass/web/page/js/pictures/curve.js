@@ -4,6 +4,8 @@ import { svg } from "../dom.js";
 import { digits, KILOPASCAL_PER, plain } from "../units.js";
 import { area, hatch, horizontal, line, roundUp, scale, ticks, vertical } from "./axes.js";
 
+const ABOVE_LABELS = 28; // px above the axis of sizes, where other labels stand
+
 /** Draw the curve; `solved` is the finite-element answer to the same question, if there is one. */
 export function curvePicture(width, height, { curve, answer, size, question, solved }) {
   const inside = area(width, height);
@@ -138,7 +140,7 @@ function point(x, y, ratio, pressure) {
       {
         class: "strong halo",
         x: x(ratio) + (left ? -12 : 12),
-        y: y(pressure) - 9,
+        y: Math.min(y(pressure) - 9, y(0) - ABOVE_LABELS),
         "text-anchor": left ? "end" : "start",
       },
       reading,

@@ -76,8 +76,8 @@ def _about_peers() -> str:
         "increments twice as long as those of the deck, and with those of the deck if that run did "
         "not converge. A single command of stonepass also has to load its libraries: the rows "
         "*cold command* of the second table use the processor time of a whole command "
-        f"(`--no-cache`). A target applies to the row with the mark {STAR}: the fastest solve of "
-        "stonepass whose three errors are no larger than those of CalculiX."
+        f"(`--no-cache`). The mark {STAR} is on the fastest solve of stonepass whose three errors "
+        "are no larger than those of CalculiX. Where there is a target, it applies to this row."
     )
 
 
@@ -93,12 +93,12 @@ def _about_duels(settings: dict[str, list[Any]], duels: list[dict[str, Any]]) ->
         f"differ in: {grid}. A deck is accepted if α₀ is within 0.5°, σ(90°) within 2 % and P_ucr "
         "within 1 % of the reference of stonepass. The four fastest accepted decks were then run "
         "for the other tubes. The table has the fastest accepted deck of each case." + _left(duels)
-        + " For stonepass it has the processor time and the ratio of the processor times (CalculiX "
-        "/ stonepass), for solves whose three errors are no larger than those of the deck. These "
-        "solves were timed again for this table; the times differ from those above, because the "
-        "machine is noisy ([Computing time](speed.md)). Without friction a solve with the error "
-        "estimate can take less time than the state alone, because the finer solve then starts "
-        "from the coarser one."
+        + " For stonepass the table has the processor time and the ratio of the processor times "
+        "(CalculiX / stonepass), for solves whose three errors are no larger than those of the "
+        "deck. These solves were timed again for this table; the times differ from those above, "
+        "because the machine is noisy ([Computing time](speed.md)). Without friction a solve with "
+        "the error estimate can take less time than the state alone, because the finer solve then "
+        "starts from the coarser one."
     )  # fmt: skip
 
 

@@ -198,7 +198,7 @@ def jobs() -> list[Row]:
         Row(SECTION, "a repeated question is answered", repeated, "ms"),
         Row(
             SECTION,
-            "jobs answered after a worker process was killed",
+            "further jobs that are answered after a worker process was killed",
             float(survived),
             "of 1",
             1.0,

@@ -115,8 +115,8 @@ def commands() -> Iterator[Row]:
             raise SystemExit(f"stonepass {what} failed: {spent.output}")
         largest = max(largest, spent.memory)
         yield Row("cold commands", f"stonepass {what}", spent.wall, "s", target)
-    yield Row("memory", "largest of these commands", largest, "MB", 300.0)
-    yield Row("memory", "this benchmark's process, all meshes", memory(), "MB")
+    yield Row("memory", "largest memory of these commands", largest, "MB", 300.0)
+    yield Row("memory", "memory of the process of this benchmark, all meshes", memory(), "MB")
 
 
 def processes() -> int:

@@ -436,7 +436,7 @@ def test_the_recipe_for_a_law_works(tmp_path, monkeypatch, capsys):
     law = Gent(6e4, 5.0)
     data = Tension(STRETCH, nominal_stress(law, STRETCH, "axial"), ("axial",) * len(STRETCH))
     found = fit_law(data, "gent")
-    assert pytest.approx(5.0, rel=1e-4) == found.material.law.J
+    assert pytest.approx(5.0, rel=1e-4) == found.material.law.Jm
     path = tmp_path / "law.toml"
     write_law(made_of(law), path)
     assert load_material(str(path)).law == law

@@ -37,7 +37,7 @@ class Plug:
     far_field_ground: bool = declared(
         Kind.FLAG,
         "--far-field-ground/--far-field-fibres",
-        "Include the ground matrix in the far field, or only the fibres.",
+        "Include the ground matrix in the far field; otherwise only the fibres are included.",
         default=False,
         shown_default="fibres",
     )

@@ -108,7 +108,9 @@ class InstantDocument(BaseModel):
         None, description="lists over the size of the stone; numbers that do not exist are null"
     )
     map: dict[str, Any] | None = Field(
-        None, description="grid of size ratio and wall ratio, and the passing line at the limit"
+        None,
+        description="critical pressure on a grid of size ratio and wall ratio; with a limit, also "
+        "the size ratio of the largest stone that moves, for each wall ratio",
     )
     section: dict[str, Any] | None = Field(
         None, description="outlines of stone and wall in inner radii, and the contact pressure"

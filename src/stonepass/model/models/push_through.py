@@ -53,14 +53,15 @@ class PushThrough:
     wetted: bool = declared(
         Kind.FLAG,
         "--wetted/--dry",
-        "Let urine enter the contact up to the seal, which reduces friction, or keep it dry.",
+        "Let urine enter the contact up to the seal, which reduces friction; otherwise the contact "
+        "stays dry.",
         default=False,
         shown_default="dry",
     )
     far_field_ground: bool = declared(
         Kind.FLAG,
         "--far-field-ground/--far-field-fibres",
-        "Include the ground matrix in the far field, or only the fibres.",
+        "Include the ground matrix in the far field; otherwise only the fibres are included.",
         default=False,
         shown_default="fibres",
     )

@@ -95,9 +95,13 @@ def test_the_front_door_takes_a_path_as_text(name):
         "a\tb\n1\t2.5\n1\t2.5\n",
         "# made by hand, with a comma\na;b\n1;2,5\n1;2,5\n",
         "a,b,,\n1,2.5,,\n1,2.5,,\n",
+        ",a,,b\n,1,,2.5\n,1,,2.5\n",  # empty columns anywhere
+        'a,b\n"1,0000","2,5000"\n"1,0000","2,5000"\n',  # in quotes, a comma is a decimal comma
+        "# a,b\n1,2.5\n1,2.5\n",  # as NumPy writes the names
+        "a,b\n\u00a01,2.5\n1,2.5\u00a0\n",
     ],
 )
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
 def test_a_table_of_a_spreadsheet_or_a_machine(tmp_path, text, encoding):
     """A measurement may be there twice; commas, semicolons or tabs; decimal commas."""
     path = tmp_path / "machine.csv"
@@ -107,12 +111,86 @@ def test_a_table_of_a_spreadsheet_or_a_machine(tmp_path, text, encoding):
     np.testing.assert_array_equal(columns["b"], [2.5, 2.5])
 
 
+def test_three_decimals_are_decimals_where_a_number_begins_with_zero(tmp_path):
+    found = read(tmp_path, "a;b\n1,250;0,500\n2,500;1,125\n")
+    np.testing.assert_array_equal(found["a"], [1.25, 2.5])
+    np.testing.assert_array_equal(found["b"], [0.5, 1.125])
+
+
+def test_minus_signs_and_dashes_of_typesetters_are_read(tmp_path):
+    found = read(tmp_path, "# a \u2013 b\na,b\n\u22121,2\n".encode())
+    assert (found["a"][0], found["b"][0]) == (-1.0, 2.0)
+    cp1252 = "# Pr\u00fcfung \u2013 Labor\na,b\n1,2\n".encode("cp1252")
+    assert read(tmp_path, cp1252)["b"].tolist() == [2.0]
+
+
+@pytest.mark.parametrize(
+    ("content", "remedy"),
+    [
+        (b"PK\x03\x04\x14\x00\x81\xff", "export the table as CSV"),
+        ("a,b\n1,2\n".encode("utf-16-le"), "save it with the encoding UTF-8"),
+        (b"\x81\x8d\x00\x01", "save it with the encoding UTF-8"),
+    ],
+)
+def test_a_file_that_is_no_text_is_named_with_the_remedy(tmp_path, content, remedy):
+    with pytest.raises(BadInput, match=remedy):
+        read(tmp_path, content)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("a b\n1 2\n", "the separator of the cells is ' '"),
+        ("a|b\n1|2\n", "the separator of the cells is '|'"),
+        ("a,b\n1,5,2,5\n", "separate the cells by semicolons"),
+        ("a,,b\n1,7,2\n", "the name of column 2 is empty"),
+    ],
+)
+def test_other_separators_and_columns_without_names_are_named(tmp_path, text, sentence):
+    with pytest.raises(BadInput) as refused:
+        read(tmp_path, text)
+    assert sentence in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "remedy"),
+    [
+        ("strain", "convert the values to 'stretch': a stretch is 1 + the strain"),
+        ("strain_percent", "convert the values to 'stretch'"),
+        ("inner_radius_mm", "convert the values to 'inner_diameter_mm': a diameter is twice"),
+    ],
+)
+def test_another_measure_is_not_a_matter_of_the_name(tmp_path, name, remedy):
+    path = tmp_path / "machine.csv"
+    path.write_text(f"{name},stress_kPa\n1,2\n")
+    with pytest.raises(BadInput) as refused:
+        read_columns(path, ("stress_kPa",), ("stretch", "inner_diameter_mm"))
+    assert remedy in str(refused.value)
+    assert "did you mean" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "-,Pa\nstretch,stress_kPa\n1,0\n1.5,2.5\n",
+        "stretch,stress_kPa\n-,Pa\n1,0\n1.5,2.5\n",
+        "stretch,stress_kPa\n[1],[N/mm²]\n1,0\n1.5,2.5\n",
+    ],
+)
+def test_units_above_and_below_the_names_must_agree_with_them(tmp_path, text):
+    path = tmp_path / "machine.csv"
+    path.write_text(text)
+    with pytest.raises(BadInput, match="convert the values to kPa, and change this row"):
+        read_columns(path, ("stretch", "stress_kPa"))
+
+
 @pytest.mark.parametrize(
     "text",
     [
         "a\tb\n1,234\t2\n",  # thousands or decimals?
         "a;b\n1,5;2.5\n",
-        'a,b\n"1,5",2\n',
+        "a;b\n1,234;2\n",
+        "a\tb\n1,234\t2,500\n",
     ],
 )
 def test_a_comma_of_two_meanings_is_refused(tmp_path, text):
@@ -165,5 +243,5 @@ def test_units_and_names_that_do_not_fit_are_named(tmp_path, text, sentence):
 def test_columns_without_a_name_that_have_cells_are_refused(tmp_path):
     path = tmp_path / "machine.csv"
     path.write_text("a,b,\n1,2,3\n")
-    with pytest.raises(BadInput, match="column is empty"):
+    with pytest.raises(BadInput, match="the name of column 3 is empty, but must be given"):
         read_columns(path, ("a", "b"))

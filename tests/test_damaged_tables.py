@@ -69,7 +69,7 @@ def has(sentence, *parts):
         ("tension", "stretch", "strech", ("column is strech", "did you mean 'stretch'")),
         ("tension", "stress_kPa", "stress_MPa", ("nominal_stress_MPa", "must be nominal_stress_kPa", "convert the values from MPa to kPa: 1 MPa is 1000 kPa")),
         ("tension", "axis", "axes", ("column is axes", "did you mean 'axis'")),
-        ("tension", "stretch", "", ("column is empty", "one of stretch, nominal_stress_kPa")),
+        ("tension", "stretch", "", ("the name of column 1 is empty", "give it a name")),
         ("tension", ",axis", ",stretch", ("column is stretch", "given once")),
         ("tension", "stretch,", "1.0,", ("column is 1.0", "one of stretch")),
         ("forces", "force_N", "force_kN", ("column is force_kN", "must be force_N", "1 kN is 1000 N")),

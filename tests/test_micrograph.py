@@ -679,6 +679,8 @@ def test_the_result_is_handed_on(tmp_path, capsys):
     assert run(["pressure", *case, "--friction-from", str(path)]) == 0
     handed = json.loads(capsys.readouterr().out)
     assert handed["case"]["stone"]["friction"] == 0.4375
+    path.write_text(path.read_text("utf-8"), "utf-16")  # as Windows PowerShell redirects it
+    assert run(["pressure", *case, "--friction-from", str(path)]) == 0
     assert run(["pressure", *case, "--friction-from", str(path), "--friction", "0.3"]) == 2
     assert "--friction-from cannot be used with --friction" in capsys.readouterr().err
     for content, sentence in (

@@ -436,6 +436,13 @@ def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
     lines = out.read_text().splitlines()
     assert lines[0].startswith("size_ratio,wall_ratio,friction,confining_pressure_kPa,stiffness")
     assert "NO_SOLUTION" in lines[2]
+    told = " ".join(capsys.readouterr().out.split())
+    assert "NO_SOLUTION, outside" in told
+    assert "outside: the surrogate does not cover these inputs" in told
+    before = table.read_text()
+    assert main([*command[:-1], str(table)]) == 2
+    assert "--out is" in capsys.readouterr().err
+    assert table.read_text() == before
     for option, value in (("--confining", "3kPa"), ("--friction", "0.1"), ("--xi", "1.2")):
         assert main([*command, option, value]) == 2
         assert f"{option} is" in capsys.readouterr().err

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import pickle
+import tomllib
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
@@ -260,13 +261,15 @@ def test_explicit_points_by_array_and_by_file(tmp_path):
         assert plan_of(vary=vary, points={"file": str(tmp_path / name)}) == plan
     for wrong, words in (
         ({"ureter.material.C10": [1e5]}, "'ureter.material.C10_Pa'"),
-        ({"stone.size_ratio": [1.1, np.nan]}, "point 2 is nan"),
+        ({"stone.size_ratio": [1.1, np.nan]}, "point 2, column 'stone.size_ratio' is nan"),
         ({"stone.size_ratio": [1.1, 70.0]}, "0.1 to 3"),
         (
             {"stone.size_ratio": [1.1], "stone.friction": [0.1, 0.2]},
             "numbers of values of the columns is 1, 2",
         ),
         ({"stone.size_ratio": ["a"]}, "a column of numbers"),
+        ({"stone.size_ratio": ["1_2"]}, "a column of numbers"),
+        ({"stone.size_ratio_mm": [1.1]}, "'stone.size_ratio', whose values have no unit"),
         ({"stone.size_ratio": [True, False]}, "a column of numbers"),
         ({"stone.size_ratio": []}, "number of points is 0"),
         ({"file": "none.csv"}, "none.csv"),
@@ -279,12 +282,20 @@ def test_explicit_points_by_array_and_by_file(tmp_path):
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (b"stone.size_ratio,stone.size_ratio\n1.1,1.2\n", "given several times"),
-        ("stone.size_ratio,Größe\n1.1,1\n".encode("latin-1"), "a readable csv file"),
-        ("stone.size_ratio\n1.1\n".encode("utf-16"), "points"),
-        (b"stone.size_ratio\n", "number of points is 0"),
+        (b"stone.size_ratio,stone.size_ratio\n1.1,1.2\n", "given once"),
+        ("stone.size_ratio,Größe\n1.1,1\n".encode("latin-1"), "in p.csv, key is Größe"),
+        (b"stone.size_ratio\n", "at least one row"),
+        (b"stone.size_ratio,stone.friction\n1.1,0.2\n1.2,\n", "row 3, column 'stone.friction'"),
+        (b"stone.size_ratio,stone.friction\n1.1,0.2\n70,0.2\n", "row 3, column 'stone.size_ratio'"),
+        (b"stone.size_ratio,stone.friction\n1.1,0.2\n1,2,0,3\n", "by semicolons"),
         (b"stone.size_ratio,lenght\n1.1,2\n", "in p.csv, key is lenght"),
-        (b"stone.size_ratio\n2024-01-01\n", "a column of numbers"),
+        (b"stone.size_ratio\n2024-01-01\n", "row 2, column 'stone.size_ratio' is 2024-01-01"),
+        (b"stone.size_ratio\n1_2\n", "row 2, column 'stone.size_ratio' is 1_2"),
+        # A point or a comma may separate thousands here.
+        (b"stone.size_ratio;ureter.material.C10_Pa\n1,1;120.000\n1,2;150.000\n", "thousands"),
+        (b"stone.size_ratio;ureter.material.C10_Pa\n1.1;120,000\n1.2;150,000\n", "thousands"),
+        (b"stone.size_ratio\tureter.material.C10_Pa\n2\t120,000\n2\t150,000\n", "thousands"),
+        (b"stone.size_ratio,ureter.material.C10_kPa\n-,Pa\n1.1,120\n", "convert the values to kPa"),
     ],
 )
 def test_a_points_file_with_a_mistake_is_refused_in_one_sentence(tmp_path, content, words):
@@ -302,13 +313,24 @@ def test_a_points_file_with_a_mistake_is_refused_in_one_sentence(tmp_path, conte
         "stone.size_ratio\tstone.friction\n1.1\t0.3\n1.2\t0.5\n",
         "# design of May\n\n# two coefficients\nstone.size_ratio,stone.friction\n1.1,0.3\n1.2,0.5\n",
         "\ufeffstone.size_ratio,stone.friction\r\n1.1,0.3\r\n1.2,0.5\r\n",
+        "stone.size_ratio,stone.friction,\n1.1,0.3,\n# the second\n1.2,0.5,\n,,\n",
+        "# stone.size_ratio,stone.friction\n1.1,0.3\n1.2,0.5\n",
+        "# Pr\u00fcfung\nstone.size_ratio,stone.friction\n1.1,0.3\n1.2,0.5\n",
     ],
 )
-def test_points_files_of_spreadsheets_are_read(tmp_path, text):
-    (tmp_path / "p.csv").write_text(text, encoding="utf-8", newline="")
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "cp1252"])
+def test_points_files_of_spreadsheets_are_read(tmp_path, text, encoding):
+    raw = text if encoding == "utf-8" else text.removeprefix("\ufeff")
+    (tmp_path / "p.csv").write_text(raw, encoding=encoding, newline="")
     plan = plan_of(vary={}, points={"file": str(tmp_path / "p.csv")})
     found = [(each["size_ratio"], each["friction"]) for each in (c.cells for c in plan.block(0, 2))]
     assert found == [(1.1, 0.3), (1.2, 0.5)]
+
+
+def test_keys_with_dots_need_no_quotes_in_toml():
+    table = tomllib.loads("stone.size_ratio = [1.1, 1.2]\nureter.material.C10_kPa = [100, 120]")
+    plan = plan_of(vary={}, points=table)
+    assert [each.cells["C10_Pa"] for each in plan.block(0, 2)] == pytest.approx([1e5, 1.2e5])
 
 
 def test_blanks_round_the_names_of_a_points_file_do_not_matter(tmp_path):

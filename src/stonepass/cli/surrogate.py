@@ -291,6 +291,8 @@ def evaluate(
     from stonepass.studies.surrogates.store import load_surrogate
 
     writable(out, (".csv",))
+    if out is not None and points is not None and out.resolve() == points.resolve():
+        raise BadInput("--out", str(out), "another file than that of --points")
     asked = _conditions(xi, eta, friction, confining, points)
     surrogate = load_surrogate(name, model)
     try:

@@ -25,7 +25,8 @@ def read_friction(path: Path) -> float:
         The file does not exist, is too large or is no JSON object, or the value is not a number
         from 0 to 2.
     """
-    text = read_text(path, LARGEST_FILE, "valid JSON", "friction file")
+    # A redirected output of Windows PowerShell is UTF-16.
+    text = read_text(path, LARGEST_FILE, "valid JSON", "friction file", other_encodings=True)
     try:
         document = json.loads(text)
     except (ValueError, RecursionError) as problem:

@@ -9,10 +9,15 @@ from typing import NoReturn
 from stonepass.errors import BadInput
 from stonepass.units import unit_ratio
 
-__all__ = ["is_unit", "refuse_column", "unit_of"]
+__all__ = ["is_unit", "refuse_column", "same_unit", "unit_of"]
 
 # Units at the end of column names, in addition to the lengths and pressures of `stonepass.units`.
 _FACTORS = {"N": 1.0, "kN": 1e3, "mN": 1e-3, "cN": 1e-2, "kgf": 9.80665, "gf": 9.80665e-3}
+# Words in the names of columns whose values must be converted, which renaming would not do.
+_OTHER_MEASURES = (
+    ("strain", "stretch", "a stretch is 1 + the strain"),
+    ("radius", "diameter", "a diameter is twice the radius"),
+)
 _ANGLES = {"deg": 1.0, "rad": 57.29577951308232}
 
 
@@ -36,6 +41,11 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
         Always.
     """
     left = [each for each in known if each not in header]
+    for word, meant, rule in _OTHER_MEASURES:
+        near = [each for each in known if meant in each]
+        if word in name.lower() and near:
+            raise BadInput(where, name, f"one of {', '.join(known)}",
+                           f"convert the values to '{near[0]}': {rule}")  # fmt: skip
     stem, unit = _split(name)
     stems = {_split(each)[0]: each for each in left}
     same = stems.get(stem) or next(
@@ -64,6 +74,11 @@ def unit_of(name: str) -> str:
 def is_unit(text: str) -> bool:
     """Return whether a text is a unit that may stand at the end of a column name."""
     return _ratio(text, text) is not None
+
+
+def same_unit(unit: str, other: str) -> bool:
+    """Return whether two names stand for one unit."""
+    return unit == other or _ratio(unit, other) == 1.0
 
 
 def _split(name: str) -> tuple[str, str]:

@@ -17,13 +17,18 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.io.column_names import refuse_column
 from stonepass.io.table_dialect import with_decimal_points
-from stonepass.io.table_header import NUMBER, layout_of, without_units
+from stonepass.io.table_header import NUMBER, layout_of, with_header, without_units
 from stonepass.io.text_file import read_text, write_file
 
-__all__ = ["Columns", "read_columns", "write_csv"]
+__all__ = ["Columns", "read_columns", "read_table", "write_csv"]
 
 LARGEST_FILE = 10_000_000  # largest size of a file in bytes
 MOST_ROWS = 100_000  # largest number of rows, including empty ones
+MINUS = "\N{MINUS SIGN}"  # some programs write it instead of the hyphen
+OTHER_SEPARATORS = ("|", "\N{BROKEN BAR}", " ")
+DECIMAL_COMMAS = "if the commas are decimal commas, separate the cells by semicolons"
+
+Row = tuple[int, list[str]]  # number of the line, and its cells
 
 
 class Columns(dict[str, Float[np.ndarray, " rows"]]):
@@ -60,8 +65,8 @@ def read_columns(
     """Read columns of numbers by the names in the header, in any order.
 
     The header is the first line with all required names. Lines before it and a row of units below
-    it are ignored, as are empty lines, lines that begin with ``#``, and empty columns to the right
-    of the last name. Cells may be separated by commas, semicolons or tabs (see `table_header`).
+    it are ignored, as are empty lines, lines that begin with ``#``, and empty columns. Cells may be
+    separated by commas, semicolons or tabs (see `table_header`).
     Rows in messages have the line numbers of an editor.
 
     Parameters
@@ -97,66 +102,116 @@ def read_columns(
     _check_header(path, header, required, optional)
     if len(rows) == 1:
         raise BadInput("file", path, "a table with at least one row under its header")
-    cells = _Cells(path, header, bounds or {}, words or {})
+    found = _columns(rows, _Cells(path, header, bounds or {}, words or {}))
+    if distinct:
+        _check_repeated(path, found)
+    return found
+
+
+def read_table(path: Path, largest: int, most_rows: int) -> Columns:
+    """Read all columns of numbers of a table, whatever their names are.
+
+    Parameters
+    ----------
+    path : Path
+        A CSV file, see `read_columns`.
+    largest : int
+        Largest size of the file in bytes.
+    most_rows : int
+        Largest number of rows.
+
+    Raises
+    ------
+    BadInput
+        The file cannot be read, see `read_columns`.
+    """
+    rows = _rows(path, (), largest, most_rows)
+    if len(rows) < 2:
+        raise BadInput("file", path, "a table with names and at least one row below them")
+    header = [name.strip() for name in rows[0][1]]
+    _check_names(path, header)
+    return _columns(rows, _Cells(path, header, {}, {}))
+
+
+def _columns(rows: Sequence[Row], cells: _Cells) -> Columns:
     values = [cells.numbers(line, row) for line, row in rows[1:]]
     lines = tuple(line for line, _ in rows[1:])
-    if distinct:
-        _check_repeated(path, lines, values)
-    return Columns(lines, dict(zip(header, np.array(values).T, strict=True)))
+    return Columns(lines, dict(zip(cells.header, np.array(values).T, strict=True)))
 
 
-def _rows(path: Path, required: Sequence[str]) -> list[tuple[int, list[str]]]:
+def _rows(
+    path: Path,
+    required: Sequence[str],
+    largest: int = LARGEST_FILE,
+    most_rows: int = MOST_ROWS,
+) -> list[Row]:
     """Return the line number and the cells of the header and of every row that is not empty."""
-    text = read_text(path, LARGEST_FILE, "a CSV file of text", other_encodings=True)
-    lines = list(io.StringIO(text, newline=""))
+    text = read_text(path, largest, "a CSV file of text", other_encodings=True)
+    lines = with_header(list(io.StringIO(text, newline="")))
     delimiter, before = layout_of([line.rstrip("\r\n") for line in lines], required)
     reader = csv.reader(iter(lines[before:]), delimiter=delimiter, strict=True)
     try:
-        rows = [(reader.line_num + before, cells) for cells in islice(reader, MOST_ROWS + 1)]
+        rows = [(reader.line_num + before, cells) for cells in islice(reader, most_rows + 1)]
     except csv.Error as problem:
         where = f"in {path.name}, row {reader.line_num + before}"
         raise BadInput(where, str(problem), "a row of a CSV file") from problem
-    require(len(rows) <= MOST_ROWS, f"number of rows of {path.name}", f"more than {MOST_ROWS}",
+    require(len(rows) <= most_rows, f"number of rows of {path.name}", f"more than {most_rows}",
             "fewer")  # fmt: skip
     kept = [
-        (line, cells)
+        (line, [cell.strip().replace(MINUS, "-") for cell in cells])
         for line, cells in rows
         if any(cell.strip() for cell in cells) and not cells[0].lstrip().startswith("#")
     ]
-    table = without_units(_without_empty_columns(kept), path.name)
-    return with_decimal_points(table, delimiter, path.name)
+    above = [line.rstrip("\r\n").split(delimiter) for line in lines[max(before - 1, 0) : before]]
+    table = without_units(
+        _without_empty_columns(kept), path.name, (before, above[0]) if above else None
+    )
+    return with_decimal_points(table, path.name)
 
 
-def _without_empty_columns(rows: list[tuple[int, list[str]]]) -> list[tuple[int, list[str]]]:
-    """Remove the cells after the last name of the header if all of them are empty."""
+def _without_empty_columns(rows: list[Row]) -> list[Row]:
+    """Remove columns that have neither a name nor a value."""
     if not rows:
         return rows
-    header = [cell.strip() for cell in rows[0][1]]
-    width = len(header)
-    while width and not header[width - 1]:
-        width -= 1
-    empty = all(not cell.strip() for _, cells in rows for cell in cells[width:])
-    return [(line, cells[:width]) for line, cells in rows] if width and empty else rows
+    width = max(len(cells) for _, cells in rows)
+    used = [any(cells[k] for _, cells in rows if k < len(cells)) for k in range(width)]
+    if all(used):
+        return rows
+    return [
+        (line, [cell for cell, kept in zip(cells, used, strict=False) if kept])
+        for line, cells in rows
+    ]
 
 
 def _check_header(
     path: Path, header: list[str], required: Sequence[str], optional: Sequence[str]
 ) -> None:
     known = [*required, *optional]
+    for separator in OTHER_SEPARATORS if len(header) == 1 else ():
+        if not {name.strip() for name in header[0].split(separator)[1:]}.isdisjoint(known):
+            raise BadInput(f"in {path.name}, the separator of the cells", f"'{separator}'",
+                           "a comma, a semicolon or a tab")  # fmt: skip
     for name in header:
-        if name not in known:
+        if name and name not in known:
             refuse_column(f"in {path.name}, column", name, known, header)
-    for name in known:
-        if header.count(name) > 1:
-            raise BadInput(f"in {path.name}, column", name, "given once")
+    _check_names(path, header)
     for name in required:
         if name not in header:
             raise BadInput(f"in {path.name}, column '{name}'", "missing", "given")
 
 
-def _check_repeated(path: Path, lines: Sequence[int], rows: Sequence[Sequence[float]]) -> None:
+def _check_names(path: Path, header: Sequence[str]) -> None:
+    for number, name in enumerate(header, 1):
+        if not name:
+            raise BadInput(f"in {path.name}, the name of column {number}", "empty", "given",
+                           "delete this column or give it a name")  # fmt: skip
+        if header.count(name) > 1:
+            raise BadInput(f"in {path.name}, column", name, "given once")
+
+
+def _check_repeated(path: Path, found: Columns) -> None:
     first: dict[tuple[float, ...], int] = {}
-    for line, numbers in zip(lines, rows, strict=True):
+    for line, numbers in zip(found.lines, np.array(list(found.values())).T, strict=True):
         same = first.setdefault(tuple(numbers), line)
         if same != line:
             raise BadInput(f"in {path.name}, row {line}", f"equal to row {same}",
@@ -175,8 +230,12 @@ class _Cells:
     def numbers(self, line: int, cells: list[str]) -> list[float]:
         """Return the numbers of one row."""
         if len(cells) != len(self.header):
-            allowed = f"{len(self.header)}, as in the header"
-            raise BadInput(f"in {self.path.name}, row {line}", f"{len(cells)} cells", allowed)
+            raise BadInput(
+                f"in {self.path.name}, row {line}",
+                f"{len(cells)} cells",
+                f"{len(self.header)}, as in the header",
+                DECIMAL_COMMAS if len(cells) == 2 * len(self.header) else "",
+            )
         return [self._number(line, *pair) for pair in zip(self.header, cells, strict=True)]
 
     def _number(self, line: int, name: str, cell: str) -> float:

@@ -10,38 +10,36 @@ from stonepass.errors import BadInput
 __all__ = ["with_decimal_points"]
 
 _COMMA = re.compile(r"\s*[-+]?\d*,\d+([eE][-+]?\d+)?\s*", re.ASCII)
-_GROUPED = re.compile(r"\s*[-+]?\d{1,3}(,\d{3})+\s*", re.ASCII)
+# A number whose commas may separate thousands; "0,500" is none, because it would begin with 0.
+_GROUPED = re.compile(r"\s*[-+]?[1-9]\d{0,2}(,\d{3})+\s*", re.ASCII)
 
 
 def with_decimal_points(
-    rows: Iterable[tuple[int, list[str]]], delimiter: str, name: str
+    rows: Iterable[tuple[int, list[str]]], name: str
 ) -> list[tuple[int, list[str]]]:
-    """Replace decimal commas by points in a table whose cells are not separated by commas.
+    """Replace decimal commas by points.
 
     Parameters
     ----------
     rows : iterable of (line, cells)
-        The header and the rows below it, without comments.
-    delimiter : str
-        The character that separates the cells.
+        The header and the rows below it, without comments. If commas separate the cells, a cell
+        with a comma stood in quotes.
     name : str
         The name of the file for messages.
 
     Raises
     ------
     BadInput
-        The commas could separate decimals or thousands: the table has decimal points too, or it has
-        tabs and three digits follow every comma.
+        The commas could separate decimals or thousands: the table has decimal points too, or three
+        digits follow every comma.
     """
     found = list(rows)
-    if delimiter == ",":
-        return found
-    commas = [(line, cell) for line, cells in found for cell in cells if _COMMA.fullmatch(cell)]
+    numbers = found[1:]
+    commas = [(line, cell) for line, cells in numbers for cell in cells if _COMMA.fullmatch(cell)]
     if not commas:
         return found
-    points = any("." in cell for _, cells in found for cell in cells)
-    thousands = delimiter == "\t" and all(_GROUPED.fullmatch(cell) for _, cell in commas)
-    if points or thousands:
+    points = any("." in cell for _, cells in numbers for cell in cells)
+    if points or all(_GROUPED.fullmatch(cell) for _, cell in commas):
         line, cell = commas[0]
         raise BadInput(f"in {name}, row {line}", cell.strip(), "a number with a decimal point",
                        "a comma may separate thousands here")  # fmt: skip

@@ -11,14 +11,14 @@ import re
 from collections.abc import Collection, Sequence
 
 from stonepass.errors import BadInput
-from stonepass.io.column_names import is_unit, unit_of
+from stonepass.io.column_names import is_unit, same_unit, unit_of
 
-__all__ = ["LONGEST_PREAMBLE", "NUMBER", "layout_of", "without_units"]
+__all__ = ["NUMBER", "layout_of", "with_header", "without_units"]
 
 NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
 DELIMITERS = (",", ";", "\t")
 LONGEST_PREAMBLE = 200  # largest number of lines before the header
-NO_UNIT = ("", "-", "–", "mm/mm", "m/m")  # cells in a row of units below dimensionless columns
+NO_UNIT = ("", "-", "–", "1", "mm/mm", "m/m")  # cells in a row of units below dimensionless columns
 _DECLARED = re.compile(r"sep=(.)\s*", re.IGNORECASE)  # first line of a file that Excel reads
 
 Row = tuple[int, list[str]]  # number of the line, and its cells
@@ -43,7 +43,7 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
     shown = [
         (number, line)
         for number, line in enumerate(lines[:LONGEST_PREAMBLE])
-        if line.strip() and not line.lstrip().startswith("#") and (number or not declared)
+        if line.strip() and not _is_comment(line) and (number or not declared)
     ]
     for number, line in shown if required else ():
         for delimiter in candidates:
@@ -69,7 +69,39 @@ def _header_above(above: Sequence[tuple[int, str]], delimiter: str) -> int | Non
     return None
 
 
-def without_units(rows: list[Row], name: str) -> list[Row]:
+def with_header(lines: Sequence[str]) -> list[str]:
+    """Return the lines of a file; a header that stands in a comment loses its ``#``.
+
+    The header may stand in the last comment before the first row, if this is a row of numbers and
+    the comment has as many cells, none of which is a number. NumPy writes such files.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        Lines of the file.
+    """
+    found = list(lines)
+    filled = [number for number, line in enumerate(found[:LONGEST_PREAMBLE]) if line.strip()]
+    first = next((k for k, n in enumerate(filled) if not _is_comment(found[n])), 0)
+    if first:
+        above, row = filled[first - 1], found[filled[first]]
+        text = found[above].lstrip().removeprefix("#").lstrip()
+        if any(_all_numbers(row, each) and _are_names(text, row, each) for each in DELIMITERS):
+            found[above] = text
+    return found
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip().startswith("#")
+
+
+def _are_names(line: str, row: str, delimiter: str) -> bool:
+    """Return whether a line has as many cells as a row of numbers, none of which is a number."""
+    names = _cells(line, delimiter)
+    return len(names) == len(_cells(row, delimiter)) and not any(map(NUMBER.fullmatch, names))
+
+
+def without_units(rows: list[Row], name: str, above: Row | None = None) -> list[Row]:
     """Remove a row of units below the header, after a check against the units in the column names.
 
     Parameters
@@ -78,27 +110,35 @@ def without_units(rows: list[Row], name: str) -> list[Row]:
         The header and the rows below it.
     name : str
         The name of the file for messages.
+    above : (line, cells), optional
+        The row above the header, which may have the units too.
 
     Raises
     ------
     BadInput
         A unit differs from the unit in the name of its column.
     """
-    if len(rows) < 2 or len(rows[1][1]) != len(rows[0][1]):
-        return rows
-    (_, header), (line, cells) = rows[:2]
-    if not _are_units(cells):
-        return rows
+    header = rows[0][1] if rows else []
+    for row in (above, *rows[1:2]):
+        if row is not None and len(row[1]) == len(header) and _are_units(row[1]):
+            _check_units(header, row, name)
+    below = len(rows) > 1 and len(rows[1][1]) == len(header) and _are_units(rows[1][1])
+    return [rows[0], *rows[2:]] if below else rows
+
+
+def _check_units(header: Sequence[str], units: Row, name: str) -> None:
+    line, cells = units
     for column, cell in zip(header, cells, strict=True):
         given, wanted = _bare(cell), unit_of(column.strip())
-        if given != wanted and not (given in NO_UNIT and not wanted) and given:
+        if given in NO_UNIT and (not wanted or not given):
+            continue
+        if not wanted or not same_unit(given, wanted):
             raise BadInput(
                 f"in {name}, row {line}, the unit of column '{column.strip()}'",
                 given,
                 wanted or "empty, since the column is dimensionless",
                 f"convert the values{' to ' + wanted if wanted else ''}, and change this row",
             )
-    return [rows[0], *rows[2:]]
 
 
 def _cells(line: str, delimiter: str) -> list[str]:
@@ -123,5 +163,5 @@ def _are_units(cells: Sequence[str]) -> bool:
 
 
 def _bare(cell: str) -> str:
-    """Return a unit without brackets."""
-    return cell.strip().strip("()[]").strip()
+    """Return a unit without brackets, with plain exponents."""
+    return cell.strip().strip("()[]").strip().replace("²", "2")

@@ -14,6 +14,8 @@ from stonepass.errors import BadInput, did_you_mean, require
 
 __all__ = ["WRITING", "check_writable", "existing", "read_text", "replace_file", "write_file"]
 
+ARCHIVE = b"PK\x03\x04"  # first bytes of a workbook of a spreadsheet, which is a ZIP archive
+SAVE_AS_TEXT = "it is a workbook or another archive: export the table as CSV"
 MOST_NAMES = 1000  # files of a folder that are compared with a missing one
 WRITING = threading.RLock()  # held while a file is being written; see `studies.executor`
 
@@ -67,7 +69,7 @@ def read_text(
     what : str
         Kind of the file in messages.
     other_encodings : bool
-        True if UTF-16 (with a byte order mark) and Latin-1 (without control characters) are
+        True if UTF-16 (with a byte order mark) and Windows-1252 (of which Latin-1 is a part) are
         accepted in addition to UTF-8.
 
     Raises
@@ -83,7 +85,10 @@ def read_text(
             raw = file.read(largest + 1)  # the size of a pipe or device is unknown
         require(len(raw) <= largest, what, path, f"smaller than {size}")
         return _decoded(raw) if other_encodings else raw.decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as problem:
+    except UnicodeDecodeError as problem:
+        remedy = SAVE_AS_TEXT if raw.startswith(ARCHIVE) else "save it with the encoding UTF-8"
+        raise BadInput(what, path, kind, remedy) from problem
+    except OSError as problem:
         raise BadInput(what, path, f"{kind} ({problem})") from problem
 
 
@@ -94,12 +99,14 @@ def _decoded(raw: bytes) -> str:
             raise UnicodeDecodeError("utf-16", raw[:4], 0, 4, "control characters")
         return text
     try:
-        return raw.decode("utf-8-sig")
+        text = raw.decode("utf-8-sig")
     except UnicodeDecodeError:
-        text = raw.decode("latin-1")
+        text = raw.decode("cp1252")
         if _has_control_characters(text):
-            raise
-        return text
+            raise UnicodeDecodeError("cp1252", raw[:4], 0, 4, "control characters") from None
+    if 4 * text.count("\0") > len(text):  # UTF-16 without a byte order mark
+        raise UnicodeDecodeError("utf-8", raw[:4], 0, 4, "NUL characters")
+    return text
 
 
 def _has_control_characters(text: str) -> bool:

@@ -437,8 +437,8 @@ def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
     assert lines[0].startswith("size_ratio,wall_ratio,friction,confining_pressure_kPa,stiffness")
     assert "NO_SOLUTION" in lines[2]
     told = " ".join(capsys.readouterr().out.split())
-    assert "NO_SOLUTION, outside" in told
-    assert "outside: the surrogate does not cover these inputs" in told
+    assert "0.5 OUTSIDE" in told
+    assert "OUTSIDE: the surrogate does not cover these inputs" in told
     before = table.read_text()
     assert main([*command[:-1], str(table)]) == 2
     assert "--out is" in capsys.readouterr().err

@@ -45,20 +45,18 @@ def answers_table(answers: SurrogateAnswers) -> Table:
     """Return the first answers of a surrogate as a table."""
     table = Table(box=box.SIMPLE_HEAD)
     for name in ("ξ", "η", "friction", "outcome", "P_ucr (kPa)", "claimed error (kPa)"):
-        table.add_column(
-            name, justify="left" if name == "outcome" else "right", no_wrap=name == "outcome"
-        )
+        table.add_column(name, justify="left" if name == "outcome" else "right")
     for row in answers.to_rows()[:MOST_ROWS]:
         numbers = (row["critical_pressure_kPa"], row["critical_pressure_error_kPa"])
         table.add_row(
             *(f"{row[name]:.4g}" for name in ("size_ratio", "wall_ratio", "friction")),
-            f"{row['outcome']}, outside" if row["outside"] else row["outcome"],
+            "OUTSIDE" if row["outside"] else row["outcome"],
             *("–" if value is None else f"{value:.4g}" for value in numbers),
         )
     notes = []
     if answers.outside.any():
         notes.append(
-            "outside: the surrogate does not cover these inputs, see 'stonepass surrogate show'"
+            "OUTSIDE: the surrogate does not cover these inputs, see 'stonepass surrogate show'"
         )
     if len(answers) > MOST_ROWS:
         notes.append(f"{len(answers) - MOST_ROWS} further answers are not shown")

@@ -239,18 +239,20 @@ class _Cells:
         return [self._number(line, *pair) for pair in zip(self.header, cells, strict=True)]
 
     def _number(self, line: int, name: str, cell: str) -> float:
-        where = f"in {self.path.name}, row {line}, column '{name}'"
         if name in self.words:
             known = list(self.words[name])
-            if cell.strip() not in known:
-                refuse_unknown(where, cell.strip(), known)
-            return float(known.index(cell.strip()))
+            if cell not in known:
+                refuse_unknown(self._where(line, name), cell, known)
+            return float(known.index(cell))
         value = float(cell) if NUMBER.fullmatch(cell) else math.nan
         low, high = self.bounds.get(name, (-math.inf, math.inf))
         if not (math.isfinite(value) and low <= value <= high):
             within = f" from {low:g} to {high:g}" if name in self.bounds else ""
-            raise BadInput(where, cell, f"a number{within}")
+            raise BadInput(self._where(line, name), cell, f"a number{within}")
         return value
+
+    def _where(self, line: int, name: str) -> str:
+        return f"in {self.path.name}, row {line}, column '{name}'"
 
 
 def write_csv(path: Path, header: Iterable[str], rows: Iterable[Iterable[Any]]) -> None:

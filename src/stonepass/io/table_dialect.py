@@ -35,7 +35,12 @@ def with_decimal_points(
     """
     found = list(rows)
     numbers = found[1:]
-    commas = [(line, cell) for line, cells in numbers for cell in cells if _COMMA.fullmatch(cell)]
+    commas = [
+        (line, cell)
+        for line, cells in numbers
+        for cell in cells
+        if "," in cell and _COMMA.fullmatch(cell)
+    ]
     if not commas:
         return found
     points = any("." in cell for _, cells in numbers for cell in cells)

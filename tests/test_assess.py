@@ -417,6 +417,17 @@ def test_contradictions_are_told(tmp_path):
     assert MORE in comparisons
 
 
+def test_a_dilated_segment_that_is_narrower_decides_nothing(tmp_path):
+    narrow = '[dilated]\ninner_diameter = "3 mm ± 0.1 mm"'  # the ureter has 3.5 mm
+    told = {
+        each.sentence: each.decided
+        for each in decisions(by_formula(patient(tmp_path, dilated=narrow)))
+    }
+    (sentence,) = (each for each in told if "narrower than the ureter" in each)
+    assert not told[sentence]
+    assert "The present urine pressure is below the critical pressure." not in told
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from stonepass.clinic.assessment import Assessment
 from stonepass.studies.censored_samples import Fraction, Range
 
@@ -14,6 +16,9 @@ __all__ = ["CONTRADICTIONS", "Decision", "decisions", "next_measurement"]
 DECIDED = 0.95
 # Codes of cautions about contradictions between the measurements, or with the model.
 CONTRADICTIONS = ("inputs_contradict", "samples_loose")
+# Fraction of the samples with a dilated segment that is not dilated, above which its diameter says
+# nothing about the present pressure.
+NOT_DILATED = 0.5
 # Inputs that cannot be measured in a patient.
 UNMEASURABLE = ("friction", "stiffness")
 
@@ -111,9 +116,15 @@ def _held(found: Assessment) -> Decision | None:
 
 def _present(found: Assessment) -> Decision | None:
     """Return whether the samples decide that the present pressure is below the critical one."""
-    above = found.below_present
-    if above is None:
+    present, above = found.at_present, found.below_present
+    if present is None or above is None:
         return None
+    if np.mean(present.opening < 1.0) > NOT_DILATED:
+        return Decision(
+            False,
+            "How far the present urine pressure is from the critical pressure: the dilated segment "
+            "was measured narrower than the ureter.",
+        )
     if above.high <= 1.0 - DECIDED:
         return Decision(True, "The present urine pressure is below the critical pressure.")
     return Decision(

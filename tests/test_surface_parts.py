@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from shown import check_shown
 from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.surface.baseline import fit_baseline
+from stonepass.surface.border import without_border
 from stonepass.surface.data_bar import find_bar
 from stonepass.surface.friction import surface_friction
 from stonepass.surface.gaps import known_area
@@ -22,6 +24,7 @@ from stonepass.surface.readers import read_surface_image
 from stonepass.surface.surface_image import Area, SurfaceImage
 from stonepass.surface.untrusted import read_untrusted
 
+EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
 ROWS, COLUMNS = 240, 360
 
@@ -101,6 +104,72 @@ def test_the_margins_of_a_figure_cut_from_a_page_are_left_out(tmp_path):
     assert found.area == Area(20, 10, 20 + COLUMNS, 10 + ROWS)
     np.testing.assert_array_equal(found.surface, surface())
     assert "the last 25 columns look like a data bar or a margin" in found.notes[-1]
+
+
+@pytest.mark.parametrize("grey", [0, 128, 255])
+@pytest.mark.parametrize("width", [1, 3, 5, 100])
+@pytest.mark.parametrize("sides", ["columns", "rows", "frame", "left"])
+def test_a_border_of_one_grey_is_left_out_and_told(tmp_path, sides, width, grey):
+    """However thin or wide, and at whatever sides: the area is the surface."""
+    across, down = {
+        "columns": ((width, width), (0, 0)), "rows": ((0, 0), (width, width)),
+        "frame": ((width, width), (width, width)), "left": ((width, 0), (0, 0)),
+    }[sides]  # fmt: skip
+    padded = np.pad(surface(), (down, across), constant_values=grey)
+    Image.fromarray(padded).save(tmp_path / "a.png")
+    found = read_surface_image(tmp_path / "a.png")
+    inner = Area(across[0], down[0], across[0] + COLUMNS, down[0] + ROWS)
+    assert found.area == inner
+    assert len(found.notes) == (across[0] > 0) + (across[1] > 0) + (down[0] > 0) + (down[1] > 0)
+    rows, columns = padded.shape
+    whole = read_surface_image(tmp_path / "a.png", Area(0, 0, columns, rows)).with_pixel(MICRO)
+    try:
+        told = " ".join(map(str, surface_friction(whole, "2 um").warnings))
+    except BadInput as refused:
+        told = str(refused)
+        assert "darkest or brightest grey" in told
+    assert inner.option in told
+
+
+def test_the_friction_of_a_picture_with_borders_is_that_without(tmp_path, capsys):
+    """The example with five white columns at both sides, and a frame of three pixels as JPEG."""
+    known = np.asarray(Image.open(EXAMPLES / "known_slopes.png"))
+    sides = np.pad(known, ((0, 0), (5, 5)), constant_values=255)
+    Image.fromarray(sides).save(tmp_path / "sides.png")
+    frame = np.pad(known, 3, constant_values=255)
+    Image.fromarray(frame).save(tmp_path / "frame.jpg", quality=85)
+    for name, tolerance in (("sides.png", 1e-12), ("frame.jpg", 0.01)):
+        found = read_surface_image(tmp_path / name).with_pixel(0.5 * MICRO)
+        plain = read_surface_image(EXAMPLES / "known_slopes.png").with_pixel(0.5 * MICRO)
+        with_border, without = (surface_friction(each, "24.8 um") for each in (found, plain))
+        assert with_border.friction == pytest.approx(without.friction, rel=tolerance)
+        assert "the first" in " ".join(found.notes)
+    command = ["friction", str(tmp_path / "sides.png"), "--pixel", "0.5um", "--height-range"]
+    assert run([*command, "24.8um", "--area", "0,0,1011,240"]) == 0
+    assert "exclude them with --area 5,0,1006,240" in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_smooth_surface_has_no_border():
+    """Columns of one grey each, up to the edge, which is black or white or a dark corner."""
+    x = np.arange(COLUMNS)
+    waves = 127.5 + 127.5 * np.cos(x / 30.0)
+    ramp = np.clip(x - 40.0, 0.0, 255.0)
+    for profile in (waves, ramp, 255.0 * (x // 30 % 2)):
+        grey = np.tile(np.round(profile), (ROWS, 1)).astype(np.uint8)
+        for each in (grey, np.ascontiguousarray(grey.T)):
+            area = Area(0, 0, each.shape[1], each.shape[0])
+            assert without_border(each, area) == area
+
+
+def test_a_border_beside_a_declared_bar_is_left_out(tmp_path):
+    fei = FEI.replace("ResolutionX=80", "ResolutionX=90").replace(
+        "ResolutionY=50", "ResolutionY=60"
+    )
+    grey = np.vstack([np.pad(surface()[:50, :80], 5), np.zeros((10, 90), np.uint8)])
+    path = save_tiff(tmp_path / "sem.tif", grey, extratags=[(34682, "s", 0, fei, True)])
+    found = read_surface_image(path)
+    assert found.area == Area(5, 5, 85, 55)
+    assert any("the lowest 15 rows look like" in each for each in found.notes)
 
 
 def test_a_bar_of_an_fei_file_without_a_pixel_size(tmp_path):

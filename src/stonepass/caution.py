@@ -121,6 +121,10 @@ SENTENCES = {
         "{fraction:.0%} of the rows have the same grey in at least half of their pixels, so they "
         "are probably a data bar or a missing part of the image; exclude them with --area"
     ),
+    "plain_border": (
+        "the outermost rows or columns have one single grey and end abruptly, so they are probably "
+        "a border; exclude them with {option}"
+    ),
     # --- laboratory
     "not_bounded": (
         "the data do not determine {name}: its confidence interval is open on both sides"

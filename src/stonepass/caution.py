@@ -310,6 +310,10 @@ SENTENCES = {
         "the total indices of {response} are known to ± {width:.2f} only: use more samples"
     ),
     # --- surface images, continued
+    "lost_points": (
+        "lost points or spikes of the height map ({count} at {heights}) are treated as missing "
+        "heights, because they are far from all heights around them"
+    ),
     "gaps_bridged": (
         "{fraction:.1%} of the heights along the profiles are missing and were filled by straight "
         "lines of up to {length_um:.3g} µm; instruments lose steep slopes first, so the friction "

@@ -146,7 +146,7 @@ LATE_LIBRARIES = {
     "autograd.numpy": ("inputs.material_file", "materials.derivatives", "materials.secant"),
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
-    "scipy.ndimage": ("surface.grey_scale",),
+    "scipy.ndimage": ("surface.grey_scale", "surface.lost_points"),
     "scipy.stats": (
         "studies.surrogates.box",
         "studies.sweeps.sampling",

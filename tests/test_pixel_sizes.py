@@ -1,7 +1,9 @@
 """Scales that files state, and variants of height-map files."""
 
 import json
+import re
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,14 +12,17 @@ from picture_files import FEI, ZEISS, moved_x3p, packed_sur, save_tiff, some_gre
 from PIL import Image
 from SurfaceTopography import Topography
 
+import stonepass
 from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.surface.friction import surface_friction
+from stonepass.surface.height_maps import HEIGHT_MAPS
 from stonepass.surface.pixel_size import imagej_scan, jeol_scan, ome_scan
 from stonepass.surface.readers import read_surface_image
 from stonepass.surface.surface_image import Area
 from stonepass.surface.untrusted import read_untrusted
 
+EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
 JEOL = (
     "$SEM_DATA_VERSION 1\r\n$CM_MAG 1000\r\n$CM_FULL_SIZE 80 50\r\n"
@@ -131,6 +136,34 @@ def test_a_resized_picture_says_so_and_what_to_do(tmp_path, kind):
     )
     assert f"give {double}um if it was resized as a whole, or {size}um if it was cropped" in told
     assert read_surface_image(path).with_pixel(MICRO).pixel == (MICRO, MICRO)
+
+
+def test_a_given_pixel_size_that_contradicts_the_file_is_told(tmp_path, capsys):
+    """A picture keeps the given size with a note; a height map has its own, as its heights."""
+    tag = (34682, "s", 0, FEI.replace("2e-007", "2.5e-007"), True)
+    path = save_tiff(tmp_path / "sem.tif", some_grey(), extratags=[tag])
+    found = read_surface_image(path)
+    note = "the FEI tag says 0.25 µm × 0.25 µm per pixel, which is not used"
+    assert found.with_pixel(2.5e-6).notes == (*found.notes, note)
+    assert found.with_pixel(2.51e-7).notes == found.notes
+    command = ["friction", str(EXAMPLES / "crystals.x3p")]
+    assert run([*command, "--pixel", "5um"]) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    sentence = (
+        "pixel size is 5 µm, but must be left out; the height map has its own, 0.5 µm × 0.5 µm."
+    )
+    assert sentence in told
+
+
+def test_the_help_names_kinds_of_files_that_are_read(capsys):
+    """And so does the page, whose list of endings a browser offers."""
+    assert run(["friction", "--help"]) == 0
+    told = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    kinds = re.search(r"height map \((.*?) and others\)", told).group(1).split(", ")
+    assert {f".{kind.lower()}" for kind in kinds} <= set(HEIGHT_MAPS)
+    page = Path(stonepass.__file__).parent / "web/page/js/lab_friction.js"
+    offered = re.search(r'ACCEPT = "(.*?),image', page.read_text()).group(1).split(",")
+    assert set(offered) - set(HEIGHT_MAPS) == {".png", ".jpg", ".jpeg", ".tif", ".tiff"}
 
 
 # Height maps

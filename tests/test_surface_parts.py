@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,15 +14,18 @@ from shown import check_shown
 from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.surface.baseline import fit_baseline
+from stonepass.surface.border import without_border
 from stonepass.surface.data_bar import find_bar
 from stonepass.surface.friction import surface_friction
 from stonepass.surface.gaps import known_area
 from stonepass.surface.levelling import fit_plane
+from stonepass.surface.lost_points import lost_points, without_lost_points
 from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along
 from stonepass.surface.readers import read_surface_image
 from stonepass.surface.surface_image import Area, SurfaceImage
 from stonepass.surface.untrusted import read_untrusted
 
+EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
 ROWS, COLUMNS = 240, 360
 
@@ -101,6 +105,72 @@ def test_the_margins_of_a_figure_cut_from_a_page_are_left_out(tmp_path):
     assert found.area == Area(20, 10, 20 + COLUMNS, 10 + ROWS)
     np.testing.assert_array_equal(found.surface, surface())
     assert "the last 25 columns look like a data bar or a margin" in found.notes[-1]
+
+
+@pytest.mark.parametrize("grey", [0, 128, 255])
+@pytest.mark.parametrize("width", [1, 3, 5, 100])
+@pytest.mark.parametrize("sides", ["columns", "rows", "frame", "left"])
+def test_a_border_of_one_grey_is_left_out_and_told(tmp_path, sides, width, grey):
+    """However thin or wide, and at whatever sides: the area is the surface."""
+    across, down = {
+        "columns": ((width, width), (0, 0)), "rows": ((0, 0), (width, width)),
+        "frame": ((width, width), (width, width)), "left": ((width, 0), (0, 0)),
+    }[sides]  # fmt: skip
+    padded = np.pad(surface(), (down, across), constant_values=grey)
+    Image.fromarray(padded).save(tmp_path / "a.png")
+    found = read_surface_image(tmp_path / "a.png")
+    inner = Area(across[0], down[0], across[0] + COLUMNS, down[0] + ROWS)
+    assert found.area == inner
+    assert len(found.notes) == (across[0] > 0) + (across[1] > 0) + (down[0] > 0) + (down[1] > 0)
+    rows, columns = padded.shape
+    whole = read_surface_image(tmp_path / "a.png", Area(0, 0, columns, rows)).with_pixel(MICRO)
+    try:
+        told = " ".join(map(str, surface_friction(whole, "2 um").warnings))
+    except BadInput as refused:
+        told = str(refused)
+        assert "darkest or brightest grey" in told
+    assert inner.option in told
+
+
+def test_the_friction_of_a_picture_with_borders_is_that_without(tmp_path, capsys):
+    """The example with five white columns at both sides, and a frame of three pixels as JPEG."""
+    known = np.asarray(Image.open(EXAMPLES / "known_slopes.png"))
+    sides = np.pad(known, ((0, 0), (5, 5)), constant_values=255)
+    Image.fromarray(sides).save(tmp_path / "sides.png")
+    frame = np.pad(known, 3, constant_values=255)
+    Image.fromarray(frame).save(tmp_path / "frame.jpg", quality=85)
+    for name, tolerance in (("sides.png", 1e-12), ("frame.jpg", 0.01)):
+        found = read_surface_image(tmp_path / name).with_pixel(0.5 * MICRO)
+        plain = read_surface_image(EXAMPLES / "known_slopes.png").with_pixel(0.5 * MICRO)
+        with_border, without = (surface_friction(each, "24.8 um") for each in (found, plain))
+        assert with_border.friction == pytest.approx(without.friction, rel=tolerance)
+        assert "the first" in " ".join(found.notes)
+    command = ["friction", str(tmp_path / "sides.png"), "--pixel", "0.5um", "--height-range"]
+    assert run([*command, "24.8um", "--area", "0,0,1011,240"]) == 0
+    assert "exclude them with --area 5,0,1006,240" in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_smooth_surface_has_no_border():
+    """Columns of one grey each, up to the edge, which is black or white or a dark corner."""
+    x = np.arange(COLUMNS)
+    waves = 127.5 + 127.5 * np.cos(x / 30.0)
+    ramp = np.clip(x - 40.0, 0.0, 255.0)
+    for profile in (waves, ramp, 255.0 * (x // 30 % 2)):
+        grey = np.tile(np.round(profile), (ROWS, 1)).astype(np.uint8)
+        for each in (grey, np.ascontiguousarray(grey.T)):
+            area = Area(0, 0, each.shape[1], each.shape[0])
+            assert without_border(each, area) == area
+
+
+def test_a_border_beside_a_declared_bar_is_left_out(tmp_path):
+    fei = FEI.replace("ResolutionX=80", "ResolutionX=90").replace(
+        "ResolutionY=50", "ResolutionY=60"
+    )
+    grey = np.vstack([np.pad(surface()[:50, :80], 5), np.zeros((10, 90), np.uint8)])
+    path = save_tiff(tmp_path / "sem.tif", grey, extratags=[(34682, "s", 0, fei, True)])
+    found = read_surface_image(path)
+    assert found.area == Area(5, 5, 85, 55)
+    assert any("the lowest 15 rows look like" in each for each in found.notes)
 
 
 def test_a_bar_of_an_fei_file_without_a_pixel_size(tmp_path):
@@ -253,6 +323,122 @@ def test_a_border_without_heights_is_named_with_the_area_that_helps():
     z[:, ::3] = np.nan
     with pytest.raises(BadInput, match="give paths that avoid the gaps with --path"):
         surface_friction(heights_of(z))
+
+
+# Lost points
+
+
+def rough(rows=300, columns=400):
+    """Heights in µm over a range of 10 µm, with noise of 0.07 µm."""
+    y, x = np.mgrid[:rows, :columns]
+    noise = 0.02 * np.random.default_rng(3).normal(size=(rows, columns))
+    z = np.sin(2 * np.pi * x / 100 + 0.3) + 0.5 * np.sin(2 * np.pi * (x + 0.3 * y) / 61) + noise
+    return 10.0 * (z - z.min()) / np.ptp(z)
+
+
+def spots(shape, kind):
+    """Places of lost points: single ones, pairs and more by chance, or round spots."""
+    generator = np.random.default_rng(5)
+    if kind == "points":
+        return generator.random(shape) < 0.01
+    y, x = np.mgrid[: shape[0], : shape[1]]
+    found = np.zeros(shape, bool)
+    for _ in range(60):
+        row, column = generator.integers(0, shape[0]), generator.integers(0, shape[1])
+        found |= np.hypot(y - row, x - column) < 2.5
+    return found
+
+
+def told_lost(found):
+    return [dict(each.values) for each in found.warnings if each.code == "lost_points"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "offset"),
+    [
+        ("points", 0.0, 100.0),
+        ("spots", 0.0, 100.0),
+        ("points", -32.768, 0.0),
+        ("spots", -9.999e6, 0.0),
+        ("points", 0.0, -5.0),  # amid the heights of the surface
+    ],
+)
+def test_lost_points_stored_as_a_constant_are_gaps(kind, value, offset):
+    z = rough() + offset
+    lost = spots(z.shape, kind)
+    found = surface_friction(heights_of(np.where(lost, value, z)))
+    exact = surface_friction(heights_of(z))
+    missing = surface_friction(heights_of(np.where(lost, np.nan, z)))
+    assert found.friction == pytest.approx(missing.friction, rel=1e-9)
+    assert found.friction == pytest.approx(exact.friction, rel=0.01)
+    assert found.roughness.RdeltaQ == pytest.approx(exact.roughness.RdeltaQ, rel=0.03)
+    (told,) = told_lost(found)
+    assert told == {"count": np.count_nonzero(lost), "heights": f"{value:.4g} µm"}
+
+
+@pytest.mark.parametrize(
+    ("places", "values", "shown"),
+    [
+        ([(25, 200)], [1000.0], "1000 µm"),
+        ([(25, 201), (25, 202), (25, 203)], [-9.999e6] * 3, "-9.999e+06 µm"),
+        ([(25, 200), (25, 201)], [1000.0, 1100.0], "1000 to 1100 µm"),
+        ([(150, 200), (25, 0), (25, 300)], [1e36, -40.0, 30.0], "-40 to 1e+36 µm"),
+    ],
+)
+def test_spikes_are_gaps_and_told(places, values, shown):
+    z = rough()
+    for place, value in zip(places, values, strict=True):
+        z[place] = value
+    paths = [StraightPath(1, 25 * k, 399, 25 * k) for k in range(1, 7)]
+    found = surface_friction(heights_of(z), paths=paths)
+    exact = surface_friction(heights_of(rough()), paths=paths)
+    assert found.friction == pytest.approx(exact.friction, rel=1e-3)
+    assert found.tilt == pytest.approx(exact.tilt, rel=0.01)
+    (told,) = told_lost(found)
+    assert told == {"count": len(places), "heights": shown}
+
+
+def test_many_lost_points_are_refused_with_the_remedy():
+    z = np.where(np.random.default_rng(6).random((300, 400)) < 0.3, 0.0, rough() + 100.0)
+    sentence = (
+        r"height map is 0 µm at 30% of its points, as if no height was measured there, but must be "
+        r"without such points at more than 10%; leave them out with --area or store"
+    )
+    with pytest.raises(BadInput, match=sentence):
+        surface_friction(heights_of(z))
+    z[:, :200] = rough()[:, :200] + 100.0
+    assert not told_lost(surface_friction(heights_of(z).with_area(0, 0, 200, 300)))
+
+
+def test_a_real_surface_has_no_lost_points():
+    """Steps, grooves, pits, pillars, crystals, terraces and noise keep every height."""
+    z = rough()
+    y, x = np.mgrid[: z.shape[0], : z.shape[1]]
+    generator = np.random.default_rng(7)
+    pillars = (x % 40 < 3) & (y % 40 < 3)
+    groove = (x > 180) & (x < 220)
+    surfaces = {
+        "step": z + 20.0 * (x > 200),
+        "groove": z - 20.0 * ((x > 200) & (x < 203)),
+        "scratch": z - 20.0 * ((y == 100) & (x > 100) & (x < 300)),
+        "flat groove": np.where(groove, -100.0, z),
+        "flat pit": np.where(groove & (y > 100) & (y < 150), -100.0, z),
+        "groove in a plate": np.where(groove, -5.0, 0.01 * generator.normal(size=z.shape)),
+        "pillars": 0.01 * z + 20.0 * pillars,
+        "terraces": np.floor(z),
+        "cut off": np.clip(z, 3.0, 7.0),
+        "two levels": np.where(x > 200, 20.0, 0.0),
+        "half flat": np.where(x > 200, z, 0.0),
+        "flat but for the last digit": (generator.random(z.shape) < 0.001) * 0.001,
+        "noise": generator.normal(size=z.shape),
+        "a plane": 0.1 * x + 0.02 * y,
+        "missing": np.where(generator.random(z.shape) < 0.3, np.nan, z),
+        "crystals": read_surface_image(EXAMPLES / "crystals.x3p").values / MICRO,
+    }
+    for name, each in surfaces.items():
+        assert not lost_points(each * MICRO).any(), name
+    picture = heights_of(z)
+    assert without_lost_points(picture) == (picture, [])
 
 
 # Tilt

@@ -121,6 +121,10 @@ SENTENCES = {
         "{fraction:.0%} of the rows have the same grey in at least half of their pixels, so they "
         "are probably a data bar or a missing part of the image; exclude them with --area"
     ),
+    "plain_border": (
+        "the outermost rows or columns have one single grey and end abruptly, so they are probably "
+        "a border; exclude them with {option}"
+    ),
     # --- laboratory
     "not_bounded": (
         "the data do not determine {name}: its confidence interval is open on both sides"
@@ -306,6 +310,10 @@ SENTENCES = {
         "the total indices of {response} are known to ± {width:.2f} only: use more samples"
     ),
     # --- surface images, continued
+    "lost_points": (
+        "lost points or spikes of the height map ({count} at {heights}) are treated as missing "
+        "heights, because they are far from all heights around them"
+    ),
     "gaps_bridged": (
         "{fraction:.1%} of the heights along the profiles are missing and were filled by straight "
         "lines of up to {length_um:.3g} µm; instruments lose steep slopes first, so the friction "

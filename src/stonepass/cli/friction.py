@@ -39,7 +39,7 @@ def command(
         Path,
         typer.Argument(
             metavar="IMAGE",
-            help="Picture (TIFF, PNG, JPEG) or height map (X3P, SDF, NPY and others).",
+            help="Picture (TIFF, PNG, JPEG) or height map (X3P, SUR, AL3D and others).",
             rich_help_panel=QUESTION,
         ),
     ],
@@ -48,7 +48,7 @@ def command(
         typer.Option(
             "--pixel",
             metavar="LENGTH",
-            help="Size of a pixel, instead of that in the file, e.g. 0.5um.",
+            help="Size of a pixel of a picture, instead of that in the file, e.g. 0.5um.",
             rich_help_panel=QUESTION,
         ),
     ] = None,

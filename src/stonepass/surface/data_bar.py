@@ -12,7 +12,7 @@ import numpy as np
 
 from stonepass.array_types import Bool, Float, Num
 
-__all__ = ["drawn_rows", "find_bar"]
+__all__ = ["HIGHEST", "drawn_rows", "find_bar"]
 
 # JPEG compression spreads the grey level of a background over neighbouring levels. Levels that
 # differ from it by at most 1/LIKE of the range of the picture, but not by more than LIKE_MOST
@@ -27,7 +27,7 @@ DRAWN = (0.5, 0.85)
 SURFACE = (0.3, 0.5)  # largest mean values of these two fractions in the rows next to a bar
 ROWS_DRAWN = 0.75  # least fraction of drawn rows in a bar; large letters hide some backgrounds
 THINNEST = 6  # smallest height of a bar in rows
-HIGHEST = 0.4  # largest height of a bar as a fraction of the picture
+HIGHEST = 0.4  # largest height of a bar, or of a border, as a fraction of the picture
 BESIDE = 8  # least number of rows next to a bar that are examined
 EDGE = slice(2, 6)  # rows next to a bar that must be surface; JPEG blurs the first two
 

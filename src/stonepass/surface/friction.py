@@ -25,6 +25,7 @@ from stonepass.surface.friction_result import Roughness, Spread, SurfaceFriction
 from stonepass.surface.gaps import BRIDGED
 from stonepass.surface.grey_scale import Greys, check_surface, grey_ranges, to_heights
 from stonepass.surface.levelling import Plane, fit_plane
+from stonepass.surface.lost_points import without_lost_points
 from stonepass.surface.paths import (
     Profiles,
     StraightPath,
@@ -143,7 +144,8 @@ def surface_friction(
     paths : int or sequence of StraightPath
         Number of evenly spaced horizontal paths, 1 to 100, or the paths themselves. In a height map
         gaps are bridged up to a quarter of the shortest wavelength of the second baseline; a row
-        with longer gaps is replaced by the nearest row without them.
+        with longer gaps is replaced by the nearest row without them. Lost points and spikes are
+        gaps too.
     baseline_order : int
         Order N of the first baseline, 1 to 200. It follows waves of the length 2L/N and longer.
     deviation_order : int, optional
@@ -164,7 +166,8 @@ def surface_friction(
     Raises
     ------
     BadInput
-        The picture is flat or saturated, the height range is missing or superfluous, the paths are
+        The picture is flat or saturated, more than a tenth of the points of a height map are lost
+        points (see `lost_points`), the height range is missing or superfluous, the paths are
         too short for the baselines or have too long gaps, or k₀ k₁ ≥ 1.
 
     References
@@ -173,7 +176,8 @@ def surface_friction(
     """
     scale = _height_range(picture, height_range)
     choices = _choices(baseline_order, deviation_order, margin)
-    warnings = check_surface(picture)
+    picture, warnings = without_lost_points(picture)
+    warnings += check_surface(picture)
     longest_gap = BRIDGED * 2.0 / choices.second
     chosen, moved = _chosen(picture, paths, longest_gap)
     sampled = profiles_along(picture, chosen, longest_gap)

@@ -11,6 +11,7 @@ import numpy as np
 from stonepass.array_types import Float, Num
 from stonepass.caution import Caution, caution
 from stonepass.errors import require
+from stonepass.surface.border import without_border
 from stonepass.surface.data_bar import drawn_rows
 from stonepass.surface.levelling import Plane
 from stonepass.surface.surface_image import SurfaceImage
@@ -46,7 +47,8 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     Returns
     -------
     list of Caution
-        Warnings about saturated pixels, isolated grey levels and rows that look like a data bar.
+        Warnings about saturated pixels, isolated grey levels, rows that look like a data bar, and
+        borders.
 
     Raises
     ------
@@ -69,8 +71,12 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     require(high - low >= LEVELS, "picture", shown, allowed)
     ends = float(counts[low] + counts[high]) / values.size
     allowed = f"less than {SATURATED:.0%} of it"
+    inner = without_border(picture.values, picture.area)
+    remedy = "take one that is not saturated"
+    if inner != picture.area:
+        remedy = f"leave out the border of one single grey with {inner.option}"
     require(ends < SATURATED, "darkest or brightest grey", f"{ends:.0%} of the picture", allowed,
-            "take one that is not saturated")  # fmt: skip
+            remedy)  # fmt: skip
     told = []
     if ends > TELL_SATURATED:
         told.append(caution("saturated_greys", fraction=ends))
@@ -80,6 +86,8 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     drawn = float(np.mean(drawn_rows(values)))
     if drawn > DRAWN_ROWS:
         told.append(caution("plain_rows", fraction=drawn))
+    if inner != picture.area:
+        told.append(caution("plain_border", option=inner.option))
     return told
 
 

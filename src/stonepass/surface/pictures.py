@@ -10,6 +10,7 @@ import tifffile
 
 from stonepass.array_types import Num
 from stonepass.errors import BadInput
+from stonepass.surface.border import without_border
 from stonepass.surface.data_bar import find_bar
 from stonepass.surface.decoded import Decoded
 from stonepass.surface.file_name import short_name
@@ -47,7 +48,8 @@ def read_tiff(path: Path, area: Area | None) -> SurfaceImage:
     path : Path
         A TIFF file with 8 or 16 bits per sample.
     area : Area or None
-        The part that belongs to the surface, in pixels; None for the picture without its data bar.
+        The part that belongs to the surface, in pixels; None for the picture without its data bar
+        and without borders.
 
     Raises
     ------
@@ -150,7 +152,8 @@ def read_plain(path: Path, area: Area | None) -> SurfaceImage:
     path : Path
         A PNG file of 8 or 16 bits, or a JPEG file.
     area : Area or None
-        The part that belongs to the surface, in pixels; None for the picture without its data bar.
+        The part that belongs to the surface, in pixels; None for the picture without its data bar
+        and without borders.
 
     Raises
     ------
@@ -236,21 +239,38 @@ def _picture(
 
 
 def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]) -> Area:
-    """Return the area without the data bar, which the file declares or `find_bar` detects."""
+    """Return the area without borders and without the data bar, which is declared or detected."""
     rows, columns = grey.shape
     bar = scan.rows_of_bar(columns, rows)
-    if 0 < bar < rows - SIDE[0]:
+    declared = 0 < bar < rows - SIDE[0]
+    if declared:
         notes.append(f"the lowest {bar} rows are the data bar and are left out")
-        return Area(0, 0, columns, rows - bar)
-    top, bottom = find_bar(grey)
-    # A margin or a panel at the sides is found as a data bar of the transposed picture.
-    left, right = find_bar(np.ascontiguousarray(grey[top : rows - bottom].T))
-    counts = {"uppermost {} rows": top, "lowest {} rows": bottom, "first {} columns": left,
-              "last {} columns": right}  # fmt: skip
+        area = without_border(grey, Area(0, 0, columns, rows - bar))
+    else:
+        area = _undeclared(grey)
+    bottom = 0 if declared and area.bottom == rows - bar else rows - area.bottom
+    counts = {"uppermost {} rows": area.top, "lowest {} rows": bottom,
+              "first {} columns": area.left, "last {} columns": columns - area.right}  # fmt: skip
     for where, count in counts.items():
         if count:
             notes.append(
                 f"the {where.format(count)} look like a data bar or a margin and are left out; "
                 "--area selects any part"
             )
-    return Area(left, top, columns - right, rows - bottom)
+    return area
+
+
+def _undeclared(grey: Num[np.ndarray, "rows columns"]) -> Area:
+    """Return the area without the data bars and borders that are detected."""
+    rows, columns = grey.shape
+    area = Area(0, 0, columns, rows)
+    while True:
+        part = grey[area.top : area.bottom, area.left : area.right]
+        top, bottom = find_bar(part)
+        # A margin or a panel at the sides is found as a data bar of the transposed picture.
+        left, right = find_bar(np.ascontiguousarray(part[top : len(part) - bottom].T))
+        found = Area(area.left + left, area.top + top, area.right - right, area.bottom - bottom)
+        area = without_border(grey, found)
+        if area == found:
+            return area
+        # A wide margin hides a bar beside it, which is sought again without the margin.

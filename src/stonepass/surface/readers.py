@@ -29,7 +29,7 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
     Grey pictures that were saved in colour or with a palette are accepted, and an alpha channel is
     ignored. If a TIFF file has several pages, the largest one that is not marked as a reduced image
     is read. A data bar is left out if the file declares it, or if the lowest or uppermost rows look
-    like one.
+    like one; borders of one single grey are left out at all sides.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
         A TIFF, PNG or JPEG file with 8 or 16 bits per sample, or a height map.
     area : Area, optional
         The part of the picture that belongs to the surface, in pixels. Only this part must be grey.
-        By default it is the whole picture without a data bar.
+        By default it is the whole picture without a data bar and without borders.
 
     Returns
     -------

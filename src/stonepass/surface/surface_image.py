@@ -14,6 +14,8 @@ __all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]
 
 PIXEL = (1e-11, 1e-3)  # smallest and largest side of a pixel in m
 OBLONG = 10.0  # largest ratio of the sides of a pixel
+SAME = 0.01  # relative difference up to which two pixel sizes agree
+MICRO = 1e6  # µm per m
 # Largest grey level by the type of the values; 0 for heights.
 FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}
 
@@ -131,8 +133,26 @@ class SurfaceImage:
         return self.values[area.top : area.bottom, area.left : area.right]
 
     def with_pixel(self, size: float) -> SurfaceImage:
-        """Return the picture with square pixels of the given size in m."""
-        return replace(self, pixel=(float(size), float(size)), pixel_source="as given")
+        """Return the picture with square pixels of the given size in m.
+
+        A pixel size in the file of a picture is replaced; a note tells it if it differs by more
+        than 1 %.
+
+        Raises
+        ------
+        BadInput
+            The image is a height map that has a pixel size, or the given one is out of bounds.
+        """
+        notes = self.notes
+        if self.pixel is not None:
+            had = " × ".join(f"{side * MICRO:.4g} µm" for side in self.pixel)
+            if self.has_heights:
+                remedy = f"the height map has its own, {had}"
+                raise BadInput("pixel size", f"{size * MICRO:.4g} µm", "left out", remedy)
+            if any(abs(side - size) > SAME * size for side in self.pixel):
+                source = self.pixel_source or "picture"
+                notes += (f"the {source} says {had} per pixel, which is not used",)
+        return replace(self, pixel=(float(size), float(size)), pixel_source="as given", notes=notes)
 
     def with_area(self, left: int, top: int, right: int, bottom: int) -> SurfaceImage:
         """Return the picture with another area of the surface.

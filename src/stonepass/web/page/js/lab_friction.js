@@ -20,7 +20,7 @@ const PICTURES = {
   tif: "image/tiff",
   tiff: "image/tiff",
 };
-const ACCEPT = ".png,.jpg,.jpeg,.tif,.tiff,.x3p,.sdf,.npy,.al3d,image/*";
+const ACCEPT = ".png,.jpg,.jpeg,.tif,.tiff,.x3p,.sur,.sdf,.al3d,image/*";
 
 /** Build the section. */
 export function frictionSection(take) {

@@ -25,7 +25,8 @@ from stonepass.model.far_field import inflation, inflation_by_quadrature
 from stonepass.records.fit import FitRecord, fit_record
 from stonepass.report.fit_figure import fit_figure
 from stonepass.strain import INNER_WALL, CauchyGreen
-from stonepass.units import length
+from stonepass.units import area, length
+from stonepass.web.jobs.bodies import FitJob
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 STRETCH = np.linspace(1.05, 1.5, 12)
@@ -527,6 +528,34 @@ def test_extension_and_force_are_stretch_and_stress(tmp_path, capsys):
         code, _, told = fitted(capsys, "tensile", path, *law, *more)
         assert code == 2
         assert sentence in told
+
+
+@pytest.mark.parametrize(
+    ("sizes", "sentence"),
+    [
+        (["--width", "-10mm", "--thickness", "-1mm"], "--width is -10mm, but must be above 0"),
+        (["--width", "10mm", "--thickness", "0mm"], "--thickness is 0mm, but must be above 0"),
+        (["--section", "-12mm2"], "--section is -12mm2, but must be above 0"),
+        (["--section", "12mm2", "--gauge-length", "-2cm"],
+         "--gauge-length is -2cm, but must be above 0"),
+    ],
+)  # fmt: skip
+def test_every_size_at_rest_is_positive(tmp_path, capsys, sizes, sentence):
+    path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)], "stretch,force_N")
+    code, _, told = fitted(capsys, "tensile", path, "--law", "neo-hookean", *sizes)
+    assert code == 2
+    assert sentence in told
+
+
+def test_sizes_at_rest_are_positive_from_python_and_over_http(tmp_path):
+    path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)], "stretch,force_N")
+    with pytest.raises(BadInput, match="width is -10 mm, but must be above 0"):
+        read_tension(path, length("-10 mm"), length("-1 mm"))
+    with pytest.raises(BadInput, match="section is -12 mm2, but must be above 0"):
+        read_tension(path, section=area("-12 mm2"))
+    job = FitJob(kind="fit", upload="0" * 64, test="tensile", law="yeoh", thickness="-1 mm")
+    with pytest.raises(BadInput, match="thickness is -1 mm, but must be above 0"):
+        job.question()
 
 
 def test_yeoh_without_its_third_constant_has_two(tmp_path):

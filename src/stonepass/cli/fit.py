@@ -159,18 +159,18 @@ def tensile(
     The columns of the data are stretch or extension_mm, then nominal_stress_kPa or force_N, and
     axis (circumferential or axial) if strips were cut along both directions.
     """
-    from stonepass.bench.test_data import read_tension
+    from stonepass.bench.test_data import read_tension, size_at_rest
     from stonepass.units import area, length
 
     sizes = {
-        key: None if text is None else length(text, option)
+        key: None if text is None else size_at_rest(text, option, length)
         for key, option, text in (
             ("width", "--width", width),
             ("thickness", "--thickness", thickness),
             ("gauge_length", "--gauge-length", gauge_length),
         )
     }
-    across = None if section is None else area(section, "--section")
+    across = None if section is None else size_at_rest(section, "--section", area)
     asked = {"file": data.name, **{f"{key}_m": size for key, size in sizes.items()}}
     inputs = {**asked, "section_m2": across}
     read = read_tension(data, **sizes, section=across)

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
+from stonepass.bench.test_data import size_at_rest
 from stonepass.clinic.patient import PatientFile, patient_of
 from stonepass.clinic.pressure_limits import read_limit
 from stonepass.declaration import read_declared
@@ -189,8 +190,10 @@ class FitJob(StrictBody):
                     f"left out for the test '{self.test}'")  # fmt: skip
         for name in (*tube, *strip):
             text = getattr(self, name)
-            if text is not None:
-                (area if name == "section" else length)(text, name)
+            if text is not None and name == "section":
+                size_at_rest(text, name, area)
+            elif text is not None:
+                size_at_rest(text, name, length)
         return self.model_dump(mode="json")
 
 

@@ -558,6 +558,17 @@ def test_sizes_at_rest_are_positive_from_python_and_over_http(tmp_path):
         job.question()
 
 
+def test_a_gauge_length_is_not_asked_for_beside_stretches(tmp_path, capsys):
+    path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)])
+    sizes = ["--law", "neo-hookean", "--gauge-length", "10mm"]
+    code, _, told = fitted(capsys, "tensile", path, *sizes)
+    assert code == 2
+    assert (
+        "length of the strip is given as --gauge-length, but must be left out; data.csv has a "
+        "column of stretches."
+    ) in " ".join(told.split())
+
+
 def test_yeoh_without_its_third_constant_has_two(tmp_path):
     path = tmp_path / "law.toml"
     path.write_text(

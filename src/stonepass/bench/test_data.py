@@ -252,9 +252,12 @@ def read_tension(
     try:
         columns = _read_strips(path, along)
     except BadInput as problem:
-        if gauge_length is None and _has_extensions(path):
+        if gauge_length is None and _has(path, "extension_mm"):
             raise BadInput("length of the strip", "missing", "given as --gauge-length",
                            f"{path.name} has a column of extensions") from problem  # fmt: skip
+        if gauge_length is not None and _has(path, "stretch"):
+            raise BadInput("length of the strip", "given as --gauge-length", "left out",
+                           f"{path.name} has a column of stretches") from problem  # fmt: skip
         raise
     along = _one_of(path, columns, "the column of stretches", ("stretch", "extension_mm"))
     across = _one_of(path, columns, "the column of stresses", ("nominal_stress_kPa", "force_N"))
@@ -280,9 +283,9 @@ def _read_strips(path: Path, along: str) -> Columns:
     return read_columns(path, (along,), optional, bounds, words={"axis": AXES})
 
 
-def _has_extensions(path: Path) -> bool:
+def _has(path: Path, along: str) -> bool:
     try:
-        return "extension_mm" in _read_strips(path, "extension_mm")
+        return along in _read_strips(path, along)
     except BadInput:
         return False
 

@@ -588,6 +588,24 @@ def test_stresses_in_the_wrong_unit_are_asked_about():
     )
 
 
+def test_stresses_in_pascals_are_asked_about():
+    """A column in Pa read as kPa: Young's modulus 6 C10 = 879 MPa; the hardest rubber is silent."""
+    (told,) = fit_law(tension(NeoHookean(146.5e6)), "neo-hookean").warnings
+    assert told.code == "stiff_fit"
+    assert str(told) == (
+        "the fitted Young's modulus at rest is 879 MPa, which is stiffer than any soft tissue or "
+        "rubber (the hardest rubber has about 45 MPa): check whether the nominal stress was given "
+        "in Pa instead of kPa"
+    )
+    assert fit_law(tension(NeoHookean(44e6 / 6.0)), "neo-hookean").warnings == ()
+    ureter = fit_law(tension(material("ureter").law, axes=AXES), "fung", {"G": 12e3})
+    assert "stiff_fit" not in {each.code for each in ureter.warnings}
+    wall = {each.name: each.value for each in ureter.constants}
+    thousandfold = Fung(**{k: v * 1e3 if k in ("C", "G") else v for k, v in wall.items()})
+    found = fit_law(tension(thousandfold, axes=AXES), "fung", {"G": 12e6})
+    assert "stiff_fit" in {each.code for each in found.warnings}
+
+
 def test_sixty_points_at_as_many_axial_stretches_are_one_pass():
     """The pressure of all points at once is that of the far field, point by point."""
     ratio, axial = np.linspace(1.02, 1.3, 60), np.linspace(1.0, 1.2, 60)

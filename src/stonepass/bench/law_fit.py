@@ -33,6 +33,9 @@ __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
 FEWEST_OF_A_TREND = 8  # smallest number of points for the test of a trend
 UNLIKELY = 0.01  # significance level of the test of a trend
+# Young's modulus in Pa at rest that no soft tissue of a tube and no rubber has. The hardest rubber
+# of the scale Shore A, 95, has 44 MPa (Gent 1958, IRI Trans. 34, 46-57); beyond it lie plastics.
+STIFFEST_WALL = 5e7
 # Codes of the cautions after which the 95 % intervals are only approximate.
 UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "lack_of_fit",
           "zero_offset", "rest_size", "slack", "axial_rest_length", "hysteresis", "runs_differ",
@@ -195,7 +198,7 @@ def fit_law(
     held = {dict(one.values)["name"] for one in at_bounds}
     inside = [each for each in search.free if each not in held]
     bounds, open_ends = intervals(minimizer, result, inside, search.declared)
-    unstable, soft = _unstable(material, data)
+    unstable, odd = _unstable(material, data)
     return FittedLaw(
         material=material,
         constants=_constants(search, values, bounds),
@@ -206,7 +209,7 @@ def fit_law(
         r_squared=r_squared_of(off, data.observed),
         correlations=correlations(result, search.free),
         unstable=unstable,
-        warnings=(*(doubts or growing), *at_bounds, *soft, *open_ends),
+        warnings=(*(doubts or growing), *at_bounds, *odd, *open_ends),
     )
 
 
@@ -257,7 +260,7 @@ def _doubts(
 
 
 def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
-    """Return why the law is unstable (empty if it is stable), and a caution if it is very soft."""
+    """Return why the law is unstable (empty if stable), and a caution if its modulus is odd."""
     try:
         state = check(material)
     except UnstableLaw as problem:
@@ -270,6 +273,9 @@ def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
         return f"the width of a strip is unstable at stretch {at:.3g}", []
     if state.shear < SOFTEST_WALL:
         return "", [caution("soft_fit", modulus_Pa=state.shear, measured=data.measured)]
+    young = max(state.hoop, state.axial)
+    if young > STIFFEST_WALL:
+        return "", [caution("stiff_fit", modulus_MPa=young / 1e6, measured=data.measured)]
     return "", []
 
 

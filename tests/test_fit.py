@@ -569,6 +569,60 @@ def test_a_gauge_length_is_not_asked_for_beside_stretches(tmp_path, capsys):
     ) in " ".join(told.split())
 
 
+def strains(law, values, part):
+    values = np.asarray(values, dtype=float)
+    return zip(values, tension(law, 1.0 + values / part).stress / 1e3, strict=True)
+
+
+@pytest.mark.parametrize("law", [RUBBER, MooneyRivlin(6e4, 9e4), Yeoh(1e5, 1e2, 0.0)])
+@pytest.mark.parametrize(
+    ("values", "part", "remedy"),
+    [
+        ([1, 2, 4, 6, 8, 10, 12, 14], 100.0, "1 + value/100"),
+        (np.linspace(0.5, 14.0, 20), 100.0, "1 + value/100"),
+        ([0.2, 0.5, 1, 2, 4, 6], 1.0, "1 + value."),
+        ([1, 2, 3, 4, 5, 6], 1.0, "1 + value."),
+        ([0.1, 0.4, 0.8, 1.2, 1.6, 2.0], 1.0, "1 + value."),
+    ],
+)
+def test_strains_are_not_fitted_as_stretches(tmp_path, capsys, law, values, part, remedy):
+    path = table(tmp_path, strains(law, values, part))
+    code, _, told = fitted(capsys, "tensile", path, "--law", "neo-hookean")
+    assert code == 2
+    assert told.count("\n") <= 4
+    assert remedy in " ".join(told.split()) or "holds strains, add 1 to them" in told
+
+
+def test_the_sentence_about_per_cent(tmp_path):
+    stress = [8.7, 17.2, 33.8, 49.8, 65.3, 80.3, 94.8, 108.9]
+    path = table(tmp_path, zip([1, 2, 4, 6, 8, 10, 12, 14], stress, strict=True))
+    with pytest.raises(BadInput) as refused:
+        read_tension(path)
+    assert str(refused.value) == (
+        "in data.csv, column 'stretch' is 1 to 14, but must be the length divided by that at rest, "
+        "so that the stress is zero at 1; the values look like strains in per cent, since the "
+        "stress is zero at 0: replace each by 1 + value/100."
+    )
+    rows = zip(1.0 + np.array([1, 2, 4, 6, 8, 10, 12, 14]) / 100.0, stress, strict=True)
+    found = fit_law(read_tension(table(tmp_path, rows)), "neo-hookean")
+    assert found.constants[0].value == pytest.approx(146e3, rel=0.01)
+
+
+@pytest.mark.parametrize("law", [RUBBER, MooneyRivlin(5e4, 1e5), Yeoh(2e5, -2e3, 60.0)])
+@pytest.mark.parametrize("fault", [0.0, 0.06, -0.05])
+@pytest.mark.parametrize(
+    ("low", "high"), [(1.0, 8.0), (1.0, 1.4), (1.2, 3.0), (1.5, 8.0), (0.6, 4.0)]
+)
+def test_large_stretches_remain_stretches(tmp_path, law, fault, low, high):
+    """Also with a zero offset of 6 % of the largest stress and with 2 % of noise."""
+    stretch = np.linspace(low, high, 9)
+    for seed in range(5):
+        clean = tension(law, stretch).stress / 1e3
+        noise = fault + 0.02 * np.random.default_rng(seed).normal(size=9)
+        rows = zip(stretch, clean + clean.max() * noise, strict=True)
+        assert read_tension(table(tmp_path, rows)).strain_range == (low, high)
+
+
 def test_yeoh_without_its_third_constant_has_two(tmp_path):
     path = tmp_path / "law.toml"
     path.write_text(

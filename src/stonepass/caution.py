@@ -186,9 +186,9 @@ SENTENCES = {
         "whether the {measured} was given in MPa instead of kPa"
     ),
     "stiff_fit": (
-        "the fitted Young's modulus at rest is {modulus_MPa:.3g} MPa, which is stiffer than any soft "
-        "tissue or rubber (the hardest rubber has about 45 MPa): check whether the {measured} was "
-        "given in Pa instead of kPa"
+        "the fitted Young's modulus at rest is {modulus_MPa:.3g} MPa, which is stiffer than any "
+        "soft tissue or rubber (the hardest rubber has about 45 MPa): check whether the {measured} "
+        "was given in Pa instead of kPa"
     ),
     "beyond_sd": (
         "series and model disagree: with friction {friction:.3g} the typical residual is "

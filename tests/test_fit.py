@@ -623,6 +623,44 @@ def test_large_stretches_remain_stretches(tmp_path, law, fault, low, high):
         assert read_tension(table(tmp_path, rows)).strain_range == (low, high)
 
 
+@pytest.mark.parametrize(
+    ("law", "options", "sentence"),
+    [
+        ("yeoh", ["--fix", "C30=0kPa", "--free", "C30"],
+         "constant C30 is both fixed and freed, but must be one of them, since a fixed constant is "
+         "not fitted; leave out --fix C30 or --free C30."),
+        ("demiray", ["--fix", "mu=12kPa", "--fix", "mu=150kPa"],
+         "--fix mu is given twice, but must be given once."),
+        ("demiray", ["--fix", "mu=-50kPa"], "--fix mu is -50kPa, but must be a positive modulus."),
+        ("demiray", ["--fix", "b=1e6"],
+         "--fix b is 1e6, but must be a number above 0 and below 1000."),
+        ("mooney-rivlin", ["--fix", "C10=-50kPa"],
+         "--fix C10 is -50kPa, but must be a positive modulus."),
+        ("holzapfel-gasser-ogden", ["--fix", "angle=200 deg"],
+         "--fix angle is 200 deg, but must be an angle from 0° to 90°."),
+    ],
+)  # fmt: skip
+def test_fixed_constants_are_within_their_bounds_and_given_once(
+    tmp_path, capsys, law, options, sentence
+):
+    path = table(tmp_path, [(1.1, 50), (1.2, 95), (1.3, 140), (1.4, 180)])
+    code, _, told = fitted(capsys, "tensile", path, "--law", law, *options)
+    assert code == 2
+    assert sentence in " ".join(told.split())
+
+
+def test_fixed_constants_from_python_and_over_http_are_within_their_bounds():
+    with pytest.raises(BadInput, match="fixed constant angle is 200 deg, but must be an angle"):
+        fit_law(tension(RUBBER), "holzapfel-gasser-ogden", {"angle": np.radians(200.0)})
+    with pytest.raises(BadInput, match=r"fixed constant C10 is -0\.05 MPa, but must be a positive"):
+        fit_law(tension(RUBBER), "mooney-rivlin", {"C10": -5e4})
+    with pytest.raises(BadInput, match="fixed constant b is nan, but must be a number above 0"):
+        fit_law(tension(RUBBER), "demiray", {"b": np.nan})
+    job = FitJob(kind="fit", upload="0" * 64, test="tensile", law="demiray", fix={"mu": "-5 kPa"})
+    with pytest.raises(BadInput, match="mu is -5 kPa, but must be a positive modulus"):
+        job.question()
+
+
 def test_yeoh_without_its_third_constant_has_two(tmp_path):
     path = tmp_path / "law.toml"
     path.write_text(

@@ -283,18 +283,21 @@ def _fit(
 
 def _given(law: str, fix: list[str]) -> dict[str, float]:
     from stonepass.errors import BadInput, refuse_unknown
-    from stonepass.materials.constants import read_constant
+    from stonepass.materials.constants import fixed_constant
     from stonepass.materials.known_laws import constants_by_name, known_law
 
     known_law(law, "--law")
-    declared, found = constants_by_name(law), {}
+    declared = constants_by_name(law)
+    found: dict[str, float] = {}
     for text in fix:
         name, separator, value = (part.strip() for part in text.partition("="))
         if not separator:
             raise BadInput("--fix", text, "written as NAME=VALUE")
         if name not in declared:
             refuse_unknown(f"--fix, constant of law '{law}'", name, list(declared))
-        found[name] = read_constant(value, declared[name], f"--fix {name}")
+        if name in found:
+            raise BadInput(f"--fix {name}", "given twice", "given once")
+        found[name] = fixed_constant(value, declared[name], f"--fix {name}")
     return found
 
 

@@ -14,6 +14,7 @@ from stonepass.errors import BadInput, require
 from stonepass.inputs.case_record import describe
 from stonepass.inputs.sections import section_values
 from stonepass.materials.catalogue import CATALOGUE
+from stonepass.materials.constants import fixed_constant
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name
 from stonepass.model.case import Case
 from stonepass.units import area, length, pressure
@@ -181,6 +182,8 @@ class FitJob(StrictBody):
         for name in (*self.fix, *self.free):
             if name not in known:
                 raise BadInput("constant", name, "one of " + ", ".join(known))
+        for name, value in self.fix.items():
+            fixed_constant(value, known[name], name)
         tube, strip = ("inner", "outer"), ("width", "thickness", "section", "gauge_length")
         needed, other = (tube, strip) if self.test == "inflation" else ((), tube)
         for name in needed:

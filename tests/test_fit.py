@@ -150,6 +150,25 @@ def test_what_data_cannot_tell_is_refused_by_name():
     assert found["a1111"].value == pytest.approx(0.7091, rel=1e-3)
 
 
+def test_two_constants_that_act_as_their_sum_are_both_named():
+    """In plane strain I₂ = I₁, so that a tube at its own length determines C10 + C01 only."""
+    ratio = np.linspace(1.02, 1.3, 12)
+    data = Inflation(ratio, RUBBER.inflation_pressure(ratio, 1.3), 1.3, np.ones(12))
+    with pytest.raises(BadInput) as refused:
+        fit_law(data, "mooney-rivlin")
+    assert str(refused.value) == (
+        "effect of C10 and C01 on the predictions is not separable, but must be distinct for each "
+        "fitted constant; the data determine only C10 + C01, so fix one of them, e.g. "
+        "--fix C01=VALUE, or use another kind of test."
+    )
+    # Under an axial stretch λ of all points I₂ weighs λ² times as much.
+    longer = Inflation(ratio, inflation(ratio, 1.3, RUBBER, 1.2), 1.3, np.full(12, 1.2))
+    with pytest.raises(BadInput, match=r"the data determine only C10 \+ 1\.44 C01, so fix one"):
+        fit_law(longer, "mooney-rivlin")
+    found = fit_law(data, "mooney-rivlin", {"C01": 5e4})
+    assert found.constants[0].value == pytest.approx(RUBBER.C10 - 5e4, rel=1e-5)
+
+
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [

@@ -462,6 +462,47 @@ def test_tubes_that_are_none(tmp_path, capsys, header, rows, sizes, sentence):
         raise AssertionError(told)
 
 
+def test_outer_diameters_are_not_fitted_as_inner_ones(tmp_path, capsys):
+    """Of a tube of rubber, exact and with 2 % of noise; by their own name they give its modulus."""
+    ratio = np.linspace(1.03, 1.5, 9)
+    outer = np.sqrt((3.5 * ratio) ** 2 + 4.55**2 - 3.5**2)
+    size = ["--law", "neo-hookean", "--inner", "3.5mm", "--outer", "4.55mm"]
+    for noise in (0.0, 0.02):
+        off = 1.0 + noise * np.random.default_rng(1).normal(size=9)
+        rows = list(zip(RUBBER.inflation_pressure(ratio, 1.3) / 1e3 * off, outer, strict=True))
+        path = table(tmp_path, rows, "pressure_kPa,inner_diameter_mm")
+        code, _, told = fitted(capsys, "inflation", path, *size)
+        assert code == 2
+        assert (
+            "inner diameters, so that the pressure is zero at 3.5 mm (--inner); as outer diameters "
+            "the values agree with a tube: name the column outer_diameter_mm if they are outer "
+            "diameters."
+        ) in " ".join(told.split())
+        path = table(tmp_path, rows, "pressure_kPa,outer_diameter_mm")
+        code, shown, _ = fitted(capsys, "inflation", path, *size, "--json")
+        assert code == 0
+        assert json.loads(shown)["constants"][0]["value"] == pytest.approx(RUBBER.C10, rel=0.02)
+
+
+@pytest.mark.parametrize("law", [RUBBER, material("ureter").law, Yeoh(1e5, 3e4, 1e4)])
+@pytest.mark.parametrize("eta", [1.2, 1.3, 1.6])
+def test_wide_inner_diameters_remain_inner_ones(tmp_path, law, eta):
+    """Rows that begin where even the outer diameter would be above that at rest."""
+    ratio = np.linspace(eta + 0.02, eta + 0.3, 9)
+    rows = zip(inflation(ratio, eta, law) / 1e3, 3.5 * ratio, strict=True)
+    tube = sp.Ureter("3.5 mm", wall_ratio=eta)
+    path = table(tmp_path, rows, "pressure_kPa,inner_diameter_mm")
+    np.testing.assert_allclose(read_inflation(path, tube).radius_ratio, ratio)
+
+
+def test_inner_diameters_under_the_name_of_outer_ones(tmp_path):
+    rows = [(5.6, 3.57), (15, 3.66), (24, 3.80), (31, 3.93)]
+    path = table(tmp_path, rows, "pressure_kPa,outer_diameter_mm")
+    sentence = "name the column inner_diameter_mm if they are inner diameters"
+    with pytest.raises(BadInput, match=sentence):
+        read_inflation(path, sp.Ureter("3.5 mm", "4.55 mm"))
+
+
 def test_compression_is_data_and_a_collapsed_tube_too(tmp_path, capsys):
     """Signs are asked, not the side of rest: both sides of it obey the law."""
     stretch = np.array([0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3])

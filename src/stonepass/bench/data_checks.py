@@ -12,7 +12,7 @@ from typing import NoReturn
 import numpy as np
 
 from stonepass.array_types import Float
-from stonepass.bench.other_reading import explains_better, strip_shapes
+from stonepass.bench.other_reading import explains_better, strip_shapes, tube_shapes
 from stonepass.errors import BadInput
 from stonepass.io.csv_file import Columns
 from stonepass.model.ureter import Ureter
@@ -158,8 +158,8 @@ def check_inflation(
     ------
     BadInput
         The wall does not fit into an outer diameter, all diameters are above 1.7 times the diameter
-        at rest, or too large a fraction of Σ |pressure × widening| has the wrong sign: 5 %, or
-        20 % if the tube is stretched along its axis.
+        at rest, too large a fraction of Σ |pressure × widening| has the wrong sign (5 %, or
+        20 % if the tube is stretched along its axis), or the diameters are of the other kind.
 
     References
     ----------
@@ -169,9 +169,14 @@ def check_inflation(
     doubled = inner_ratio(2.0 * columns[given], given, ureter, axial)
     option, rest = ("--outer", ureter.outer_diameter) if given[0] == "o" else (
         "--inner", ureter.inner_diameter)  # fmt: skip
+    other = "inner_diameter_mm" if given[0] == "o" else "outer_diameter_mm"
+    swapped = inner_ratio(columns[given], other, ureter, axial)
     at_rest = f"{1e3 * (rest or 0.0):.4g} mm ({option})"
+    renamed = f"name the column {other} if they are {other[:5]} diameters"
     radii = bool(np.all(doubled > 1.0))
     remedy = "double the values if they are radii" if radii else f"check {option} and the unit"
+    if np.all(swapped > 0.9):
+        remedy = renamed
     if not np.all(ratio > 0.0):
         row = int(np.argmin(ratio > 0.0))
         raise BadInput(f"in {file}, {columns.place(row, given)}", f"{columns[given][row]:g}",
@@ -188,6 +193,13 @@ def check_inflation(
                        f"below {FARTHEST_TUBE:g} times for data that begin at rest",
                        "give diameters, not radii, as --inner and --outer, or add the row at rest, "
                        "without pressure")  # fmt: skip
+    shapes = [tube_shapes(each, ureter.wall_ratio, axial, 2) for each in (ratio, swapped)]
+    if explains_better(pressure, *shapes):
+        values = columns[given]
+        raise BadInput(f"in {file}, column '{given}'", f"{values.min():g} to {values.max():g}",
+                       f"{given[:5]} diameters, so that the pressure is zero at {at_rest}",
+                       f"as {other[:5]} diameters the values agree with a tube: {renamed}"
+                       )  # fmt: skip
 
 
 def _refuse_tube(

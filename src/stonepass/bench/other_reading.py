@@ -10,8 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.bench.bench_stress import tube_pressure
+from stonepass.materials.yeoh import Yeoh
 
-__all__ = ["explains_better", "strip_shapes"]
+__all__ = ["explains_better", "strip_shapes", "tube_shapes"]
 
 FEWEST = 4  # smallest number of rows for a comparison
 # The other reading is accepted if the reading as named misses the loads by more than this fraction
@@ -26,7 +28,7 @@ def explains_better(
 ) -> bool:
     """Return True if another reading of the data explains the loads far better.
 
-    The comparison favours the reading as named, which may have more shapes.
+    The comparison favours the reading as named if it has more shapes.
 
     Parameters
     ----------
@@ -34,7 +36,7 @@ def explains_better(
         Measured stresses or pressures in any unit.
     named, other : array (n, k), array (n, m)
         Shapes of load curves for both readings; a curve is a linear combination of them. The sum
-        of the coefficients of the other reading, its stiffness at rest, has to be positive.
+        of the coefficients of the other reading, by which stiffness is judged, has to be positive.
     """
     if len(load) < FEWEST or not (np.all(np.isfinite(named)) and np.all(np.isfinite(other))):
         return False
@@ -51,6 +53,24 @@ def strip_shapes(stretch: Float[np.ndarray, " n"], count: int) -> Float[np.ndarr
     first = stretch - stretch**-2
     over = stretch**2 + 2.0 / stretch - 3.0
     return np.column_stack([first, first / stretch, first * over][:count])
+
+
+def tube_shapes(
+    radius_ratio: Float[np.ndarray, " n"],
+    wall_ratio: float,
+    axial: Float[np.ndarray, " n"],
+    count: int,
+) -> Float[np.ndarray, "n k"]:
+    """Return the pressures of a tube by the first `count` constants of the law of Yeoh, in Pa.
+
+    Each constant is 1 Pa. For the arguments see `tube_pressure`.
+    """
+    with np.errstate(invalid="ignore"):
+        total = [
+            tube_pressure(Yeoh(*constants), radius_ratio, wall_ratio, axial)
+            for constants in ((1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, 0.0, 1.0))[:count]
+        ]
+    return np.column_stack([total[0], *(each - total[0] for each in total[1:])])
 
 
 def _missed(load: Float[np.ndarray, " n"], shapes: Float[np.ndarray, "n k"]) -> tuple[float, float]:

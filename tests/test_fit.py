@@ -182,6 +182,25 @@ def test_fits_that_are_none(call, sentence):
         fit_law(tension(RUBBER), *call)
 
 
+def test_a_single_gross_error_is_named_by_its_row(tmp_path):
+    """135 written as 13500; the others have C10 = 94 kPa, which predicts 133 kPa there."""
+    rows = [(1.1, 50), (1.2, 95), (1.3, 13500), (1.4, 170), (1.5, 200), (1.6, 225)]
+    data = read_tension(table(tmp_path, rows))
+    for law in ("neo-hookean", "yeoh", "demiray"):
+        with pytest.raises(BadInput, match="nominal stress of row 4 is 13500 kPa, but must be"):
+            fit_law(data, law)
+    with pytest.raises(BadInput) as refused:
+        fit_law(data, "neo-hookean")
+    assert str(refused.value) == (
+        "nominal stress of row 4 is 13500 kPa, but must be near the 133 kPa that the fit to all "
+        "other points predicts; check the decimal sign and the unit of this value, or leave it out."
+    )
+    ratio = np.array([1.03, 1.08, 1.13, 1.18, 1.23, 1.28])
+    pressure = RUBBER.inflation_pressure(ratio, 1.3) * np.array([1, 1, 1e3, 1, 1, 1])
+    with pytest.raises(BadInput, match="transmural pressure of point 3 is"):
+        fit_law(Inflation(ratio, pressure, 1.3, np.ones(6)), "neo-hookean")
+
+
 def test_too_few_points():
     with pytest.raises(BadInput, match="number of data points is 3, but must be more than 3"):
         fit_law(tension(RUBBER, STRETCH[:3]), "yeoh")

@@ -64,6 +64,9 @@ class Data(Protocol):
         None is returned for specimens that cannot be slack.
         """
 
+    def without(self, point: int) -> Data:
+        """Return the data without a point."""
+
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
         """Return the stresses or pressures that a law predicts, in Pa; NaN if it predicts none."""
 

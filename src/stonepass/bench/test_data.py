@@ -98,6 +98,13 @@ class Tension:
         loose = np.minimum(self.stretch, 1.0)
         return replace(self, stretch=np.maximum(self.stretch / stretch, loose))
 
+    def without(self, point: int) -> Tension:
+        """Return the data without a point."""
+        kept = [k for k in range(len(self.stress)) if k != point]
+        lines = tuple(self.lines[k] for k in kept if self.lines)
+        axis = tuple(self.axis[k] for k in kept)
+        return Tension(self.stretch[kept], self.stress[kept], axis, lines)
+
     @property
     def _around(self) -> Bool[np.ndarray, " n"]:
         return np.array(self.axis) == AXES[0]
@@ -174,6 +181,13 @@ class Inflation:
                 self, axial_stretch=self.axial_stretch * (1.0 + part)
             ),
         }
+
+    def without(self, point: int) -> Inflation:
+        """Return the data without a point."""
+        kept = [k for k in range(len(self.pressure)) if k != point]
+        lines = tuple(self.lines[k] for k in kept if self.lines)
+        ratio, axial = self.radius_ratio[kept], self.axial_stretch[kept]
+        return Inflation(ratio, self.pressure[kept], self.wall_ratio, axial, lines)
 
     def taut_from(self, stretch: float) -> None:
         """Return None: a tube cannot be slack."""

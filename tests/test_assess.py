@@ -21,6 +21,8 @@ from stonepass.clinic.patient import read_patient
 from stonepass.clinic.pressure_limits import LIMITS, describe_limit
 from stonepass.errors import BadInput, Outcome
 from stonepass.materials.composition import fibres_of
+from stonepass.materials.constants import read_constant
+from stonepass.materials.known_laws import constants_by_name
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -48,7 +50,12 @@ from stonepass.studies.conditions import Conditions, lumen_ratios
 from stonepass.studies.response import response_surface
 from stonepass.studies.surrogates.covering import CoveringSurrogate, covering_surrogate
 from stonepass.studies.surrogates.store import load_surrogate
-from stonepass.studies.uncertain_quantity import measured_length, measured_number
+from stonepass.studies.uncertain_quantity import (
+    measured_angle,
+    measured_length,
+    measured_number,
+    measured_pressure,
+)
 from stonepass.units import Pressure
 
 PATIENT = """
@@ -137,6 +144,21 @@ def test_a_number_with_its_uncertainty():
         measured_length("5 mm", "stone", bounds)
     with pytest.raises(BadInput, match="a rising range"):
         measured_number("0.5 to 0.1", "friction", (0.0, 2.0))
+
+
+def test_an_exact_value_needs_no_unit_of_its_zero():
+    """As docs/assess.md and the refusal of a value without uncertainty write it: '± 0'."""
+    for text in ("5 mm ± 0", "5mm +- 0.0", "0.5 cm +/- 0", "5 mm ± 0 mm", "5 mm ± 0 %"):
+        found = measured_length(text, "stone", (1e-5, 1.0))
+        assert found.exact, text
+        assert found.value == pytest.approx(5e-3), text
+    assert measured_pressure("12 kPa ± 0", "C10", (0.0, 1e9)).quantiles(np.array([0.3])) == 12e3
+    deg = constants_by_name("holzapfel-gasser-ogden")["angle"]
+    angle = measured_angle("40 deg ± 0", "angle", (0.0, 2.0), lambda part: read_constant(part, deg))
+    assert (angle.exact, angle.value) == (True, pytest.approx(np.radians(40.0)))
+    for text in ("5 ± 0", "5 mm ± -0.1", "0 to 5 mm ± 0", "5 mm ± 0 kg"):
+        with pytest.raises(BadInput):
+            measured_length(text, "stone", (1e-5, 1.0))
 
 
 def test_exact_inputs_give_one_number(tmp_path):

@@ -25,7 +25,8 @@ from stonepass.model.far_field import inflation, inflation_by_quadrature
 from stonepass.records.fit import FitRecord, fit_record
 from stonepass.report.fit_figure import fit_figure
 from stonepass.strain import INNER_WALL, CauchyGreen
-from stonepass.units import length
+from stonepass.units import area, length
+from stonepass.web.jobs.bodies import FitJob
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 STRETCH = np.linspace(1.05, 1.5, 12)
@@ -149,6 +150,25 @@ def test_what_data_cannot_tell_is_refused_by_name():
     assert found["a1111"].value == pytest.approx(0.7091, rel=1e-3)
 
 
+def test_two_constants_that_act_as_their_sum_are_both_named():
+    """In plane strain I₂ = I₁, so that a tube at its own length determines C10 + C01 only."""
+    ratio = np.linspace(1.02, 1.3, 12)
+    data = Inflation(ratio, RUBBER.inflation_pressure(ratio, 1.3), 1.3, np.ones(12))
+    with pytest.raises(BadInput) as refused:
+        fit_law(data, "mooney-rivlin")
+    assert str(refused.value) == (
+        "effect of C10 and C01 on the predictions is not separable, but must be distinct for each "
+        "fitted constant; the data determine only C10 + C01, so fix one of them, e.g. "
+        "--fix C01=VALUE, or use another kind of test."
+    )
+    # Under an axial stretch λ of all points I₂ weighs λ² times as much.
+    longer = Inflation(ratio, inflation(ratio, 1.3, RUBBER, 1.2), 1.3, np.full(12, 1.2))
+    with pytest.raises(BadInput, match=r"the data determine only C10 \+ 1\.44 C01, so fix one"):
+        fit_law(longer, "mooney-rivlin")
+    found = fit_law(data, "mooney-rivlin", {"C01": 5e4})
+    assert found.constants[0].value == pytest.approx(RUBBER.C10 - 5e4, rel=1e-5)
+
+
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
@@ -160,6 +180,25 @@ def test_what_data_cannot_tell_is_refused_by_name():
 def test_fits_that_are_none(call, sentence):
     with pytest.raises(BadInput, match=sentence):
         fit_law(tension(RUBBER), *call)
+
+
+def test_a_single_gross_error_is_named_by_its_row(tmp_path):
+    """135 written as 13500; the others have C10 = 94 kPa, which predicts 133 kPa there."""
+    rows = [(1.1, 50), (1.2, 95), (1.3, 13500), (1.4, 170), (1.5, 200), (1.6, 225)]
+    data = read_tension(table(tmp_path, rows))
+    for law in ("neo-hookean", "yeoh", "demiray"):
+        with pytest.raises(BadInput, match="nominal stress of row 4 is 13500 kPa, but must be"):
+            fit_law(data, law)
+    with pytest.raises(BadInput) as refused:
+        fit_law(data, "neo-hookean")
+    assert str(refused.value) == (
+        "nominal stress of row 4 is 13500 kPa, but must be near the 133 kPa that the fit to all "
+        "other points predicts; check the decimal sign and the unit of this value, or leave it out."
+    )
+    ratio = np.array([1.03, 1.08, 1.13, 1.18, 1.23, 1.28])
+    pressure = RUBBER.inflation_pressure(ratio, 1.3) * np.array([1, 1, 1e3, 1, 1, 1])
+    with pytest.raises(BadInput, match="transmural pressure of point 3 is"):
+        fit_law(Inflation(ratio, pressure, 1.3, np.ones(6)), "neo-hookean")
 
 
 def test_too_few_points():
@@ -442,6 +481,47 @@ def test_tubes_that_are_none(tmp_path, capsys, header, rows, sizes, sentence):
         raise AssertionError(told)
 
 
+def test_outer_diameters_are_not_fitted_as_inner_ones(tmp_path, capsys):
+    """Of a tube of rubber, exact and with 2 % of noise; by their own name they give its modulus."""
+    ratio = np.linspace(1.03, 1.5, 9)
+    outer = np.sqrt((3.5 * ratio) ** 2 + 4.55**2 - 3.5**2)
+    size = ["--law", "neo-hookean", "--inner", "3.5mm", "--outer", "4.55mm"]
+    for noise in (0.0, 0.02):
+        off = 1.0 + noise * np.random.default_rng(1).normal(size=9)
+        rows = list(zip(RUBBER.inflation_pressure(ratio, 1.3) / 1e3 * off, outer, strict=True))
+        path = table(tmp_path, rows, "pressure_kPa,inner_diameter_mm")
+        code, _, told = fitted(capsys, "inflation", path, *size)
+        assert code == 2
+        assert (
+            "inner diameters, so that the pressure is zero at 3.5 mm (--inner); as outer diameters "
+            "the values agree with a tube: name the column outer_diameter_mm if they are outer "
+            "diameters."
+        ) in " ".join(told.split())
+        path = table(tmp_path, rows, "pressure_kPa,outer_diameter_mm")
+        code, shown, _ = fitted(capsys, "inflation", path, *size, "--json")
+        assert code == 0
+        assert json.loads(shown)["constants"][0]["value"] == pytest.approx(RUBBER.C10, rel=0.02)
+
+
+@pytest.mark.parametrize("law", [RUBBER, material("ureter").law, Yeoh(1e5, 3e4, 1e4)])
+@pytest.mark.parametrize("eta", [1.2, 1.3, 1.6])
+def test_wide_inner_diameters_remain_inner_ones(tmp_path, law, eta):
+    """Rows that begin where even the outer diameter would be above that at rest."""
+    ratio = np.linspace(eta + 0.02, eta + 0.3, 9)
+    rows = zip(inflation(ratio, eta, law) / 1e3, 3.5 * ratio, strict=True)
+    tube = sp.Ureter("3.5 mm", wall_ratio=eta)
+    path = table(tmp_path, rows, "pressure_kPa,inner_diameter_mm")
+    np.testing.assert_allclose(read_inflation(path, tube).radius_ratio, ratio)
+
+
+def test_inner_diameters_under_the_name_of_outer_ones(tmp_path):
+    rows = [(5.6, 3.57), (15, 3.66), (24, 3.80), (31, 3.93)]
+    path = table(tmp_path, rows, "pressure_kPa,outer_diameter_mm")
+    sentence = "name the column inner_diameter_mm if they are inner diameters"
+    with pytest.raises(BadInput, match=sentence):
+        read_inflation(path, sp.Ureter("3.5 mm", "4.55 mm"))
+
+
 def test_compression_is_data_and_a_collapsed_tube_too(tmp_path, capsys):
     """Signs are asked, not the side of rest: both sides of it obey the law."""
     stretch = np.array([0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3])
@@ -529,6 +609,137 @@ def test_extension_and_force_are_stretch_and_stress(tmp_path, capsys):
         assert sentence in told
 
 
+@pytest.mark.parametrize(
+    ("sizes", "sentence"),
+    [
+        (["--width", "-10mm", "--thickness", "-1mm"], "--width is -10mm, but must be above 0"),
+        (["--width", "10mm", "--thickness", "0mm"], "--thickness is 0mm, but must be above 0"),
+        (["--section", "-12mm2"], "--section is -12mm2, but must be above 0"),
+        (["--section", "12mm2", "--gauge-length", "-2cm"],
+         "--gauge-length is -2cm, but must be above 0"),
+    ],
+)  # fmt: skip
+def test_every_size_at_rest_is_positive(tmp_path, capsys, sizes, sentence):
+    path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)], "stretch,force_N")
+    code, _, told = fitted(capsys, "tensile", path, "--law", "neo-hookean", *sizes)
+    assert code == 2
+    assert sentence in told
+
+
+def test_sizes_at_rest_are_positive_from_python_and_over_http(tmp_path):
+    path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)], "stretch,force_N")
+    with pytest.raises(BadInput, match="width is -10 mm, but must be above 0"):
+        read_tension(path, length("-10 mm"), length("-1 mm"))
+    with pytest.raises(BadInput, match="section is -12 mm2, but must be above 0"):
+        read_tension(path, section=area("-12 mm2"))
+    job = FitJob(kind="fit", upload="0" * 64, test="tensile", law="yeoh", thickness="-1 mm")
+    with pytest.raises(BadInput, match="thickness is -1 mm, but must be above 0"):
+        job.question()
+
+
+def test_a_gauge_length_is_not_asked_for_beside_stretches(tmp_path, capsys):
+    path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)])
+    sizes = ["--law", "neo-hookean", "--gauge-length", "10mm"]
+    code, _, told = fitted(capsys, "tensile", path, *sizes)
+    assert code == 2
+    assert (
+        "length of the strip is given as --gauge-length, but must be left out; data.csv has a "
+        "column of stretches."
+    ) in " ".join(told.split())
+
+
+def strains(law, values, part):
+    values = np.asarray(values, dtype=float)
+    return zip(values, tension(law, 1.0 + values / part).stress / 1e3, strict=True)
+
+
+@pytest.mark.parametrize("law", [RUBBER, MooneyRivlin(6e4, 9e4), Yeoh(1e5, 1e2, 0.0)])
+@pytest.mark.parametrize(
+    ("values", "part", "remedy"),
+    [
+        ([1, 2, 4, 6, 8, 10, 12, 14], 100.0, "1 + value/100"),
+        (np.linspace(0.5, 14.0, 20), 100.0, "1 + value/100"),
+        ([0.2, 0.5, 1, 2, 4, 6], 1.0, "1 + value."),
+        ([1, 2, 3, 4, 5, 6], 1.0, "1 + value."),
+        ([0.1, 0.4, 0.8, 1.2, 1.6, 2.0], 1.0, "1 + value."),
+    ],
+)
+def test_strains_are_not_fitted_as_stretches(tmp_path, capsys, law, values, part, remedy):
+    path = table(tmp_path, strains(law, values, part))
+    code, _, told = fitted(capsys, "tensile", path, "--law", "neo-hookean")
+    assert code == 2
+    assert told.count("\n") <= 4
+    assert remedy in " ".join(told.split()) or "holds strains, add 1 to them" in told
+
+
+def test_the_sentence_about_per_cent(tmp_path):
+    stress = [8.7, 17.2, 33.8, 49.8, 65.3, 80.3, 94.8, 108.9]
+    path = table(tmp_path, zip([1, 2, 4, 6, 8, 10, 12, 14], stress, strict=True))
+    with pytest.raises(BadInput) as refused:
+        read_tension(path)
+    assert str(refused.value) == (
+        "in data.csv, column 'stretch' is 1 to 14, but must be the length divided by that at rest, "
+        "so that the stress is zero at 1; the values look like strains in per cent, since the "
+        "stress is zero at 0: replace each by 1 + value/100."
+    )
+    rows = zip(1.0 + np.array([1, 2, 4, 6, 8, 10, 12, 14]) / 100.0, stress, strict=True)
+    found = fit_law(read_tension(table(tmp_path, rows)), "neo-hookean")
+    assert found.constants[0].value == pytest.approx(146e3, rel=0.01)
+
+
+@pytest.mark.parametrize("law", [RUBBER, MooneyRivlin(5e4, 1e5), Yeoh(2e5, -2e3, 60.0)])
+@pytest.mark.parametrize("fault", [0.0, 0.06, -0.05])
+@pytest.mark.parametrize(
+    ("low", "high"), [(1.0, 8.0), (1.0, 1.4), (1.2, 3.0), (1.5, 8.0), (0.6, 4.0)]
+)
+def test_large_stretches_remain_stretches(tmp_path, law, fault, low, high):
+    """Also with a zero offset of 6 % of the largest stress and with 2 % of noise."""
+    stretch = np.linspace(low, high, 9)
+    for seed in range(5):
+        clean = tension(law, stretch).stress / 1e3
+        noise = fault + 0.02 * np.random.default_rng(seed).normal(size=9)
+        rows = zip(stretch, clean + clean.max() * noise, strict=True)
+        assert read_tension(table(tmp_path, rows)).strain_range == (low, high)
+
+
+@pytest.mark.parametrize(
+    ("law", "options", "sentence"),
+    [
+        ("yeoh", ["--fix", "C30=0kPa", "--free", "C30"],
+         "constant C30 is both fixed and freed, but must be one of them, since a fixed constant is "
+         "not fitted; leave out --fix C30 or --free C30."),
+        ("demiray", ["--fix", "mu=12kPa", "--fix", "mu=150kPa"],
+         "--fix mu is given twice, but must be given once."),
+        ("demiray", ["--fix", "mu=-50kPa"], "--fix mu is -50kPa, but must be a positive modulus."),
+        ("demiray", ["--fix", "b=1e6"],
+         "--fix b is 1e6, but must be a number above 0 and below 1000."),
+        ("mooney-rivlin", ["--fix", "C10=-50kPa"],
+         "--fix C10 is -50kPa, but must be a positive modulus."),
+        ("holzapfel-gasser-ogden", ["--fix", "angle=200 deg"],
+         "--fix angle is 200 deg, but must be an angle from 0° to 90°."),
+    ],
+)  # fmt: skip
+def test_fixed_constants_are_within_their_bounds_and_given_once(
+    tmp_path, capsys, law, options, sentence
+):
+    path = table(tmp_path, [(1.1, 50), (1.2, 95), (1.3, 140), (1.4, 180)])
+    code, _, told = fitted(capsys, "tensile", path, "--law", law, *options)
+    assert code == 2
+    assert sentence in " ".join(told.split())
+
+
+def test_fixed_constants_from_python_and_over_http_are_within_their_bounds():
+    with pytest.raises(BadInput, match="fixed constant angle is 200 deg, but must be an angle"):
+        fit_law(tension(RUBBER), "holzapfel-gasser-ogden", {"angle": np.radians(200.0)})
+    with pytest.raises(BadInput, match=r"fixed constant C10 is -0\.05 MPa, but must be a positive"):
+        fit_law(tension(RUBBER), "mooney-rivlin", {"C10": -5e4})
+    with pytest.raises(BadInput, match="fixed constant b is nan, but must be a number above 0"):
+        fit_law(tension(RUBBER), "demiray", {"b": np.nan})
+    job = FitJob(kind="fit", upload="0" * 64, test="tensile", law="demiray", fix={"mu": "-5 kPa"})
+    with pytest.raises(BadInput, match="mu is -5 kPa, but must be a positive modulus"):
+        job.question()
+
+
 def test_yeoh_without_its_third_constant_has_two(tmp_path):
     path = tmp_path / "law.toml"
     path.write_text(
@@ -546,6 +757,24 @@ def test_stresses_in_the_wrong_unit_are_asked_about():
     assert "check whether the nominal stress was given in MPa instead of kPa" in str(
         found.warnings[0]
     )
+
+
+def test_stresses_in_pascals_are_asked_about():
+    """A column in Pa read as kPa: Young's modulus 6 C10 = 879 MPa; the hardest rubber is silent."""
+    (told,) = fit_law(tension(NeoHookean(146.5e6)), "neo-hookean").warnings
+    assert told.code == "stiff_fit"
+    assert str(told) == (
+        "the fitted Young's modulus at rest is 879 MPa, which is stiffer than any soft tissue or "
+        "rubber (the hardest rubber has about 45 MPa): check whether the nominal stress was given "
+        "in Pa instead of kPa"
+    )
+    assert fit_law(tension(NeoHookean(44e6 / 6.0)), "neo-hookean").warnings == ()
+    ureter = fit_law(tension(material("ureter").law, axes=AXES), "fung", {"G": 12e3})
+    assert "stiff_fit" not in {each.code for each in ureter.warnings}
+    wall = {each.name: each.value for each in ureter.constants}
+    thousandfold = Fung(**{k: v * 1e3 if k in ("C", "G") else v for k, v in wall.items()})
+    found = fit_law(tension(thousandfold, axes=AXES), "fung", {"G": 12e6})
+    assert "stiff_fit" in {each.code for each in found.warnings}
 
 
 def test_sixty_points_at_as_many_axial_stretches_are_one_pass():

@@ -128,6 +128,18 @@ def test_an_axial_stretch_of_a_tube_that_was_not_told():
     assert told["axial_rest_length"]["part"] == pytest.approx(0.15, abs=0.08)
 
 
+def test_impossible_amounts_are_not_offered():
+    """Pressures at 1.3 to 1.7 times the diameter, as if from outer diameters: no size is −146 %."""
+    ratio = np.array([1.32, 1.389, 1.457, 1.523, 1.591, 1.66, 1.729, 1.714])
+    pressure = 1e3 * np.array([5.6, 15, 24, 31, 38, 44, 50, 56])
+    found = fit_law(Inflation(ratio, pressure, 1.3, np.ones(8)), "neo-hookean")
+    assert found.warnings
+    for each in found.warnings:
+        values = dict(each.values)
+        assert 5e-5 <= abs(values.get("part", 0.1)) <= 0.3
+        assert abs(values.get("offset_kPa", 0.0)) <= 56.0
+
+
 def test_residuals_that_are_rounding_are_not_looked_at():
     stress = RUBBER.C10 * shape(STRETCH)
     assert cautions(strips(STRETCH, np.round(stress, -1), noise=0.0)) == []

@@ -189,6 +189,11 @@ SENTENCES = {
         "the fitted shear modulus is {modulus_Pa:.3g} Pa, which is softer than any ureter: check "
         "whether the {measured} was given in MPa instead of kPa"
     ),
+    "stiff_fit": (
+        "the fitted Young's modulus at rest is {modulus_MPa:.3g} MPa, which is stiffer than any "
+        "soft tissue or rubber (the hardest rubber has about 45 MPa): check whether the {measured} "
+        "was given in Pa instead of kPa"
+    ),
     "beyond_sd": (
         "series and model disagree: with friction {friction:.3g} the typical residual is "
         "{typical:.2g} standard deviations and the largest {largest:.2g}, so the fitted numbers "

@@ -12,6 +12,7 @@ from typing import NoReturn
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.bench.other_reading import explains_better, strip_shapes, tube_shapes
 from stonepass.errors import BadInput
 from stonepass.io.csv_file import Columns
 from stonepass.model.ureter import Ureter
@@ -27,7 +28,7 @@ WRONG_SHARE = 0.05
 # measured but estimated.
 WRONG_SHARE_STRETCHED = 0.2
 # Data should begin near the state at rest. They are refused if the smallest stretch of the strips,
-# or the smallest diameter of the tube divided by that at rest, is larger than this.
+# or the smallest diameter of the tube divided by that at rest, is at least this large.
 FARTHEST_START, FARTHEST_TUBE = 2.0, 1.7
 STRAINS = "a stretch is the length divided by that at rest: 1 + strain, or 1 + per cent/100"
 
@@ -57,8 +58,8 @@ def check_tension(
     Raises
     ------
     BadInput
-        A stretch lies outside 0.1 to 15, all stretches are above 2, a stress exceeds 1e7 kPa, or
-        more than 5 % of Σ |stress × strain| has the wrong sign.
+        A stretch lies outside 0.1 to 15, no stretch is below 2, a stress exceeds 1e7 kPa, more than
+        5 % of Σ |stress × strain| has the wrong sign, or the stress is zero at 0 instead of 1.
 
     References
     ----------
@@ -72,6 +73,8 @@ def check_tension(
                        f"{columns[measured][row]:g}", "a stress below 1e7 kPa")  # fmt: skip
     wrong = _wrong(stress * (stretch - 1.0), WRONG_SHARE)
     if wrong is None:
+        if along == "stretch":
+            _check_rest(file, stretch, stress)
         return
     row = wrong
     place = f"in {file}, {columns.place(row, measured)}"
@@ -100,11 +103,25 @@ def _check_stretches(
                            )  # fmt: skip
         raise BadInput(place, f"{value:g}", f"a number from {low:g} to {high:g}",
                        _swapped(columns) or STRAINS)  # fmt: skip
-    if stretch.min() > FARTHEST_START:
+    if stretch.min() >= FARTHEST_START:
         remedy = f"{STRAINS}; if the column holds stretches, add the row at rest (1, 0)"
         raise BadInput(f"in {file}, the smallest stretch", f"{stretch.min():.4g}",
                        f"below {FARTHEST_START:g} for data that begin at rest", remedy
                        )  # fmt: skip
+
+
+def _check_rest(
+    file: str, stretch: Float[np.ndarray, " n"], stress: Float[np.ndarray, " n"]
+) -> None:
+    """Refuse stretches if the stress is zero at 0 and not at 1, as it is for strains."""
+    as_named = strip_shapes(stretch, 3)
+    for kind, written, part in (("strains", "", 1.0), ("strains in per cent", "/100", 100.0)):
+        if explains_better(stress, as_named, strip_shapes(1.0 + stretch / part, 2)):
+            raise BadInput(f"in {file}, column 'stretch'",
+                           f"{stretch.min():g} to {stretch.max():g}",
+                           "the length divided by that at rest, so that the stress is zero at 1",
+                           f"the values look like {kind}, since the stress is zero at 0: replace "
+                           f"each by 1 + value{written}")  # fmt: skip
 
 
 def _swapped(columns: Columns) -> str:
@@ -141,8 +158,8 @@ def check_inflation(
     ------
     BadInput
         The wall does not fit into an outer diameter, all diameters are above 1.7 times the diameter
-        at rest, or too large a fraction of Σ |pressure × widening| has the wrong sign: 5 %, or
-        20 % if the tube is stretched along its axis.
+        at rest, too large a fraction of Σ |pressure × widening| has the wrong sign (5 %, or
+        20 % if the tube is stretched along its axis), or the diameters are of the other kind.
 
     References
     ----------
@@ -152,9 +169,14 @@ def check_inflation(
     doubled = inner_ratio(2.0 * columns[given], given, ureter, axial)
     option, rest = ("--outer", ureter.outer_diameter) if given[0] == "o" else (
         "--inner", ureter.inner_diameter)  # fmt: skip
+    other = "inner_diameter_mm" if given[0] == "o" else "outer_diameter_mm"
+    swapped = inner_ratio(columns[given], other, ureter, axial)
     at_rest = f"{1e3 * (rest or 0.0):.4g} mm ({option})"
+    renamed = f"name the column {other} if they are {other[:5]} diameters"
     radii = bool(np.all(doubled > 1.0))
     remedy = "double the values if they are radii" if radii else f"check {option} and the unit"
+    if np.all(swapped > 0.9):
+        remedy = renamed
     if not np.all(ratio > 0.0):
         row = int(np.argmin(ratio > 0.0))
         raise BadInput(f"in {file}, {columns.place(row, given)}", f"{columns[given][row]:g}",
@@ -165,12 +187,19 @@ def check_inflation(
     wrong = _wrong(pressure * widening, allowed)
     if wrong is not None:
         _refuse_tube(file, columns, given, wrong, at_rest, remedy)
-    if widening.min() > FARTHEST_TUBE - 1.0:
+    if widening.min() >= FARTHEST_TUBE - 1.0:
         raise BadInput(f"in {file}, the smallest diameter",
                        f"{1.0 + widening.min():.3g} times that at rest, {at_rest}",
                        f"below {FARTHEST_TUBE:g} times for data that begin at rest",
                        "give diameters, not radii, as --inner and --outer, or add the row at rest, "
                        "without pressure")  # fmt: skip
+    shapes = [tube_shapes(each, ureter.wall_ratio, axial, 2) for each in (ratio, swapped)]
+    if explains_better(pressure, *shapes):
+        values = columns[given]
+        raise BadInput(f"in {file}, column '{given}'", f"{values.min():g} to {values.max():g}",
+                       f"{given[:5]} diameters, so that the pressure is zero at {at_rest}",
+                       f"as {other[:5]} diameters the values agree with a tube: {renamed}"
+                       )  # fmt: skip
 
 
 def _refuse_tube(

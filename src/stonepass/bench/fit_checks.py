@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,14 +15,16 @@ from stonepass.bench.least_squares import LEVEL
 from stonepass.bench.objective import Data, Objective, at_an_end
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
-from stonepass.materials.constants import shown_constant
+from stonepass.materials.constants import constants_of, shown_constant
 
 __all__ = ["check_enough", "check_fit", "check_told", "r_squared_of"]
 
 # A singular value of the sensitivity matrix below this fraction of the largest one counts as zero.
 INDISTINCT = 1e-6
-# A constant is named if its component in an unidentified direction (a unit vector) exceeds this.
+# A constant is named if its component in an unidentified direction (a unit vector) exceeds this, or
+# if its effect on the predictions along that direction exceeds this fraction of the largest effect.
 SHARE = 0.3
+SAME = 1e-3  # relative difference of two coefficients that are equal
 
 
 def check_enough(data: Data, free: Sequence[str]) -> None:
@@ -78,17 +81,46 @@ def check_told(objective: Objective, search: Search) -> None:
     ----------
     docs/bench.md, "Identifiability".
     """
-    smallest: Float[np.ndarray, " free"] | None = None
+    told: list[_Blind] = []
     for start in STARTS:
-        values = search.parameters(start).valuesdict()
-        slopes = objective.sensitivities(values, search.free)
-        _, sizes, directions = np.linalg.svd(slopes, full_matrices=False)
-        blind = directions[sizes <= INDISTINCT * sizes[0]]
-        if not len(blind):
+        found = _blind(objective, search.parameters(start).valuesdict(), search.free)
+        if found is None:
             return
-        smallest = np.abs(blind).max(axis=0)
-    assert smallest is not None
-    _refuse_blind([n for n, part in zip(search.free, smallest, strict=True) if part > SHARE])
+        told.append(found)
+    sums = {each.determined for each in told}
+    _refuse_blind(_Blind(told[-1].names, sums.pop() if len(sums) == 1 else ""))
+
+
+@dataclass(frozen=True)
+class _Blind:
+    """Constants that the data do not identify, and the sum that they do, if there is one."""
+
+    names: list[str]
+    determined: str
+
+
+def _blind(objective: Objective, values: Mapping[str, float], free: Sequence[str]) -> _Blind | None:
+    """Return the constants whose changes can leave every prediction unchanged; None without one."""
+    slopes = objective.sensitivities(values, free)
+    _, sizes, directions = np.linalg.svd(slopes, full_matrices=False)
+    blind = np.abs(directions[sizes <= INDISTINCT * sizes[0]])
+    if not len(blind):
+        return None
+    effects = blind * np.linalg.norm(slopes, axis=0)
+    largest = np.maximum(effects.max(axis=1, keepdims=True), INDISTINCT * sizes[0])
+    part = ((blind > SHARE) | (effects > SHARE * largest)).any(axis=0)
+    named = [k for k in range(len(free)) if part[k]]
+    names = [free[k] for k in named]
+    units = {each.unit for each in constants_of(objective.law) if each.name in names}
+    if len(named) != 2 or units != {"Pa"} or effects.max() <= INDISTINCT * sizes[0]:
+        return _Blind(names, "")
+    # Stresses are linear in the moduli, so that two moduli with parallel slopes act as a sum.
+    magnitudes = np.array(objective.magnitudes(values, free))[named]
+    first, second = (slopes[:, named] / magnitudes).T
+    ratio = float(second @ first / (first @ first))
+    weight = "" if abs(ratio - 1.0) < SAME else f"{abs(ratio):.3g} "
+    sign = "+" if ratio > 0.0 else "-"
+    return _Blind(names, f"{names[0]} {sign} {weight}{names[1]}")
 
 
 def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution]:
@@ -156,21 +188,20 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
                        remedy)  # fmt: skip
     named = {dict(each.values)["name"] for each in told}
     inside = [each for each in search.free if each not in named]
-    _, sizes, directions = np.linalg.svd(objective.sensitivities(values, inside),
-                                         full_matrices=False)  # fmt: skip
-    blind = directions[sizes <= INDISTINCT * sizes[0]]
-    if len(blind):
-        _refuse_blind([n for n, part in zip(inside, np.abs(blind).max(axis=0), strict=True)
-                       if part > SHARE])  # fmt: skip
+    blind = _blind(objective, values, inside)
+    if blind is not None:
+        _refuse_blind(blind)
     return told
 
 
-def _refuse_blind(named: Sequence[str]) -> None:
+def _refuse_blind(blind: _Blind) -> None:
+    names, total = blind.names, blind.determined
+    determined = f"the data determine only {total}, so " if total else ""
     raise BadInput(
-        f"effect of {' and '.join(named)} on the predictions",
-        "not separable" if len(named) > 1 else "zero",
+        f"effect of {' and '.join(names)} on the predictions",
+        "not separable" if len(names) > 1 else "zero",
         "distinct for each fitted constant",
-        f"fix one of them, e.g. --fix {named[-1]}=VALUE, or use another kind of test",
+        f"{determined}fix one of them, e.g. --fix {names[-1]}=VALUE, or use another kind of test",
     )
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.bench.least_squares import lmfit
 from stonepass.bench.objective import Data, Objective, starting_parameters, stiffness_guess
-from stonepass.errors import refuse_unknown
-from stonepass.materials.constants import ConstantDeclaration
+from stonepass.errors import BadInput, refuse_unknown, require
+from stonepass.materials.constants import ConstantDeclaration, shown_constant
 from stonepass.materials.known_laws import constants_by_name, known_law
 
 __all__ = ["STARTS", "Search", "best_fit", "proportional_spread", "search_for"]
@@ -77,12 +77,20 @@ def search_for(data: Data, law: str, given: Mapping[str, float], free: Sequence[
     Raises
     ------
     BadInput
-        The law or one of the constants is unknown.
+        The law or one of the constants is unknown, a given value is outside the bounds of its
+        constant, or a constant is both given and named in `free`.
     """
     declared, fixed = constants_by_name(law), dict(given)
     for each in (*fixed, *free):
         if each not in declared:
             refuse_unknown(f"constant of law '{law}'", each, list(declared))
+    for name, value in fixed.items():
+        if name in free:
+            raise BadInput(f"constant {name}", "both fixed and freed", "one of them, since a "
+                           "fixed constant is not fitted", f"leave out --fix {name} or --free "
+                           f"{name}")  # fmt: skip
+        require(declared[name].allows(value), f"fixed constant {name}",
+                shown_constant(value, declared[name]), declared[name].allowed)  # fmt: skip
     for constant in declared.values():
         if constant.held and constant.default is not None and constant.name not in free:
             fixed.setdefault(constant.name, constant.default)

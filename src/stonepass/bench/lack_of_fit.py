@@ -39,6 +39,9 @@ ALIKE = 6.0  # difference of Schwarz's criterion below which two mistakes explai
 SMALL_PART = 1e-4  # relative change of a size at rest, for a difference quotient
 # Stretches up to which a strip may be slack; each is tried.
 SLACK = (1.01, 1.02, 1.03, 1.04, 1.05, 1.07, 1.1, 1.14, 1.2)
+# Smallest and largest relative change of a size at rest that is named. A smaller one would be shown
+# as zero; a larger one has no meaning, since the residuals are linearised.
+SIZE_CHANGE = (5e-5, 0.3)
 FEWEST_OF_TOE = 2  # smallest number of points on the slack part of the curve
 # A mistake is not tested if the part of its unit vector that is perpendicular to all known vectors
 # is shorter than this.
@@ -62,6 +65,8 @@ class _Mistake:
     directions: Float[np.ndarray, "n k"]
     told: Callable[[_Amounts, _Shift, float], Caution]
     tried: int = 1  # number of similar vectors that were tried, for the Bonferroni correction
+    # Bounds of the magnitude of the first coefficient; beyond them the mistake is impossible.
+    bounds: tuple[float, float] = (0.0, np.inf)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,8 +172,11 @@ def _verdict(
     chance = min(float(fdtrc(rank, free, ratio)) * mistake.tried, 1.0)
     if not chance < level:
         return None
+    amounts = found / sizes
+    if not mistake.bounds[0] <= abs(float(amounts[0])) <= mistake.bounds[1]:
+        return None
     criterion = count * np.log(after / count) + rank * np.log(count)
-    return _Verdict(mistake, chance, criterion, found / sizes, new @ found)
+    return _Verdict(mistake, chance, criterion, amounts, new @ found)
 
 
 def _mistakes(
@@ -177,17 +185,18 @@ def _mistakes(
     spread: Float[np.ndarray, " n"],
 ) -> list[_Mistake]:
     predicted = data.predicted(law)
-    found = [_offset(spread), *_sizes(data, law, spread)]
+    found = [_offset(data, spread), *_sizes(data, law, spread)]
     found += _of_branches(branches(data), predicted, spread)
     return [*found, _shape(data, predicted, spread)]
 
 
-def _offset(spread: Float[np.ndarray, " n"]) -> _Mistake:
+def _offset(data: Data, spread: Float[np.ndarray, " n"]) -> _Mistake:
     def told(amounts: _Amounts, shift: _Shift, chance: float) -> Caution:
         # Predicted minus observed is −offset.
         return caution("zero_offset", offset_kPa=-float(amounts[0]) / 1e3, chance=chance)
 
-    return _Mistake("zero_offset", (1.0 / spread)[:, None], told)
+    largest = float(np.abs(data.observed).max())
+    return _Mistake("zero_offset", (1.0 / spread)[:, None], told, bounds=(0.0, largest))
 
 
 def _sizes(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mistake]:
@@ -203,7 +212,7 @@ def _sizes(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mista
             # slope times that fraction.
             return caution(code, part=-float(amounts[0]), chance=chance)
 
-        found.append(_Mistake(code, slope[:, None], told))
+        found.append(_Mistake(code, slope[:, None], told, bounds=SIZE_CHANGE))
     return found + _slack(data, law, spread)
 
 

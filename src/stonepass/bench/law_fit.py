@@ -33,6 +33,12 @@ __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
 FEWEST_OF_A_TREND = 8  # smallest number of points for the test of a trend
 UNLIKELY = 0.01  # significance level of the test of a trend
+# A load is a gross error if it exceeds the largest of the others this many times, and if the law
+# describes the others with at least this R².
+GROSS, WELL = 10.0, 0.9
+# Young's modulus in Pa at rest that no soft tissue of a tube and no rubber has. The hardest rubber
+# of the scale Shore A, 95, has 44 MPa (Gent 1958, IRI Trans. 34, 46-57); beyond it lie plastics.
+STIFFEST_WALL = 5e7
 # Codes of the cautions after which the 95 % intervals are only approximate.
 UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "lack_of_fit",
           "zero_offset", "rest_size", "slack", "axial_rest_length", "hysteresis", "runs_differ",
@@ -172,20 +178,25 @@ def fit_law(
     BadInput
         The law or a constant is unknown, no constant is to be fitted, there are no more points than
         constants, all points have the same stretch or the same load, the data do not identify some
-        constants separately, a constant ends at a bound of the search, or the law describes the
-        data no better than chance.
+        constants separately, a constant ends at a bound of the search, the law describes the data
+        no better than chance, or a single point prevents the fit.
 
     References
     ----------
     docs/bench.md, "The fit".
     """
-    search = search_for(data, law, given or {}, free)
+    fixed = dict(given or {})
+    search = search_for(data, law, fixed, free)
     check_enough(data, search.free)
     even = np.full(len(data.observed), float(np.ptp(data.observed)))
     objective = Objective(data, search.made, even)
     check_told(objective, search)
     objective, minimizer, result = best_fit(objective, search, relative)
-    at_bounds = check_fit(objective, search, result)
+    try:
+        at_bounds = check_fit(objective, search, result)
+    except BadInput:
+        _refuse_gross_error(data, law, fixed, free)
+        raise
     values = {each: float(value) for each, value in result.params.valuesdict().items()}
     predicted = objective.predicted(values)
     off = predicted - data.observed
@@ -195,7 +206,7 @@ def fit_law(
     held = {dict(one.values)["name"] for one in at_bounds}
     inside = [each for each in search.free if each not in held]
     bounds, open_ends = intervals(minimizer, result, inside, search.declared)
-    unstable, soft = _unstable(material, data)
+    unstable, odd = _unstable(material, data)
     return FittedLaw(
         material=material,
         constants=_constants(search, values, bounds),
@@ -206,8 +217,36 @@ def fit_law(
         r_squared=r_squared_of(off, data.observed),
         correlations=correlations(result, search.free),
         unstable=unstable,
-        warnings=(*(doubts or growing), *at_bounds, *soft, *open_ends),
+        warnings=(*(doubts or growing), *at_bounds, *odd, *open_ends),
     )
+
+
+def _refuse_gross_error(
+    data: Data, law: str, given: Mapping[str, float], free: Sequence[str]
+) -> None:
+    """Refuse data without a fit by the name of a single point, if the others have one.
+
+    The point with the largest load is left out. It is named if the law describes the others well
+    and its load exceeds 10 times the largest load of the others.
+    """
+    worst = int(np.argmax(np.abs(data.observed)))
+    others = data.without(worst)
+    try:
+        search = search_for(others, law, given, free)
+        check_enough(others, search.free)
+    except BadInput:
+        return
+    spread = np.full(len(others.observed), float(np.ptp(others.observed)))
+    _, _, result = best_fit(Objective(others, search.made, spread), search, relative=False)
+    expected = Objective(data, search.made, data.observed).predicted(result.params.valuesdict())
+    r_squared = r_squared_of(np.delete(expected - data.observed, worst), others.observed)
+    gross = abs(data.observed[worst]) > GROSS * float(np.abs(others.observed).max())
+    if r_squared > WELL and gross and np.isfinite(expected[worst]):
+        point = f"row {data.lines[worst]}" if data.lines else f"point {worst + 1}"
+        raise BadInput(f"{data.measured} of {point}", f"{data.observed[worst] / 1e3:.6g} kPa",
+                       f"near the {expected[worst] / 1e3:.3g} kPa that the fit to all other points "
+                       "predicts", "check the decimal sign and the unit of this value, or leave "
+                       "it out")  # fmt: skip
 
 
 def _material(law: Law, data: Data, name: str) -> Material:
@@ -257,7 +296,7 @@ def _doubts(
 
 
 def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
-    """Return why the law is unstable (empty if it is stable), and a caution if it is very soft."""
+    """Return why the law is unstable (empty if stable), and a caution if its modulus is odd."""
     try:
         state = check(material)
     except UnstableLaw as problem:
@@ -270,6 +309,9 @@ def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:
         return f"the width of a strip is unstable at stretch {at:.3g}", []
     if state.shear < SOFTEST_WALL:
         return "", [caution("soft_fit", modulus_Pa=state.shear, measured=data.measured)]
+    young = max(state.hoop, state.axial)
+    if young > STIFFEST_WALL:
+        return "", [caution("stiff_fit", modulus_MPa=young / 1e6, measured=data.measured)]
     return "", []
 
 

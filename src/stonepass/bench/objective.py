@@ -64,6 +64,9 @@ class Data(Protocol):
         None is returned for specimens that cannot be slack.
         """
 
+    def without(self, point: int) -> Data:
+        """Return the data without a point."""
+
     def predicted(self, law: Law) -> Float[np.ndarray, " n"]:
         """Return the stresses or pressures that a law predicts, in Pa; NaN if it predicts none."""
 
@@ -145,14 +148,21 @@ class Objective:
         ----------
         docs/bench.md, "Lack of fit" and docs/bench.md, "Identifiability".
         """
-        typical = {each.name: each.unit for each in constants_of(self.law)}
-        modulus, columns = stiffness_guess(self.data), []
-        for name in free:
-            least = LEAST * (modulus if typical[name] == "Pa" else 1.0)
-            step = STEP * max(abs(values[name]), least)
+        columns = []
+        for name, magnitude in zip(free, self.magnitudes(values, free), strict=True):
+            step = STEP * magnitude
             sides = [self.off({**values, name: values[name] + s * step}) for s in (1.0, -1.0)]
             columns.append((sides[0] - sides[1]) / (2.0 * STEP))
         return np.array(columns).T
+
+    def magnitudes(self, values: Mapping[str, float], free: Sequence[str]) -> list[float]:
+        """Return the magnitude of each constant, to which its relative changes refer, in SI units.
+
+        It is at least 1e-3 of a typical constant.
+        """
+        units = {each.name: each.unit for each in constants_of(self.law)}
+        typical = {"Pa": stiffness_guess(self.data)}
+        return [max(abs(values[each]), LEAST * typical.get(units[each], 1.0)) for each in free]
 
 
 def stiffness_guess(data: Data) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -17,9 +18,11 @@ from stonepass.io.csv_file import Columns, read_columns
 from stonepass.materials.protocol import Law
 from stonepass.materials.uniaxial import AXES
 from stonepass.model.ureter import Ureter
-from stonepass.units import Area, Length, Quantity, area, length
+from stonepass.units import Area, Length, Quantity, area, format_length, length
 
-__all__ = ["Inflation", "Tension", "read_inflation", "read_tension"]
+__all__ = ["Inflation", "Tension", "read_inflation", "read_tension", "size_at_rest"]
+
+S = TypeVar("S", Length, Area)
 
 
 @array_dataclass
@@ -94,6 +97,13 @@ class Tension:
         """
         loose = np.minimum(self.stretch, 1.0)
         return replace(self, stretch=np.maximum(self.stretch / stretch, loose))
+
+    def without(self, point: int) -> Tension:
+        """Return the data without a point."""
+        kept = [k for k in range(len(self.stress)) if k != point]
+        lines = tuple(self.lines[k] for k in kept if self.lines)
+        axis = tuple(self.axis[k] for k in kept)
+        return Tension(self.stretch[kept], self.stress[kept], axis, lines)
 
     @property
     def _around(self) -> Bool[np.ndarray, " n"]:
@@ -172,9 +182,39 @@ class Inflation:
             ),
         }
 
+    def without(self, point: int) -> Inflation:
+        """Return the data without a point."""
+        kept = [k for k in range(len(self.pressure)) if k != point]
+        lines = tuple(self.lines[k] for k in kept if self.lines)
+        ratio, axial = self.radius_ratio[kept], self.axial_stretch[kept]
+        return Inflation(ratio, self.pressure[kept], self.wall_ratio, axial, lines)
+
     def taut_from(self, stretch: float) -> None:
         """Return None: a tube cannot be slack."""
         return
+
+
+def size_at_rest(value: Any, argument: str, read: Callable[[Any, str], S]) -> S:
+    """Read a length or an area of a specimen at rest, which must be above 0.
+
+    Parameters
+    ----------
+    value : str, Length, Area or pint.Quantity
+        The size with its unit.
+    argument : str
+        Name of the size in messages.
+    read : callable
+        `stonepass.units.length` or `stonepass.units.area`.
+
+    Raises
+    ------
+    BadInput
+        The unit is missing or wrong, or the size is not above 0.
+    """
+    found = read(value, argument)
+    given = format_length(found) if isinstance(found, Length) else f"{1e6 * found:.12g} mm2"
+    require(found > 0.0, argument, value if isinstance(value, str) else given, "above 0")
+    return found
 
 
 def read_tension(
@@ -216,25 +256,27 @@ def read_tension(
     """
     path = Path(path)
     width, thickness, gauge_length = (
-        None if each is None else length(each, name)
+        None if each is None else size_at_rest(each, name, length)
         for name, each in (
             ("width", width), ("thickness", thickness), ("gauge_length", gauge_length),
         )
     )  # fmt: skip
-    section = None if section is None else area(section, "section")
+    section = None if section is None else size_at_rest(section, "section", area)
     along = "stretch" if gauge_length is None else "extension_mm"
     try:
         columns = _read_strips(path, along)
     except BadInput as problem:
-        if gauge_length is None and _has_extensions(path):
+        if gauge_length is None and _has(path, "extension_mm"):
             raise BadInput("length of the strip", "missing", "given as --gauge-length",
                            f"{path.name} has a column of extensions") from problem  # fmt: skip
+        if gauge_length is not None and _has(path, "stretch"):
+            raise BadInput("length of the strip", "given as --gauge-length", "left out",
+                           f"{path.name} has a column of stretches") from problem  # fmt: skip
         raise
     along = _one_of(path, columns, "the column of stretches", ("stretch", "extension_mm"))
     across = _one_of(path, columns, "the column of stresses", ("nominal_stress_kPa", "force_N"))
     stretch = columns[along]
     if gauge_length is not None:
-        require(gauge_length > 0.0, "--gauge-length", f"{1e3 * gauge_length:g} mm", "above 0")
         stretch = 1.0 + 1e-3 * stretch / gauge_length
     if across == "force_N":
         stress = columns["force_N"] / _section(path, width, thickness, section)
@@ -255,9 +297,9 @@ def _read_strips(path: Path, along: str) -> Columns:
     return read_columns(path, (along,), optional, bounds, words={"axis": AXES})
 
 
-def _has_extensions(path: Path) -> bool:
+def _has(path: Path, along: str) -> bool:
     try:
-        return "extension_mm" in _read_strips(path, "extension_mm")
+        return along in _read_strips(path, along)
     except BadInput:
         return False
 
@@ -282,10 +324,11 @@ def _section(
         raise BadInput("section of the strip", "missing",
                        "given as --width and --thickness, or as --section",
                        f"{path.name} has a column of forces")  # fmt: skip
-    found = width * thickness if width is not None and thickness is not None else section
-    if found is None or not found > 0.0:
-        raise BadInput("section of the strip", f"{found:g} m²", "above 0")
-    return found
+    if section is not None:
+        return section
+    assert width is not None
+    assert thickness is not None
+    return width * thickness
 
 
 def table_of_test(path: Path) -> tuple[str, Columns]:

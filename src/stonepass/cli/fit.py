@@ -159,18 +159,18 @@ def tensile(
     The columns of the data are stretch or extension_mm, then nominal_stress_kPa or force_N, and
     axis (circumferential or axial) if strips were cut along both directions.
     """
-    from stonepass.bench.test_data import read_tension
+    from stonepass.bench.test_data import read_tension, size_at_rest
     from stonepass.units import area, length
 
     sizes = {
-        key: None if text is None else length(text, option)
+        key: None if text is None else size_at_rest(text, option, length)
         for key, option, text in (
             ("width", "--width", width),
             ("thickness", "--thickness", thickness),
             ("gauge_length", "--gauge-length", gauge_length),
         )
     }
-    across = None if section is None else area(section, "--section")
+    across = None if section is None else size_at_rest(section, "--section", area)
     asked = {"file": data.name, **{f"{key}_m": size for key, size in sizes.items()}}
     inputs = {**asked, "section_m2": across}
     read = read_tension(data, **sizes, section=across)
@@ -283,18 +283,21 @@ def _fit(
 
 def _given(law: str, fix: list[str]) -> dict[str, float]:
     from stonepass.errors import BadInput, refuse_unknown
-    from stonepass.materials.constants import read_constant
+    from stonepass.materials.constants import fixed_constant
     from stonepass.materials.known_laws import constants_by_name, known_law
 
     known_law(law, "--law")
-    declared, found = constants_by_name(law), {}
+    declared = constants_by_name(law)
+    found: dict[str, float] = {}
     for text in fix:
         name, separator, value = (part.strip() for part in text.partition("="))
         if not separator:
             raise BadInput("--fix", text, "written as NAME=VALUE")
         if name not in declared:
             refuse_unknown(f"--fix, constant of law '{law}'", name, list(declared))
-        found[name] = read_constant(value, declared[name], f"--fix {name}")
+        if name in found:
+            raise BadInput(f"--fix {name}", "given twice", "given once")
+        found[name] = fixed_constant(value, declared[name], f"--fix {name}")
     return found
 
 

@@ -20,6 +20,7 @@ __all__ = [
     "check_constants",
     "constant",
     "constants_of",
+    "fixed_constant",
     "format_constant",
     "read_constant",
     "shown_constant",
@@ -193,6 +194,32 @@ def read_constant(text: str | float, declared: ConstantDeclaration, argument: st
         return float(text)
     except ValueError as problem:
         raise BadInput(argument, text, "a number") from problem
+
+
+def fixed_constant(text: str | float, declared: ConstantDeclaration, argument: str) -> float:
+    """Read the value of a constant that is not fitted.
+
+    Parameters
+    ----------
+    text : str or float
+        The value with its unit, or a dimensionless number.
+    declared : ConstantDeclaration
+    argument : str
+        Name of the constant in messages, e.g. "--fix angle".
+
+    Returns
+    -------
+    float
+        The value in SI units.
+
+    Raises
+    ------
+    BadInput
+        The text cannot be read, or the value is outside the bounds of the constant.
+    """
+    value = read_constant(text, declared, argument)
+    require(declared.allows(value), argument, text, declared.allowed)
+    return value
 
 
 def format_constant(value: float, declared: ConstantDeclaration) -> str | float:

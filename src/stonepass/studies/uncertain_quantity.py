@@ -23,6 +23,7 @@ __all__ = [
 
 _PLUS_MINUS = re.compile(r"(.+?)\s*(?:±|\+/-|\+-)\s*(.+)")
 _RANGE = re.compile(r"(.+?)\s+to\s+(.+)")
+_ZERO = re.compile(r"\+?0+(?:\.0*)?")
 _UNIT = re.compile(r"[A-Za-zµμ%°][^\s]*$")
 LONGEST = 100  # largest number of characters of a text
 FARTHEST = 6.0  # largest distance from the mean in standard deviations
@@ -254,7 +255,10 @@ def _read(
     if form.has_unit and not relative and unit is not None and _UNIT.search(parts[0]) is None:
         parts[0] += f" {unit[0]}"  # 5 ± 1 mm
     first = read(parts[0])
-    second = first * _percentage(parts[1], argument, text) if relative else read(parts[1])
+    if relative:
+        second = first * _percentage(parts[1], argument, text)
+    else:  # an exact value: 5 mm ± 0, whatever the unit
+        second = 0.0 if spread and _ZERO.fullmatch(parts[1]) else read(parts[1])
     low, high = bounds
     shown = [form.show(bound) for bound in bounds]
     allowed = f"from {shown[0]} to {shown[1]}"

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
+from stonepass.bench.test_data import size_at_rest
 from stonepass.clinic.patient import PatientFile, patient_of
 from stonepass.clinic.pressure_limits import read_limit
 from stonepass.declaration import read_declared
@@ -13,6 +14,7 @@ from stonepass.errors import BadInput, require
 from stonepass.inputs.case_record import describe
 from stonepass.inputs.sections import section_values
 from stonepass.materials.catalogue import CATALOGUE
+from stonepass.materials.constants import fixed_constant
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name
 from stonepass.model.case import Case
 from stonepass.units import area, length, pressure
@@ -180,6 +182,8 @@ class FitJob(StrictBody):
         for name in (*self.fix, *self.free):
             if name not in known:
                 raise BadInput("constant", name, "one of " + ", ".join(known))
+        for name, value in self.fix.items():
+            fixed_constant(value, known[name], name)
         tube, strip = ("inner", "outer"), ("width", "thickness", "section", "gauge_length")
         needed, other = (tube, strip) if self.test == "inflation" else ((), tube)
         for name in needed:
@@ -189,8 +193,10 @@ class FitJob(StrictBody):
                     f"left out for the test '{self.test}'")  # fmt: skip
         for name in (*tube, *strip):
             text = getattr(self, name)
-            if text is not None:
-                (area if name == "section" else length)(text, name)
+            if text is not None and name == "section":
+                size_at_rest(text, name, area)
+            elif text is not None:
+                size_at_rest(text, name, length)
         return self.model_dump(mode="json")
 
 

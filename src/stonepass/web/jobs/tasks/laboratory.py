@@ -8,7 +8,7 @@ from typing import Any
 from stonepass.bench.law_fit import fit_law
 from stonepass.bench.test_data import read_inflation, read_tension
 from stonepass.inputs.material_file import material_table
-from stonepass.materials.constants import read_constant
+from stonepass.materials.constants import fixed_constant
 from stonepass.materials.known_laws import constants_by_name
 from stonepass.model.ureter import Ureter
 from stonepass.records.fit import fit_record
@@ -36,7 +36,7 @@ def _fit(request: Mapping[str, Any], context: Context) -> Done:
     body = FitJob.model_validate(request)
     assert context.file is not None
     known = constants_by_name(body.law)
-    fixed = {name: read_constant(text, known[name], name) for name, text in body.fix.items()}
+    fixed = {name: fixed_constant(text, known[name], name) for name, text in body.fix.items()}
     inputs: dict[str, Any] = {"file": FILE, "relative": body.relative}
     context.tell(0, 0, "Fitting the constants.")
     if body.test == "inflation":

@@ -61,6 +61,6 @@ def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
     degrees = (20, 16, 0, 8 * last)
     if isinstance(case.model, SeatedBalance) and case.model.seating != "frictionless":
         smooth = replace(case.model, seating="frictionless", seating_friction=None)
-        pressed = Level(case, count(many), (16, 12, 8, 6 * last), 16, count(many // 2))
+        pressed = Level(case, count(many), (8, 6, 6, 5 * last), 8, count(many // 2))
         return [Level(replace(case, model=smooth), count(4 * many), degrees, 20), pressed]
     return [Level(case, count(4 * many), degrees, 20)]

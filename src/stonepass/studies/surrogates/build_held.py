@@ -48,10 +48,11 @@ class _Sizes:
 
     Attributes
     ----------
-    free, gentle, pushed, refined : (int, int)
+    free, gentle, pushed : (int, int)
         Number of cases of a level, and number of those whose leak pressure is computed too; that
-        takes several times as long. The cases of `refined` join the third level where the
-        surrogate is least certain.
+        takes several times as long.
+    refined : int
+        Number of further cases of the third level where the surrogate is least certain.
     base : tuple of 4 int
         Largest degrees of the functions without friction in the coordinates of the box.
     change : tuple of 4 int
@@ -63,14 +64,14 @@ class _Sizes:
     free: tuple[int, int]
     gentle: tuple[int, int]
     pushed: tuple[int, int]
-    refined: tuple[int, int]
+    refined: int
     base: tuple[int, int, int, int]
     change: tuple[int, int, int, int]
     total: int
 
 
-UNLOADED = _Sizes((384, 160), (96, 32), (448, 128), (64, 8), (20, 16, 0, 0), (16, 12, 8, 0), 16)
-LOADED = _Sizes((2048, 256), (160, 48), (1024, 160), (256, 32), (20, 16, 0, 8), (16, 12, 8, 6), 16)
+UNLOADED = _Sizes((384, 160), (96, 32), (448, 128), 64, (20, 16, 0, 0), (16, 12, 8, 0), 16)
+LOADED = _Sizes((2048, 256), (160, 48), (1024, 160), 256, (20, 16, 0, 8), (16, 12, 8, 6), 16)
 BASE_TOTAL = 20  # largest total degree of the functions without friction
 
 
@@ -83,7 +84,7 @@ def _sizes(*, loaded: bool, wrinkles: bool) -> _Sizes:
     sizes = LOADED if loaded else UNLOADED
     if not wrinkles:
         return sizes
-    return replace(sizes, refined=(0, 0), change=(8, 8, 8, 5 if loaded else 0), total=8)
+    return replace(sizes, refined=0, change=(8, 8, 8, 5 if loaded else 0), total=8)
 
 
 @array_dataclass
@@ -154,7 +155,7 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
             return found
 
         chosen = np.zeros(len(candidates.friction), dtype=bool)
-        chosen[least_certain(pressures, there.unit, count(sizes.refined[0]))] = True
+        chosen[least_certain(pressures, there.unit, count(sizes.refined))] = True
         return candidates.where(chosen)
 
     asked = domain.training(quick, count(sizes.free[0]))
@@ -174,8 +175,8 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     below = physics.solve(quick, at, functions(at)).outcome == MOVES
     third = solved(rest.where(below), count(sizes.pushed[1]))
     both = second.joined(third)
-    if sizes.refined[0]:
-        both = both.joined(solved(least(both), count(sizes.refined[1])))
+    if sizes.refined:
+        both = both.joined(solved(least(both), leaks=0))
     _refuse_lost([*free.answers, *both.answers])
     learnt, left_out = _with_changes(base, both, sizes)
     error = _claimed(quick, physics, learnt, both, left_out)

@@ -17,7 +17,14 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.io.column_names import refuse_column
 from stonepass.io.table_dialect import with_decimal_points
-from stonepass.io.table_header import NUMBER, layout_of, with_header, without_units
+from stonepass.io.table_header import (
+    NUMBER,
+    Row,
+    cells_of,
+    layout_of,
+    with_header,
+    without_units,
+)
 from stonepass.io.text_file import read_text, write_file
 
 __all__ = ["Columns", "read_columns", "read_table", "write_csv"]
@@ -27,8 +34,6 @@ MOST_ROWS = 100_000  # largest number of rows, including empty ones
 MINUS = "\N{MINUS SIGN}"  # some programs write it instead of the hyphen
 OTHER_SEPARATORS = ("|", "\N{BROKEN BAR}", " ")
 DECIMAL_COMMAS = "if the commas are decimal commas, separate the cells by semicolons"
-
-Row = tuple[int, list[str]]  # number of the line, and its cells
 
 
 class Columns(dict[str, Float[np.ndarray, " rows"]]):
@@ -98,7 +103,7 @@ def read_columns(
     rows = _rows(path, required)
     if not rows:
         raise BadInput("file", path, f"a table with the columns {', '.join(required)}")
-    header = [name.strip() for name in rows[0][1]]
+    header = rows[0][1]
     _check_header(path, header, required, optional)
     if len(rows) == 1:
         raise BadInput("file", path, "a table with at least one row under its header")
@@ -128,7 +133,7 @@ def read_table(path: Path, largest: int, most_rows: int) -> Columns:
     rows = _rows(path, (), largest, most_rows)
     if len(rows) < 2:
         raise BadInput("file", path, "a table with names and at least one row below them")
-    header = [name.strip() for name in rows[0][1]]
+    header = rows[0][1]
     _check_names(path, header)
     return _columns(rows, _Cells(path, header, {}, {}))
 
@@ -162,10 +167,8 @@ def _rows(
         for line, cells in rows
         if any(cell.strip() for cell in cells) and not cells[0].lstrip().startswith("#")
     ]
-    above = [line.rstrip("\r\n").split(delimiter) for line in lines[max(before - 1, 0) : before]]
-    table = without_units(
-        _without_empty_columns(kept), path.name, (before, above[0]) if above else None
-    )
+    above = (before, cells_of(lines[before - 1], delimiter)) if before else None
+    table = without_units(_without_empty_columns(kept), path.name, above)
     return with_decimal_points(table, path.name)
 
 

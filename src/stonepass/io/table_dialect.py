@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from stonepass.errors import BadInput
+from stonepass.io.table_header import Row
 
 __all__ = ["with_decimal_points"]
 
@@ -14,9 +15,7 @@ _COMMA = re.compile(r"\s*[-+]?\d*,\d+([eE][-+]?\d+)?\s*", re.ASCII)
 _GROUPED = re.compile(r"\s*[-+]?[1-9]\d{0,2}(,\d{3})+\s*", re.ASCII)
 
 
-def with_decimal_points(
-    rows: Iterable[tuple[int, list[str]]], name: str
-) -> list[tuple[int, list[str]]]:
+def with_decimal_points(rows: Iterable[Row], name: str) -> list[Row]:
     """Replace decimal commas by points.
 
     Parameters

@@ -13,7 +13,7 @@ from collections.abc import Collection, Sequence
 from stonepass.errors import BadInput
 from stonepass.io.column_names import is_unit, same_unit, unit_of
 
-__all__ = ["NUMBER", "layout_of", "with_header", "without_units"]
+__all__ = ["NUMBER", "Row", "cells_of", "layout_of", "with_header", "without_units"]
 
 NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
 DELIMITERS = (",", ";", "\t")
@@ -47,7 +47,7 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
     ]
     for number, line in shown if required else ():
         for delimiter in candidates:
-            if set(required) <= set(_cells(line, delimiter)):
+            if set(required) <= set(cells_of(line, delimiter)):
                 return delimiter, number
     for k, (_, line) in enumerate(shown):
         for delimiter in candidates:
@@ -61,7 +61,7 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
 def _header_above(above: Sequence[tuple[int, str]], delimiter: str) -> int | None:
     """Return the index of the line of names above a row of numbers; a row of units is skipped."""
     for number, line in reversed(above[-2:]):
-        cells = _cells(line, delimiter)
+        cells = cells_of(line, delimiter)
         if len(cells) < 2 or any(map(NUMBER.fullmatch, cells)):
             return None
         if not _are_units(cells):
@@ -97,8 +97,8 @@ def _is_comment(line: str) -> bool:
 
 def _are_names(line: str, row: str, delimiter: str) -> bool:
     """Return whether a line has as many cells as a row of numbers, none of which is a number."""
-    names = _cells(line, delimiter)
-    return len(names) == len(_cells(row, delimiter)) and not any(map(NUMBER.fullmatch, names))
+    names = cells_of(line, delimiter)
+    return len(names) == len(cells_of(row, delimiter)) and not any(map(NUMBER.fullmatch, names))
 
 
 def without_units(rows: list[Row], name: str, above: Row | None = None) -> list[Row]:
@@ -129,19 +129,20 @@ def without_units(rows: list[Row], name: str, above: Row | None = None) -> list[
 def _check_units(header: Sequence[str], units: Row, name: str) -> None:
     line, cells = units
     for column, cell in zip(header, cells, strict=True):
-        given, wanted = _bare(cell), unit_of(column.strip())
+        given, wanted = _bare(cell), unit_of(column)
         if given in NO_UNIT and (not wanted or not given):
             continue
         if not wanted or not same_unit(given, wanted):
             raise BadInput(
-                f"in {name}, row {line}, the unit of column '{column.strip()}'",
+                f"in {name}, row {line}, the unit of column '{column}'",
                 given,
                 wanted or "empty, since the column is dimensionless",
                 f"convert the values{' to ' + wanted if wanted else ''}, and change this row",
             )
 
 
-def _cells(line: str, delimiter: str) -> list[str]:
+def cells_of(line: str, delimiter: str) -> list[str]:
+    """Return the cells of a line without blanks; none for a line that is no row of a CSV file."""
     try:
         return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
     except csv.Error:
@@ -149,7 +150,7 @@ def _cells(line: str, delimiter: str) -> list[str]:
 
 
 def _all_numbers(line: str, delimiter: str) -> bool:
-    cells = _cells(line if delimiter == "," else line.replace(",", "."), delimiter)
+    cells = cells_of(line if delimiter == "," else line.replace(",", "."), delimiter)
     return len(cells) > 1 and all(NUMBER.fullmatch(cell) for cell in cells if cell)
 
 

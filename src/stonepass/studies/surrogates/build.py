@@ -31,7 +31,7 @@ from stonepass.studies.surrogates.learnt import LearntFunctions
 from stonepass.studies.surrogates.levels import Level, levels_for
 from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
-from stonepass.studies.surrogates.refinement import least_certain
+from stonepass.studies.surrogates.refinement import least_certain_cases
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
 from stonepass.studies.surrogates.surrogate import Surrogate
@@ -148,19 +148,16 @@ def _refined(
     """Return a level with further cases where the surrogate is least certain."""
     if level.level.refined == 0:
         return level
-    candidates = domain.candidates(level.level.case)
-    there = domain.setting(case, candidates)
     values = physics.learnt(case, level.at, level.answers)
 
-    def pressures(half: slice) -> Float[np.ndarray, " m"]:
+    def pressures(half: slice, there: Setting) -> Float[np.ndarray, " m"]:
         part = _Solved(level.level, level.at.where(_chosen(level, half)), level.answers[half])
         fitted, _ = _corrected(before, part, values[half])
         found: Float[np.ndarray, " m"] = physics.solve(case, there, fitted(there)).pressure
         return found
 
-    chosen = np.zeros(len(candidates.friction), dtype=bool)
-    chosen[least_certain(pressures, there.unit, level.level.refined)] = True
-    more = _solved_at(level.level, domain, candidates.where(chosen), solver)
+    added = least_certain_cases(domain, case, pressures, level.level.refined)
+    more = _solved_at(level.level, domain, added, solver)
     return _Solved(level.level, level.at.joined(more.at), [*level.answers, *more.answers])
 
 

@@ -25,7 +25,7 @@ from stonepass.studies.surrogates.held_functions import HIGHEST, HeldFunctions, 
 from stonepass.studies.surrogates.held_stone import HeldStone
 from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
-from stonepass.studies.surrogates.refinement import least_certain
+from stonepass.studies.surrogates.refinement import least_certain_cases
 from stonepass.studies.surrogates.regression import FEWEST, fit_polynomial, joined
 from stonepass.studies.surrogates.solved import MOVES
 from stonepass.studies.surrogates.surrogate import Surrogate
@@ -144,20 +144,6 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
         at = domain.setting(quick, asked)
         return _Cases(at, answers, physics.learnt(quick, at, answers))
 
-    def least(known: _Cases) -> Conditions:
-        """Return the candidates at which fits to halves of the cases differ most."""
-        candidates = domain.candidates(quick)
-        there = domain.setting(quick, candidates)
-
-        def pressures(half: slice) -> Float[np.ndarray, " m"]:
-            fitted, _ = _with_changes(base, known.part(half), sizes)
-            found: Float[np.ndarray, " m"] = physics.solve(quick, there, fitted(there)).pressure
-            return found
-
-        chosen = np.zeros(len(candidates.friction), dtype=bool)
-        chosen[least_certain(pressures, there.unit, count(sizes.refined))] = True
-        return candidates.where(chosen)
-
     asked = domain.training(quick, count(sizes.free[0]))
     nearly = np.full(len(asked.friction), NEARLY_NONE)
     free = solved(replace(asked, friction=nearly), count(sizes.free[1]))
@@ -175,8 +161,16 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     below = physics.solve(quick, at, functions(at)).outcome == MOVES
     third = solved(rest.where(below), count(sizes.pushed[1]))
     both = second.joined(third)
+
+    def pressures(half: slice, there: Setting) -> Float[np.ndarray, " m"]:
+        """Return P_ucr by a fit to a part of the second and third level."""
+        fitted, _ = _with_changes(base, both.part(half), sizes)
+        found: Float[np.ndarray, " m"] = physics.solve(quick, there, fitted(there)).pressure
+        return found
+
     if sizes.refined:
-        both = both.joined(solved(least(both), leaks=0))
+        more = least_certain_cases(domain, quick, pressures, count(sizes.refined))
+        both = both.joined(solved(more, leaks=0))
     _refuse_lost([*free.answers, *both.answers])
     learnt, left_out = _with_changes(base, both, sizes)
     error = _claimed(quick, physics, learnt, both, left_out)

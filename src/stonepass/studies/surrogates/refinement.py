@@ -7,8 +7,12 @@ from collections.abc import Callable
 import numpy as np
 
 from stonepass.array_types import Float, Int
+from stonepass.model.case import Case
+from stonepass.studies.conditions import Conditions
+from stonepass.studies.surrogates.box import Setting
+from stonepass.studies.surrogates.domain import Domain
 
-__all__ = ["least_certain"]
+__all__ = ["least_certain", "least_certain_cases"]
 
 APART = 0.08  # smallest distance of two chosen cases, in coordinates of the box
 SMALL = 10.0  # Pa, difference of two pressures that counts as none
@@ -48,3 +52,29 @@ def least_certain(
         if not chosen or np.linalg.norm(points[chosen] - points[k], axis=1).min() > APART:
             chosen.append(int(k))
     return np.array(chosen, dtype=int)
+
+
+def least_certain_cases(
+    domain: Domain,
+    case: Case,
+    pressures: Callable[[slice, Setting], Float[np.ndarray, " m"]],
+    count: int,
+) -> Conditions:
+    """Return the candidates of a domain at which two surrogates differ most.
+
+    Parameters
+    ----------
+    domain : Domain
+    case : Case
+        Model and numerics of the solved cases.
+    pressures : callable
+        Returns P_ucr in Pa at m conditions by a surrogate that is fitted to a part of the solved
+        cases, see `least_certain`.
+    count : int
+        Largest number of candidates.
+    """
+    candidates = domain.candidates(case)
+    there = domain.setting(case, candidates)
+    chosen = np.zeros(len(candidates.friction), dtype=bool)
+    chosen[least_certain(lambda half: pressures(half, there), there.unit, count)] = True
+    return candidates.where(chosen)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from page_browser import SECONDS, faults_of_access, settled
+from PIL import Image
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -164,6 +165,26 @@ def test_friction_with_a_path_moved_by_keys_is_taken_over(page):
     use.click()
     settled(page)
     assert float(page.get_by_label("Friction coefficient", exact=True).first.input_value()) == shown
+
+
+def test_coloured_scale_bar_is_left_out_by_the_area(page, watched, tmp_path):
+    watched.expected = ("422",)
+    with Image.open(EXAMPLES / "known_slopes.png") as image:
+        picture = image.convert("RGB")
+    picture.putpixel((500, 235), (255, 0, 0))
+    picture.save(tmp_path / "scale.png")
+    panel = opened(page, "Laboratory")
+    panel.get_by_label("Drop a micrograph").set_input_files(tmp_path / "scale.png")
+    panel.get_by_text("is coloured; select 'area' 0,0,1001,235.").wait_for()
+    area = panel.get_by_label("Area that shows the surface")
+    area.fill("0,0,1001")
+    area.press("Tab")
+    panel.get_by_text("but must be four whole numbers").wait_for()
+    area.fill("0,0,1001,235")
+    area.press("Tab")
+    panel.get_by_text("1001 × 240 pixels").wait_for()
+    last = panel.locator("[data-path='5'][data-end='1']").get_attribute("aria-label")
+    assert "at x 1000, y 215" in last
 
 
 def test_path_is_moved_with_the_mouse(page):

@@ -16,6 +16,7 @@ from stonepass.errors import BadInput
 from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.border import without_border
 from stonepass.surface.data_bar import find_bar
+from stonepass.surface.decoded import Decoded
 from stonepass.surface.friction import surface_friction
 from stonepass.surface.gaps import known_area
 from stonepass.surface.levelling import fit_plane
@@ -208,9 +209,29 @@ def test_colour_outside_the_area_is_no_matter(tmp_path):
             with pytest.raises(BadInput, match="within 0, 0, 360, 240, the part without colours"):
                 found.with_area(0, 0, COLUMNS, ROWS + 30)
         assert read_surface_image(tmp_path / name).area == area  # the bar is left out anyhow
-        sentence = f"{name} in colour, but must be grey; column 300 of row 260 is coloured"
+        sentence = (
+            f"{name} in colour, but must be grey; column 300 of row 260 is coloured; "
+            "select --area 0,0,360,260."
+        )
         with pytest.raises(BadInput, match=sentence):
             read_surface_image(tmp_path / name, Area(0, 0, COLUMNS, ROWS + 30))
+        with pytest.raises(BadInput, match="left, top, right, bottom within 0, 0, 360, 270"):
+            read_surface_image(tmp_path / name, Area(0, 0, COLUMNS, ROWS + 31))
+
+
+def test_the_largest_grey_part_is_proposed():
+    """A run of rows or of columns, whichever is larger; none if colours are everywhere."""
+    rgb = np.repeat(np.full((700, 100, 1), 90, np.uint8), 3, axis=2)
+    whole = Area(0, 0, 100, 700)
+    assert Decoded(rgb).grey_part(whole) == whole
+    rgb[550, 80] = (255, 0, 0)
+    assert Decoded(rgb).grey_part(whole) == Area(0, 0, 80, 700)
+    assert Decoded(rgb).grey_part(Area(60, 100, 100, 700)) == Area(60, 100, 100, 550)
+    rgb[600, 40] = (255, 0, 0)
+    assert Decoded(rgb).grey_part(whole) == Area(0, 0, 100, 550)
+    rgb[::100, ::10] = (0, 255, 0)
+    assert Decoded(rgb).grey_part(whole) is None
+    assert Decoded(rgb[..., 0]).grey_part(whole) == whole
 
 
 # Pages

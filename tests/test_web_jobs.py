@@ -1,11 +1,14 @@
 """Jobs on worker processes: answered, repeated, cancelled, limited, and what happens to killed ones."""
 
+import io
 import os
 import signal
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 from web_server import CASE, LONG, QUICK, Limits, client, ended, running
 
 from stonepass.errors import BadInput
@@ -313,6 +316,36 @@ def test_a_micrograph_gives_a_friction_coefficient(asking):
     assert len(ended(asking, ask(asking, lines)["id"])["result"]["paths"]) == 2
 
 
+def test_a_picture_with_a_coloured_scale_bar_is_used_by_its_grey_area(asking):
+    """The refusal names the largest grey area; a job uses the area of its upload."""
+    rgb = np.repeat(np.asarray(Image.open(EXAMPLES / "known_slopes.png"))[..., None], 3, axis=2)
+    rows, columns = rgb.shape[:2]
+    rgb = np.concatenate([rgb, np.full((20, columns, 3), 40, np.uint8)])
+    rgb[rows + 5 : rows + 8, 100:300] = (255, 220, 0)
+    packed = io.BytesIO()
+    Image.fromarray(rgb).save(packed, "PNG")
+    content, grey = packed.getvalue(), f"0,0,{columns},{rows}"
+    whole = f"0,0,{columns},{rows + 20}"
+    refused = upload(asking, "friction", content, "image/png", 422, area=whole)["detail"]
+    assert refused == (
+        f"image is the upload in colour, but must be grey; column 100 of row {rows + 5} is "
+        f"coloured; select 'area' 0,0,{columns},{rows + 5}."
+    )
+    sent = upload(asking, "friction", content, "image/png", area=grey)
+    assert sent["summary"]["area"] == [0, 0, columns, rows]
+    body = {"kind": "friction", "upload": sent["id"], "pixel": "0.5 um", "height_range": "24.8 um"}
+    found = ended(asking, ask(asking, body)["id"])
+    assert found["status"] == "done", found
+    plain = upload(asking, "friction", "known_slopes.png", "image/png")
+    alone = ended(asking, ask(asking, body | {"upload": plain["id"]})["id"])["result"]
+    assert found["result"]["friction_coefficient"] == alone["friction_coefficient"]
+    job = ended(asking, ask(asking, body | {"area": [0, 0, columns, rows + 20]})["id"])
+    assert "is coloured; select 'area'" in job["problem"]["detail"]
+    for area in ("1,2,3", "0,0,9999,50", "-1,0,5,5", "a,b,c,d"):
+        assert upload(asking, "friction", content, "image/png", 422, area=area)["field"] == "area"
+    assert upload(asking, "fit", b"x", "text/csv", 422, area=grey)["field"] == "area"
+
+
 def test_a_dropped_upload_is_gone_but_known_answers_stay(asking):
     sent = upload(asking, "fit", "latex_tensile.csv", "text/csv")
     assert asking.delete(f"/api/v1/uploads/{sent['id']}").status_code == 204
@@ -343,7 +376,6 @@ def test_uploads_are_read_in_the_sandbox_and_refused_with_a_sentence(asking):
 
 def test_a_zip_bomb_is_refused(asking):
     """A small archive with the ending of a height map that unpacks to more than is allowed."""
-    import io
     import zipfile
 
     packed = io.BytesIO()

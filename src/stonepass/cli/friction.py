@@ -13,7 +13,6 @@ from stonepass.cli.options import Json
 
 if TYPE_CHECKING:
     from stonepass.surface.paths import StraightPath
-    from stonepass.surface.surface_image import Area
     from stonepass.units import Length
 
 __all__ = ["EPILOG", "command"]
@@ -157,11 +156,12 @@ def command(
     scale = _height_range(height_range, crystal)
     lines = _paths(paths, path)
     from stonepass.surface.friction import surface_friction
+    from stonepass.surface.surface_image import read_area
     from stonepass.surface.untrusted import read_untrusted
     from stonepass.units import length
 
     size = None if pixel is None else length(pixel, "--pixel")
-    part = None if area is None else _area(area)
+    part = None if area is None else read_area(area, "--area")
     with working("reading the image"):
         picture = read_untrusted(image, area=part)
         if size is not None:
@@ -206,16 +206,5 @@ def _paths(count: int | None, given: list[str] | None) -> int | list[StraightPat
     if count is not None and given:
         raise BadInput("combination of --paths and --path", "ambiguous", "one of the two")
     if given:
-        return [read_path(text) for text in given]
+        return [read_path(text, "--path") for text in given]
     return 6 if count is None else count
-
-
-def _area(text: str) -> Area:
-    from stonepass.errors import BadInput
-    from stonepass.surface.surface_image import Area
-
-    parts = text.split(",")
-    whole = all(part.strip().isdecimal() and len(part) < 9 for part in parts)
-    if len(parts) != 4 or not whole:
-        raise BadInput("--area", text, "four whole numbers LEFT,TOP,RIGHT,BOTTOM in pixels")
-    return Area(*(int(part) for part in parts))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from stonepass.surface.surface_image import Area
 __all__ = ["Decoded"]
 
 COLOURED = 2  # largest difference of the channels of a grey pixel, in levels of 255
+SMALLEST_PART = 0.5  # smallest part of an area that is proposed in its place
 ROWS = 512  # number of rows that are processed at a time, to limit the memory
 
 
@@ -56,6 +57,29 @@ class Decoded:
                 return area.left + int(column), start + int(row)
         return None
 
+    def grey_part(self, area: Area) -> Area | None:
+        """Return the largest part of an area without colours that has its full width or height.
+
+        The result is None if this part is smaller than half of the area, e.g. in a photograph.
+        """
+        rows = np.zeros(area.bottom - area.top, bool)  # whether each row has a coloured pixel
+        columns = np.zeros(area.right - area.left, bool)
+        for start in range(0, len(rows), ROWS):
+            chunk = self.values[area.top + start : area.bottom, area.left : area.right][:ROWS]
+            spots = self._is_coloured(chunk)
+            if spots is None:
+                return area
+            rows[start : start + ROWS] = spots.any(axis=1)
+            columns |= spots.any(axis=0)
+        top, bottom = _longest_run(~rows)
+        left, right = _longest_run(~columns)
+        tall, wide = (bottom - top) / len(rows), (right - left) / len(columns)
+        if max(tall, wide) < SMALLEST_PART:
+            return None
+        if tall >= wide:
+            return replace(area, top=area.top + top, bottom=area.top + bottom)
+        return replace(area, left=area.left + left, right=area.left + right)
+
     def _look_up(self, entries: Num[np.ndarray, " entries"]) -> Num[np.ndarray, "rows columns"]:
         found = np.zeros(self.values.shape[:2], entries.dtype)
         for start in range(0, len(found), ROWS):  # NumPy converts the indices to eight bytes each
@@ -75,3 +99,13 @@ class Decoded:
         brightest = np.maximum(np.maximum(red, green), blue)
         darkest = np.minimum(np.minimum(red, green), blue)
         return brightest - darkest > COLOURED * (full // 255)
+
+
+def _longest_run(true: Bool[np.ndarray, " n"]) -> tuple[int, int]:
+    """Return the begin and the end of the longest run of true values."""
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], true, [False]]).astype(np.int8)))
+    if not changes.size:
+        return 0, 0
+    begins, ends = changes[::2], changes[1::2]
+    longest = int(np.argmax(ends - begins))
+    return int(begins[longest]), int(ends[longest])

@@ -91,8 +91,14 @@ class Profiles:
     warnings: tuple[Caution, ...] = ()
 
 
-def read_path(text: str) -> StraightPath:
+def read_path(text: str, name: str = "path") -> StraightPath:
     """Read a path from a text such as ``10,40,500,40``: x0, y0, x1, y1 in pixels.
+
+    Parameters
+    ----------
+    text : str
+    name : str
+        Name of the input in messages.
 
     Raises
     ------
@@ -105,7 +111,7 @@ def read_path(text: str) -> StraightPath:
     except ValueError:
         numbers = []
     if len(numbers) != 4 or not all(math.isfinite(number) for number in numbers):
-        raise BadInput("path", text, "four numbers x0,y0,x1,y1 in pixels")
+        raise BadInput(name, text, "four numbers x0,y0,x1,y1 in pixels")
     return StraightPath(*numbers)
 
 

@@ -219,9 +219,12 @@ def _picture(
     rows, columns = grey.shape
     whole = Area(0, 0, columns, rows)
     area = _surface(grey, scan, notes) if asked is None else asked
-    spot = decoded.coloured(area)
+    # An area that is not within the picture is refused by SurfaceImage.
+    spot = decoded.coloured(area) if area.lies_in(whole) else None
     if spot is not None:
-        remedy = f"column {spot[0]} of row {spot[1]} is coloured; --area leaves a coloured part out"
+        part = decoded.grey_part(area)
+        way = "--area leaves a coloured part out" if part is None else f"select {part.option}"
+        remedy = f"column {spot[0]} of row {spot[1]} is coloured; {way}"
         raise BadInput("image", f"{short_name(path)} in colour", "grey", remedy)
     pixel, why = scan.pixel_for(columns)
     if why:

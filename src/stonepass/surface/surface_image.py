@@ -10,12 +10,13 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Num
 from stonepass.errors import BadInput, require
 
-__all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel"]
+__all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel", "read_area"]
 
 PIXEL = (1e-11, 1e-3)  # smallest and largest side of a pixel in m
 OBLONG = 10.0  # largest ratio of the sides of a pixel
 SAME = 0.01  # relative difference up to which two pixel sizes agree
 MICRO = 1e6  # µm per m
+DIGITS = 9  # the numbers of an area have fewer characters
 # Largest grey level by the type of the values; 0 for heights.
 FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}
 
@@ -54,6 +55,27 @@ class Area:
             and self.right <= other.right
             and self.bottom <= other.bottom
         )
+
+
+def read_area(text: str, name: str = "area") -> Area:
+    """Read an area from a text such as ``0,0,640,440``: left, top, right, bottom in pixels.
+
+    Parameters
+    ----------
+    text : str
+    name : str
+        Name of the input in messages.
+
+    Raises
+    ------
+    BadInput
+        The text is not four whole numbers.
+    """
+    parts = text.split(",")
+    whole = all(part.strip().isdecimal() and len(part) < DIGITS for part in parts)
+    if len(parts) != 4 or not whole:
+        raise BadInput(name, text, "four whole numbers LEFT,TOP,RIGHT,BOTTOM in pixels")
+    return Area(*(int(part) for part in parts))
 
 
 @array_dataclass

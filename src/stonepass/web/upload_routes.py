@@ -11,6 +11,7 @@ from starlette.responses import Response
 
 from stonepass.errors import BadInput
 from stonepass.surface.height_maps import HEIGHT_MAPS
+from stonepass.surface.surface_image import read_area
 from stonepass.web.answers import Json, ProblemError
 from stonepass.web.documented import BUSY, PROBLEMS, UploadDocument
 from stonepass.web.state import ServerState, client_of, state_of
@@ -49,6 +50,14 @@ async def upload(
     format: Annotated[
         str | None, Query(description="format of a height map, e.g. x3p", max_length=8)
     ] = None,
+    area: Annotated[
+        str | None,
+        Query(
+            description="part of a picture that shows the surface: left,top,right,bottom in "
+            "pixels; only this part must be grey",
+            max_length=40,
+        ),
+    ] = None,
 ) -> Json:
     """Read a table of a test, or a picture or height map of a surface, in the sandbox.
 
@@ -57,6 +66,9 @@ async def upload(
     state = state_of(request)
     state.rate.take(client_of(request))
     ending = _ending(kind, request.headers.get("content-type", ""), format)
+    if area is not None and kind != "friction":
+        raise BadInput("area", area, "left out, because a table has no area")
+    part = None if area is None else read_area(area)
     if state.reading >= AT_ONCE:
         raise ProblemError(
             429, "Too many files are being uploaded; try again.", headers={"retry-after": "2"}
@@ -66,7 +78,7 @@ async def upload(
         content = await request.body()
         if not content:
             raise BadInput("body", "empty", "the content of a file")
-        found = await asyncio.to_thread(read_upload, kind, ending, content)
+        found = await asyncio.to_thread(read_upload, kind, ending, content, part)
     finally:
         state.reading -= 1
     state.uploads.add(found)

@@ -7,6 +7,7 @@ import base64
 import json
 from collections import OrderedDict, deque
 from contextlib import ExitStack, suppress
+from dataclasses import astuple
 from typing import Any
 
 from stonepass.web.answers import problem_document
@@ -151,11 +152,12 @@ class JobBook:
         """Do one job and note its result, or why it failed."""
         limits = self._settings.limits
         folder = self._settings.cache_folder
-        request = {
+        request: dict[str, Any] = {
             "kind": job.kind,
             "body": job.body,
             "cache_folder": None if folder is None else str(folder),
             "file": None,
+            "area": None,
             "format": job.format,
             "memory": limits.job_memory,
         }
@@ -163,7 +165,9 @@ class JobBook:
             with ExitStack() as files:
                 if job.upload is not None:  # the file exists only while it is read
                     file = files.enter_context(as_file(job.upload.ending, job.upload.content))
+                    area = job.upload.area
                     request["file"] = str(file)
+                    request["area"] = None if area is None else astuple(area)
                 async with asyncio.timeout(limits.job_seconds):
                     message = await process.run(request, lambda told: job.change(progress=told))
         except TimeoutError:

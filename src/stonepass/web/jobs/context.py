@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from stonepass.surface.surface_image import Area
+
 __all__ = ["Context", "Done"]
 
 Tell = Callable[[int, int, str], None]
@@ -24,6 +26,8 @@ class Context:
         Folder of the solution cache.
     file : Path or None
         The uploaded file, under a name of the server.
+    area : Area or None
+        Part of the uploaded image that was chosen when it was uploaded.
     format : str
         Format of the report to print, ``html`` or ``pdf``; empty for no report.
     """
@@ -31,6 +35,7 @@ class Context:
     tell: Tell
     cache_folder: Path | None = None
     file: Path | None = None
+    area: Area | None = None
     format: str = ""
 
 

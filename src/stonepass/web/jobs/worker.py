@@ -11,13 +11,12 @@ import base64
 import json
 import os
 import queue
-import re
 import sys
 import threading
 import warnings
 from collections.abc import Mapping
 from importlib import import_module
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import IO, Any
 
 from pydantic import ValidationError
@@ -25,12 +24,13 @@ from pydantic import ValidationError
 from stonepass.errors import BadInput, lacks_memory
 from stonepass.inputs.build import in_words
 from stonepass.sandbox.worker import limit_memory
+from stonepass.surface.surface_image import Area
+from stonepass.web.api_words import in_api_words
 from stonepass.web.jobs.context import Context, Done
 from stonepass.web.problem_fields import field_of
 
 __all__ = ["MODULES", "serve_jobs"]
 
-OPTION = re.compile(r"--([a-z][a-z-]+)")
 LONGEST_VALUE = 200  # characters of a refused value
 # The module of `stonepass.web.jobs.tasks` that does each kind of job.
 MODULES = {
@@ -68,11 +68,12 @@ def _answer(request: Mapping[str, Any], writing: IO[bytes]) -> dict[str, Any]:
     folder, file = (
         None if request[key] is None else Path(request[key]) for key in ("cache_folder", "file")
     )
+    area = None if request["area"] is None else Area(*request["area"])
     limit_memory(request["memory"])
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # an answer has warnings of its own
-            done = _run(request, Context(tell, folder, file, request["format"]))
+            done = _run(request, Context(tell, folder, file, area, request["format"]))
             return {"result": done.result, "report": _report(done.page, request["format"])}
     except BadInput as problem:
         return {"refused": _refusal(problem)}
@@ -85,16 +86,10 @@ def _answer(request: Mapping[str, Any], writing: IO[bytes]) -> dict[str, Any]:
 
 def _refusal(problem: BadInput) -> list[str]:
     """Return sentence, field and value of an error, in the words of the API."""
-    if isinstance(problem.value, PurePath):  # the name of an upload is that of the server
-        problem = type(problem)(problem.argument, "the upload", problem.allowed, problem.remedy)
+    problem = in_api_words(problem)
     field = field_of(problem) or problem.argument
     sentence = str(in_words(problem, {problem.argument: field}))
-    return [_without_options(sentence), field, str(problem.value)[:LONGEST_VALUE]]
-
-
-def _without_options(sentence: str) -> str:
-    """Return a sentence with keys of the API in the place of options of the command line."""
-    return OPTION.sub(lambda found: f"'{found[1].replace('-', '_')}'", sentence)
+    return [sentence, field, str(problem.value)[:LONGEST_VALUE]]
 
 
 def _report(page: str, form: str) -> str:

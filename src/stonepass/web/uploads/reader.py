@@ -14,7 +14,8 @@ from stonepass.bench.test_data import table_of_test
 from stonepass.errors import BadInput
 from stonepass.sandbox.worker import serve
 from stonepass.surface.readers import load_libraries, read_surface_image
-from stonepass.surface.surface_image import SurfaceImage
+from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.web.api_words import api_words, in_api_words
 
 __all__ = ["parse"]
 
@@ -33,13 +34,10 @@ def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
     try:
         if request["kind"] == "fit":
             return _table(path), memoryview(b"")
-        return _picture(read_surface_image(path))
+        area = None if request["area"] is None else Area(*request["area"])
+        return _picture(read_surface_image(path, area))
     except BadInput as problem:
-        if isinstance(problem.value, Path):  # the name of the file is that of the server
-            raise BadInput(
-                problem.argument, "the upload", problem.allowed, problem.remedy
-            ) from None
-        raise
+        raise in_api_words(problem) from None
 
 
 def _table(path: Path) -> dict[str, Any]:
@@ -69,7 +67,7 @@ def _picture(picture: SurfaceImage) -> tuple[dict[str, Any], memoryview]:
         "pixel_source": picture.pixel_source,
         "pixel_hint": picture.pixel_hint,
         "area": [area.left, area.top, area.right, area.bottom],
-        "notes": list(picture.notes),
+        "notes": [api_words(note) for note in picture.notes],
     }
     return header, drawn.getbuffer()
 

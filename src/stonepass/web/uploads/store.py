@@ -7,13 +7,15 @@ import tempfile
 from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 from time import monotonic
 from typing import Any
 
 from stonepass.sandbox.sandbox import Limits as SandboxLimits
 from stonepass.sandbox.sandbox import parse_in_child
+from stonepass.surface.surface_image import Area
+from stonepass.web.api_words import FILE, UPLOAD
 from stonepass.web.settings import Limits
 
 __all__ = ["Upload", "UploadStore", "as_file", "read_upload"]
@@ -30,7 +32,7 @@ class Upload:
     Attributes
     ----------
     id : str
-        Digest of the kind and the content.
+        Digest of the kind, the content and the area.
     kind : str
         Kind of the job that may use it, ``fit`` or ``friction``.
     ending : str
@@ -38,6 +40,8 @@ class Upload:
     content : bytes
     summary : dict
         Description of the content of the file.
+    area : Area or None
+        Part of the picture that belongs to the surface, as the client gave it.
     preview : bytes
         The picture as PNG; empty for a table.
     used : float
@@ -49,6 +53,7 @@ class Upload:
     ending: str
     content: bytes = field(repr=False)
     summary: dict[str, Any]
+    area: Area | None = None
     preview: bytes = field(default=b"", repr=False)
     used: float = field(default_factory=monotonic)
 
@@ -90,7 +95,7 @@ def _size(upload: Upload) -> int:
     return len(upload.content) + len(upload.preview)
 
 
-def read_upload(kind: str, ending: str, content: bytes) -> Upload:
+def read_upload(kind: str, ending: str, content: bytes, area: Area | None = None) -> Upload:
     """Read an uploaded file in the sandbox and return it with its summary.
 
     Parameters
@@ -100,24 +105,27 @@ def read_upload(kind: str, ending: str, content: bytes) -> Upload:
     ending : str
         Ending of the name under which it is read, chosen by the server.
     content : bytes
+    area : Area, optional
+        Part of the picture that belongs to the surface; only this part must be grey.
 
     Raises
     ------
     BadInput
         The file is damaged, of another kind, or needs too much time or memory.
     """
-    identity = hashlib.sha256(b"\0".join((kind.encode(), ending.encode(), content))).hexdigest()
+    about = (kind.encode(), ending.encode(), str(area or "").encode(), content)
+    identity = hashlib.sha256(b"\0".join(about)).hexdigest()
     limits = SandboxLimits(body=PREVIEW)
     with as_file(ending, content) as path:
-        request = {"kind": kind, "path": str(path)}
-        summary, preview = parse_in_child(TASK, request, limits, WHAT[kind], "the upload")
-    return Upload(identity, kind, ending, content, summary, preview)
+        request = {"kind": kind, "path": str(path), "area": None if area is None else astuple(area)}
+        summary, preview = parse_in_child(TASK, request, limits, WHAT[kind], UPLOAD)
+    return Upload(identity, kind, ending, content, summary, area, preview)
 
 
 @contextmanager
 def as_file(ending: str, content: bytes) -> Iterator[Path]:
     """Yield a file with this content in a private folder, which is removed afterwards."""
     with tempfile.TemporaryDirectory(prefix="stonepass-") as folder:
-        path = Path(folder) / f"upload{ending}"
+        path = Path(folder) / f"{FILE}{ending}"
         path.write_bytes(content)
         yield path

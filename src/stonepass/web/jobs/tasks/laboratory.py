@@ -22,12 +22,12 @@ from stonepass.surface.surface_image import Area
 from stonepass.surface.untrusted import read_untrusted
 from stonepass.units import Length, length
 from stonepass.units import area as read_area
+from stonepass.web.api_words import UPLOAD, api_words
 from stonepass.web.jobs.bodies import FitJob, FrictionJob
 from stonepass.web.jobs.context import Context, Done
 
 __all__ = ["TASKS"]
 
-FILE = "the upload"  # stands in the record where the command line has the name of the file
 NAME = "fitted wall"  # name of the fitted material
 
 
@@ -37,7 +37,7 @@ def _fit(request: Mapping[str, Any], context: Context) -> Done:
     assert context.file is not None
     known = constants_by_name(body.law)
     fixed = {name: fixed_constant(text, known[name], name) for name, text in body.fix.items()}
-    inputs: dict[str, Any] = {"file": FILE, "relative": body.relative}
+    inputs: dict[str, Any] = {"file": UPLOAD, "relative": body.relative}
     context.tell(0, 0, "Fitting the constants.")
     if body.test == "inflation":
         assert body.inner is not None
@@ -60,7 +60,7 @@ def _fit(request: Mapping[str, Any], context: Context) -> Done:
         read = read_tension(context.file, **sizes, section=across)
     found = fit_law(read, body.law, fixed, NAME, relative=body.relative, free=body.free)
     return Done(
-        fit_record(found, inputs).to_dict()
+        _in_api_words(fit_record(found, inputs).to_dict())
         | {
             "material": None if found.unstable else material_table(found.material),
             "figure_svg": svg_of(fit_figure(found)),
@@ -73,7 +73,7 @@ def _friction(request: Mapping[str, Any], context: Context) -> Done:
     body = FrictionJob.model_validate(request)
     assert context.file is not None
     context.tell(0, 0, "Reading the picture.")
-    area = None if body.area is None else Area(*body.area)
+    area = context.area if body.area is None else Area(*body.area)
     picture = read_untrusted(context.file, area=area)
     if body.pixel is not None:
         picture = picture.with_pixel(length(body.pixel, "pixel"))
@@ -88,7 +88,15 @@ def _friction(request: Mapping[str, Any], context: Context) -> Done:
         body.margin,
     )
     figure = svg_of(friction_figure(found))
-    return Done(friction_record(found, FILE).to_dict() | {"figure_svg": figure})
+    record = _in_api_words(friction_record(found, UPLOAD).to_dict())
+    record["notes"] = [api_words(note) for note in record["notes"]]
+    return Done(record | {"figure_svg": figure})
+
+
+def _in_api_words(record: dict[str, Any]) -> dict[str, Any]:
+    """Return a record whose warnings name keys of the API instead of options."""
+    told = [each | {"sentence": api_words(each["sentence"])} for each in record["warnings"]]
+    return record | {"warnings": told}
 
 
 def _height_range(body: FrictionJob) -> Length | None:

@@ -48,10 +48,10 @@ export function send(path, body, signal) {
   });
 }
 
-/** Upload a file as it is; `format` is the format of a height map, such as "x3p". */
-export async function upload(kind, file, type, format = "") {
-  const query = format ? `?format=${encodeURIComponent(format)}` : "";
-  const sent = await request(`uploads/${kind}${query}`, {
+/** Upload a file as it is; of a surface, `options` may have the `format` of a height map, such as "x3p", and the `area`. */
+export async function upload(kind, file, type, options = {}) {
+  const query = new URLSearchParams(Object.entries(options).filter(([, value]) => value));
+  const sent = await request(`uploads/${kind}?${query}`, {
     method: "POST",
     headers: { "Content-Type": type },
     body: file,

@@ -27,6 +27,21 @@ export function quantityField(label, unit, value = "") {
   };
 }
 
+/** A field for text, with an example that is shown while it is empty; `changed` is called when the text has changed. */
+export function textField(label, example, changed = () => {}) {
+  const id = freshId("text");
+  const box = h("input", { id, type: "text", placeholder: example, autocomplete: "off" });
+  const frame = h("span", { class: "box" }, box);
+  box.addEventListener("change", changed);
+  return {
+    element: h("div", { class: "field" }, h("label", { for: id }, label), frame),
+    mark: (bad) => {
+      frame.dataset.state = bad ? "bad" : "";
+    },
+    text: () => box.value.trim(),
+  };
+}
+
 /** A field with a list of choices. */
 export function listField(label, options, chosen, changed = () => {}) {
   const id = freshId("list");

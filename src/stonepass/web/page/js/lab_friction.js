@@ -3,7 +3,7 @@
 import { upload } from "./api.js";
 import { fill, h } from "./dom.js";
 import { dropZone } from "./drop.js";
-import { checkField, listField, quantityField } from "./fields.js";
+import { checkField, listField, quantityField, textField } from "./fields.js";
 import { sentence } from "./glossary.js";
 import { jobRun } from "./job_run.js";
 import { labSection } from "./lab_section.js";
@@ -39,9 +39,13 @@ export function frictionSection(take) {
     showHeight,
   );
   const height = quantityField("Height", "µm");
+  const area = textField("Area that shows the surface", "left, top, right, bottom in pixels", () => {
+    if (file) choose(file);
+  });
   const level = checkField("subtract the least-squares plane of the surface");
   const run = jobRun("Estimate the friction", "An image takes a second or two.");
   let file = null;
+  let reading = 0; // counts the uploads; the answer to an earlier one is not used
   let held = null; // what the server says about the uploaded file
 
   const form = h(
@@ -57,6 +61,7 @@ export function frictionSection(take) {
     pixel.element,
     heights.element,
     height.element,
+    area.element,
     level.element,
     run.element,
   );
@@ -70,21 +75,28 @@ export function frictionSection(take) {
   });
 
   async function choose(given) {
+    const mine = ++reading;
+    let found = null;
     file = given;
     held = null;
     chosen.textContent = `${given.name} is being read.`;
     const ending = given.name.toLowerCase().split(".").pop();
     try {
-      held = await upload(
+      found = await upload(
         "friction",
         given,
         PICTURES[ending] ?? "application/octet-stream",
-        PICTURES[ending] ? "" : ending,
+        { format: PICTURES[ending] ? "" : ending, area: area.text() },
       );
     } catch (error) {
+      if (mine !== reading) return;
       chosen.textContent = error.message;
+      area.mark(error.field === "area");
       return;
     }
+    if (mine !== reading) return;
+    held = found;
+    area.mark(false);
     const { summary } = held;
     chosen.textContent = [
       `${given.name}: ${summary.width} × ${summary.height} pixels.`,

@@ -16,8 +16,9 @@ from stonepass.export.inp import write_inp
 from stonepass.export.results import read_contact
 from stonepass.export.seating import seating
 from stonepass.model.accuracy import LEVELS
+from stonepass.model.closure import Closure
+from stonepass.model.critical_state import balance_pressure
 from stonepass.model.far_field import far_field_law
-from stonepass.model.models.seated_balance import Closure, balance_pressure
 from stonepass.model.states.seated_state import Contact, SeatedState
 
 FINE = 0.025

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stonepass.bench.test_data import read_inflation, read_tension
+from stonepass.bench.test_files import read_inflation, read_tension
 from stonepass.clinic.patient import read_patient
 from stonepass.errors import BadInput
 from stonepass.inputs.case_file import read_case

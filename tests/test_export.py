@@ -27,8 +27,8 @@ from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.protocol import Material
 from stonepass.materials.yeoh import Yeoh
 from stonepass.model.closure import Closure
+from stonepass.model.critical_state import balance_pressure
 from stonepass.model.far_field import far_field_law, lumen_ratio
-from stonepass.model.models.seated_balance import balance_pressure
 from stonepass.model.states.nondimensional import profile_of
 
 pytestmark = pytest.mark.usefixtures("shared_solutions")

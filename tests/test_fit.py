@@ -10,7 +10,8 @@ from scipy.stats import t as student
 
 import stonepass as sp
 from stonepass.bench.law_fit import fit_law
-from stonepass.bench.test_data import Inflation, Tension, read_inflation, read_tension
+from stonepass.bench.test_data import Inflation, Tension
+from stonepass.bench.test_files import read_inflation, read_tension
 from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.inputs.material_file import load_material, write_law

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from stonepass.bench.comparison import Setting
     from stonepass.bench.invitro import InVitro, fit_friction
     from stonepass.bench.law_fit import FittedLaw, fit_law
-    from stonepass.bench.test_data import Inflation, Tension, read_inflation, read_tension
+    from stonepass.bench.test_data import Inflation, Tension
+    from stonepass.bench.test_files import read_inflation, read_tension
     from stonepass.caution import Caution
     from stonepass.clinic.assess import assess
     from stonepass.clinic.assessment import Assessment
@@ -228,7 +229,7 @@ _HOME = {
     "push_through": "model.case_states",
     "raise_pressure": "studies.rising",
     "read_case": "inputs.case_file",
-    "read_inflation": "bench.test_data",
+    "read_inflation": "bench.test_files",
     "read_opening_curve": "inputs.opening_curve_file",
     "read_patient": "clinic.patient",
     "read_points": "inputs.measured_pressures",
@@ -237,7 +238,7 @@ _HOME = {
     "read_shape": "inputs.shape_file",
     "read_surface_image": "surface.readers",
     "read_sweep": "studies.sweeps.sweep_file",
-    "read_tension": "bench.test_data",
+    "read_tension": "bench.test_files",
     "read_untrusted": "surface.untrusted",
     "rising_record": "records.rising",
     "run_study": "studies.study",

@@ -159,7 +159,7 @@ def tensile(
     The columns of the data are stretch or extension_mm, then nominal_stress_kPa or force_N, and
     axis (circumferential or axial) if strips were cut along both directions.
     """
-    from stonepass.bench.test_data import read_tension, size_at_rest
+    from stonepass.bench.test_files import read_tension, size_at_rest
     from stonepass.units import area, length
 
     sizes = {
@@ -224,7 +224,7 @@ def inflation(
     The columns of the data are pressure_kPa, then inner_diameter_mm or outer_diameter_mm, and
     axial_stretch if the tube was stretched along its axis.
     """
-    from stonepass.bench.test_data import read_inflation
+    from stonepass.bench.test_files import read_inflation
     from stonepass.model.ureter import Ureter
 
     tube = Ureter(inner, outer)

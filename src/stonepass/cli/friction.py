@@ -189,7 +189,7 @@ def command(
 
 def _height_range(height_range: str | None, crystal: str | None) -> Length | None:
     from stonepass.errors import BadInput
-    from stonepass.surface.friction import crystal_height
+    from stonepass.surface.height_range import crystal_height
     from stonepass.units import length
 
     if height_range is not None and crystal is not None:

@@ -8,11 +8,8 @@ from stonepass.errors import require
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.critical import solve
-from stonepass.model.models.seated_balance import (
-    SeatedBalance,
-    SeatedBalanceDetail,
-    balance_pressure,
-)
+from stonepass.model.critical_state import balance_pressure
+from stonepass.model.models.seated_balance import SeatedBalance, SeatedBalanceDetail
 from stonepass.model.states.seated_state import Contact, SeatedState
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED

@@ -14,10 +14,11 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.closure import ORDER, Closure, Series, first_radius, series_through
 from stonepass.model.critical import solve
+from stonepass.model.critical_state import balance_pressure
 from stonepass.model.energy_balance import advance_force
 from stonepass.model.far_field import far_field_law
 from stonepass.model.models.push_through import PushThrough
-from stonepass.model.models.seated_balance import SeatedBalance, balance_pressure
+from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.states.loaded_state import PushedState
 from stonepass.model.states.seated_state import SeatedState

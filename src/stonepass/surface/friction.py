@@ -11,19 +11,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from math import degrees, sqrt, tan
+from math import degrees, tan
 from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
 
-from stonepass.array_types import Bool, Float
+from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
 from stonepass.surface.baseline import MARGIN, POWERS, Baseline, fit_baseline
-from stonepass.surface.friction_result import Roughness, Spread, SurfaceFriction
+from stonepass.surface.friction_result import Spread, SurfaceFriction
 from stonepass.surface.gaps import BRIDGED
 from stonepass.surface.grey_scale import Greys, check_surface, grey_ranges, to_heights
+from stonepass.surface.height_range import height_scale
 from stonepass.surface.levelling import Plane, fit_plane
 from stonepass.surface.lost_points import without_lost_points
 from stonepass.surface.paths import (
@@ -33,20 +34,12 @@ from stonepass.surface.paths import (
     profiles_along,
     rows_moved,
 )
+from stonepass.surface.roughness import roughness
 from stonepass.surface.surface_image import SurfaceImage
-from stonepass.units import Length, Quantity, length
+from stonepass.units import Length, Quantity
 
-__all__ = [
-    "CRYSTAL_DIAGONAL",
-    "RELIEF",
-    "crystal_height",
-    "friction_of_slopes",
-    "surface_friction",
-]
+__all__ = ["friction_of_slopes", "surface_friction"]
 
-# Height range of a cubic crystal that stands on a corner, divided by its edge: its space diagonal.
-CRYSTAL_DIAGONAL = sqrt(3.0)
-RELIEF = (1e-9, 1e-2)  # smallest and largest height range in m
 ORDER = (1, 200)  # smallest and largest order of a baseline
 RICHER = 2  # default ratio of the orders of the second and the first baseline
 WIDEST = 2.0  # widest margin that may be given, in units of the shortest wavelength
@@ -82,26 +75,6 @@ def friction_of_slopes(k0: float, k1: float) -> float:
         raise BadInput("product of the slopes k0 and k1", f"{k0:.3g} × {k1:.3g}", "below 1",
                        "check the height range and the pixel size")  # fmt: skip
     return (k0 + k1) / (1.0 - k0 * k1)
-
-
-def crystal_height(edge: str | Length | Quantity, argument: str = "crystal") -> Length:
-    """Return the height range of a surface of cubic crystals that stand on a corner.
-
-    Parameters
-    ----------
-    edge : str, Length or pint.Quantity
-        Edge of the crystals, 1 nm to 5 mm.
-    argument : str
-        How the caller names the edge in an error message.
-
-    Raises
-    ------
-    BadInput
-        The edge has no unit or is out of bounds.
-    """
-    read = length(edge, argument)
-    require(RELIEF[0] < read <= RELIEF[1] / 2, argument, edge, "1 nm to 5 mm")
-    return Length(CRYSTAL_DIAGONAL * read)
 
 
 @dataclass(frozen=True)
@@ -174,7 +147,7 @@ def surface_friction(
     ----------
     Liu et al. 2022, section 2.3 and Eq. 18; docs/friction.md, "What is done".
     """
-    scale = _height_range(picture, height_range)
+    scale = height_scale(picture, height_range)
     choices = _choices(baseline_order, deviation_order, margin)
     picture, warnings = without_lost_points(picture)
     warnings += check_surface(picture)
@@ -196,7 +169,7 @@ def surface_friction(
         tuple(chosen),
         sampled.distance,
         surface.heights,
-        _roughness(sampled.distance, surface.heights, sampled.known),
+        roughness(sampled.distance, surface.heights, sampled.known),
         spread,
         _tilt(picture, plane, scale, surface),
         level,
@@ -285,25 +258,6 @@ def _chosen(
     return listed, []
 
 
-def _height_range(
-    picture: SurfaceImage, height_range: str | Length | Quantity | None
-) -> float | None:
-    if picture.has_heights:
-        if height_range is not None:
-            raise BadInput(
-                "height range", str(height_range), "left out", "a height map has its own"
-            )
-        return None
-    if height_range is None:
-        raise BadInput(
-            "height range", "missing", "given for a grey picture, as --height-range or --crystal"
-        )
-    scale = length(height_range, "height range")
-    low, high = RELIEF
-    require(low <= scale <= high, "height range", str(height_range), "1 nm to 10 mm")
-    return float(scale)
-
-
 def _choices(first: int, second: int | None, margin: float) -> _Choices:
     low, high = ORDER
     found: list[int] = []
@@ -374,34 +328,3 @@ def _at_margin(first: Baseline, rest: Baseline, margin: float) -> float:
 def _most(samples: int) -> int:
     """Return the largest order of a baseline that can be fitted to so many samples."""
     return samples // SAMPLES - POWERS
-
-
-def _roughness(
-    distance: Float[np.ndarray, " n"],
-    heights: Float[np.ndarray, "paths n"],
-    known: Bool[np.ndarray, "paths n"],
-) -> Roughness:
-    """Compute the roughness from measured heights only.
-
-    `known` is False where a gap was bridged. A slope counts if its seven samples are all measured.
-    """
-    powers = np.column_stack([np.ones_like(distance), distance / distance[-1]])
-    lines = powers @ np.linalg.lstsq(powers, heights.T, rcond=None)[0]
-    levelled = heights - lines.T
-    step = float(distance[1] - distance[0])
-    weights = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / (60.0 * step)
-    slopes = np.array([np.correlate(row, weights, "valid") for row in levelled])
-    all_known = np.array([np.correlate(row, np.ones(7), "valid") > 6.5 for row in known * 1.0])
-    if not all_known.any(axis=1).all():  # a path without seven measured samples in a row
-        all_known[:] = True
-    return Roughness(
-        float(
-            np.mean([np.abs(row[have]).mean() for row, have in zip(levelled, known, strict=True)])
-        ),
-        float(np.mean([_rms(row[have]) for row, have in zip(levelled, known, strict=True)])),
-        float(np.mean([_rms(row[have]) for row, have in zip(slopes, all_known, strict=True)])),
-    )
-
-
-def _rms(values: Float[np.ndarray, " n"]) -> float:
-    return float(np.sqrt((values**2).mean()))

@@ -20,20 +20,18 @@ from stonepass.model.closure import (
     fit_series,
     series_through,
 )
+from stonepass.model.critical_state import CriticalState, critical_state
 from stonepass.model.far_field import far_field_law, lumen_ratio
-from stonepass.model.force_balance import drive, resistance
 from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem
-from stonepass.model.roots import first_root
 from stonepass.model.seating import SEATINGS, Seating
-from stonepass.model.states.seated_state import Contact, NoSeat, SeatedState
+from stonepass.model.states.seated_state import NoSeat, SeatedState
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.stone import FRICTION
 from stonepass.model.validity import ring_buckling, soft_law, strain_range
-from stonepass.units import Values
 
-__all__ = ["SeatedBalance", "SeatedBalanceDetail", "balance", "balance_pressure"]
+__all__ = ["SeatedBalance", "SeatedBalanceDetail", "balance"]
 
 # Range of an admissible series closure: smallest r_a/R_a and largest r_a/R_s.
 SMALLEST_OPENING, LARGEST_OPENING = 0.5, 2.0
@@ -234,28 +232,6 @@ class SeatedBalanceDetail:
         )
 
 
-def balance_pressure(
-    contact: Contact, closure: Closure, *, as_printed: bool = False
-) -> float | None:
-    """Return the critical pressure P_ucr of a seated stone for a given closure.
-
-    Parameters
-    ----------
-    contact : Contact
-        The seated contact, pressures in Pa.
-    closure : Closure
-    as_printed : bool
-        True to use the sign of Eq. 5 as it is printed.
-
-    Returns
-    -------
-    float or None
-        P_ucr in Pa; None if drive and resistance do not balance at any α in [α₀, π/2].
-    """
-    found = _critical(contact, closure, as_printed=as_printed)
-    return None if found is None else found.pressure
-
-
 def balance(
     model: SeatedBalance, case: Problem, numerics: Numerics, seated: SeatedState, closure: Closure
 ) -> Answer:
@@ -270,11 +246,11 @@ def balance(
     seated : SeatedState
     closure : Closure
     """
-    found = _critical(seated, closure, as_printed=model.as_printed)
+    found = critical_state(seated, closure, as_printed=model.as_printed)
     coarse = (
         None
         if seated.coarse is None
-        else _critical(seated.coarse, closure, as_printed=model.as_printed)
+        else critical_state(seated.coarse, closure, as_printed=model.as_printed)
     )
     undecided = seated.coarse is not None and (found is None) != (coarse is None)
     answer = Answer(
@@ -352,46 +328,11 @@ def _fitted(
     return Closure(far_field_law(case, ground=model.far_field_ground), start, fitted)
 
 
-@dataclass(frozen=True)
-class _Critical:
-    """The critical state: angle in rad, and urine pressure in Pa.
-
-    `at_edge` is true if the drive already exceeds the resistance at α₀.
-    """
-
-    angle: float
-    pressure: float
-    at_edge: bool = False
-
-
-def _critical(contact: Contact, closure: Closure, *, as_printed: bool) -> _Critical | None:
-    """Find the smallest α in [α₀, π/2] with F_re = F_dr; the equation may have several roots."""
-    forces = resistance(contact, as_printed=as_printed)
-    width = contact.case.stone.shape.width
-    first, last = contact.contact_angle, np.pi / 2
-    # Without friction nothing holds the stone under any load, so P_ucr = 0 at α₀.
-    if contact.case.stone.friction == 0.0:
-        return _Critical(first, 0.0)
-
-    def excess(alpha: Values) -> Values:
-        push = drive(closure.pressure(contact, alpha), width(np.asarray(alpha)))
-        return forces.total(alpha) - push
-
-    found = first_root(excess, first, last)
-    if found is None:
-        return None
-    if found == first:
-        disc = float(width(np.array(first))) ** 2
-        # This is the P_u whose drive equals the resistance of the whole contact.
-        return _Critical(first, max(float(forces.total(np.array(first))), 0.0) / disc, at_edge=True)
-    return _Critical(found, float(closure.pressure(contact, np.array(found))))
-
-
 def _error(
     seated: SeatedState,
     numerics: Numerics,
-    found: _Critical | None,
-    coarse: _Critical | None,
+    found: CriticalState | None,
+    coarse: CriticalState | None,
     closure: Closure,
 ) -> ErrorEstimate | None:
     """Return the error estimates of the contact and of P_ucr.

@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from stonepass.bench.test_data import size_at_rest
+from stonepass.bench.test_files import size_at_rest
 from stonepass.clinic.patient import PatientFile, patient_of
 from stonepass.clinic.pressure_limits import read_limit
 from stonepass.declaration import read_declared

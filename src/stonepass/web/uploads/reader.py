@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from stonepass.bench.test_data import table_of_test
+from stonepass.bench.test_files import table_of_test
 from stonepass.errors import BadInput
 from stonepass.sandbox.worker import serve
 from stonepass.surface.readers import load_libraries, read_surface_image

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from stonepass.bench.law_fit import fit_law
-from stonepass.bench.test_data import read_inflation, read_tension
+from stonepass.bench.test_files import read_inflation, read_tension
 from stonepass.inputs.material_file import material_table
 from stonepass.materials.constants import fixed_constant
 from stonepass.materials.known_laws import constants_by_name
@@ -16,7 +16,8 @@ from stonepass.records.friction import friction_record
 from stonepass.report.fit_figure import fit_figure
 from stonepass.report.friction_figure import friction_figure
 from stonepass.report.html import svg_of
-from stonepass.surface.friction import crystal_height, surface_friction
+from stonepass.surface.friction import surface_friction
+from stonepass.surface.height_range import crystal_height
 from stonepass.surface.paths import StraightPath
 from stonepass.surface.surface_image import Area
 from stonepass.surface.untrusted import read_untrusted

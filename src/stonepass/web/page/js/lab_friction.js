@@ -39,7 +39,7 @@ export function frictionSection(take) {
     showHeight,
   );
   const height = quantityField("Height", "µm");
-  const area = textField("Area that shows the surface", "left, top, right, bottom in pixels", () => {
+  const area = textField("Area that shows the surface (optional)", "left, top, right, bottom in pixels", () => {
     if (file) choose(file);
   });
   const level = checkField("subtract the least-squares plane of the surface");

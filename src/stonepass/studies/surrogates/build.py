@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from itertools import chain
 
 import numpy as np
 
-from stonepass.array_dataclass import array_dataclass
-from stonepass.array_types import Bool, Float
+from stonepass.array_types import Float
 from stonepass.errors import BadInput
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -34,6 +32,7 @@ from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain_cases
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
+from stonepass.studies.surrogates.solved_cases import SolvedCases
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_surrogate"]
@@ -70,40 +69,38 @@ def build_surrogate(
         return build_held_stone(case, box, solver, effort)
     _refuse(case)
     domain = Domain(box, stable_loads(case, box.wall_ratio))
-    solved = [_solve(level, domain, solver) for level in levels_for(case, effort)]
-    everything = [each for level in solved for each in level.answers]
-    _refuse_unsolved(everything)
-    physics = SeatedContact.fitted_to(everything)
+    levels = levels_for(case, effort)
+    asked = [domain.training(level.case, level.count) for level in levels]
+    answers = [_answers(level, at, solver) for level, at in zip(levels, asked, strict=True)]
+    _refuse_unsolved(list(chain(*answers)))
+    physics = SeatedContact.fitted_to(list(chain(*answers)))
+
+    def solved(level: Level, at: Conditions, found: list[Answer]) -> SolvedCases:
+        setting = domain.setting(level.case, at)
+        return SolvedCases(setting, found, physics.learnt(case, setting, found))
+
     learnt: LearntFunctions | None = None
-    left_out = []
-    for first in solved:
-        level = _refined(case, domain, physics, learnt, first, solver)
-        values = physics.learnt(case, level.at, level.answers)
-        learnt, left = _corrected(learnt, level, values)
-        left_out.append((level, values, left))
+    fitted = []
+    for level, at, found in zip(levels, asked, answers, strict=True):
+        cases = solved(level, at, found)
+        if level.refined:
+            more = _least_certain(case, domain, physics, learnt, level, cases)
+            cases = cases.joined(solved(level, more, _answers(level, more, solver)))
+        learnt, left_out = _corrected(learnt, level, cases)
+        fitted.append((level, cases, left_out))
     assert learnt is not None
-    error = _claimed(case, physics, left_out)
+    _, cases, left_out = fitted[-1]  # this level has the model and options of the surrogate
     return Surrogate(
         case,
         box,
         physics,
         learnt,
-        error,
+        _claimed(case, physics, cases, left_out),
         FLOOR,
         domain.stable,
         fit_lumen(case, box) if case.load != Load() else None,
-        origin(case, [(each.level.case, each.answers) for each, _, _ in left_out]),
+        origin(case, [(level.case, cases.answers) for level, cases, _ in fitted]),
     )
-
-
-@array_dataclass
-@dataclass(frozen=True)
-class _Solved:
-    """The cases of a level and their answers."""
-
-    level: Level
-    at: Setting
-    answers: list[Answer]
 
 
 def _refuse(case: Case) -> None:
@@ -128,72 +125,53 @@ def _refuse_unsolved(answers: Sequence[Answer]) -> None:
         )  # fmt: skip
 
 
-def _solve(level: Level, domain: Domain, solver: CaseSolver) -> _Solved:
-    return _solved_at(level, domain, domain.training(level.case, level.count), solver)
-
-
-def _solved_at(level: Level, domain: Domain, at: Conditions, solver: CaseSolver) -> _Solved:
+def _answers(level: Level, at: Conditions, solver: CaseSolver) -> list[Answer]:
     cases = [case_at(level.case, at, k) for k in range(len(at.friction))]
-    return _Solved(level, domain.setting(level.case, at), solver.answers(cases, error=False))
+    return solver.answers(cases, error=False)
 
 
-def _refined(
+def _least_certain(
     case: Case,
     domain: Domain,
     physics: SeatedContact,
     before: LearntFunctions | None,
-    level: _Solved,
-    solver: CaseSolver,
-) -> _Solved:
-    """Return a level with further cases where the surrogate is least certain."""
-    if level.level.refined == 0:
-        return level
-    values = physics.learnt(case, level.at, level.answers)
+    level: Level,
+    solved: SolvedCases,
+) -> Conditions:
+    """Return the conditions of a level at which the surrogate is least certain."""
 
     def pressures(half: slice, there: Setting) -> Float[np.ndarray, " m"]:
-        part = _Solved(level.level, level.at.where(_chosen(level, half)), level.answers[half])
-        fitted, _ = _corrected(before, part, values[half])
+        """Return P_ucr by a fit to a part of the cases."""
+        fitted, _ = _corrected(before, level, solved.part(half))
         found: Float[np.ndarray, " m"] = physics.solve(case, there, fitted(there)).pressure
         return found
 
-    added = least_certain_cases(domain, case, pressures, level.level.refined)
-    more = _solved_at(level.level, domain, added, solver)
-    return _Solved(level.level, level.at.joined(more.at), [*level.answers, *more.answers])
-
-
-def _chosen(level: _Solved, part: slice) -> Bool[np.ndarray, " n"]:
-    found = np.zeros(len(level.answers), dtype=bool)
-    found[part] = True
-    return found
+    return least_certain_cases(domain, case, pressures, level.refined)
 
 
 def _corrected(
-    before: LearntFunctions | None, level: _Solved, values: Float[np.ndarray, "n functions"]
+    before: LearntFunctions | None, level: Level, solved: SolvedCases
 ) -> tuple[LearntFunctions, Float[np.ndarray, "n functions"]]:
     """Fit what earlier levels leave over; return all levels together and leave-one-out errors."""
-    rest = values if before is None else values - before(level.at)
-    points = level.at.unit if before is None else before.by_width(level.at)
-    factor = None if before is None else level.at.conditions.friction
-    degrees, total = level.level.degrees, level.level.total
-    fits = [fit_polynomial(points, each, degrees, total, factor) for each in rest.T]
+    at, values = solved.at, solved.values
+    rest = values if before is None else values - before(at)
+    points = at.unit if before is None else before.by_width(at)
+    factor = None if before is None else at.conditions.friction
+    fits = [fit_polynomial(points, each, level.degrees, level.total, factor) for each in rest.T]
     added = joined([each.polynomial for each in fits])
     learnt = LearntFunctions(added) if before is None else before.corrected(added)
     return learnt, np.stack([each.left_out for each in fits], axis=1)
 
 
 def _claimed(
-    case: Case, physics: SeatedContact, left_out: Sequence[tuple[_Solved, Any, Any]]
+    case: Case,
+    physics: SeatedContact,
+    solved: SolvedCases,
+    left_out: Float[np.ndarray, "n functions"],
 ) -> SparsePolynomial:
-    """Return the logarithm of the claimed relative error of P_ucr, from leave-one-out errors.
-
-    The cases of the last level count, which have the model and the options of the surrogate.
-    """
-    level, values, left = left_out[-1]
-    whole = np.isfinite(values[:, :-1]).all(axis=1)
-    at, true = level.at.where(whole), np.array([_number(a) for a in level.answers])[whole]
-    shifted = np.where(np.isfinite(left), values + left, 0.0)[whole]
-    return claimed_error(at.unit, physics.solve(case, at, shifted).pressure, true)
-
-
-def _number(answer: Answer) -> float:
-    return np.nan if answer.pressure is None else answer.pressure
+    """Return the logarithm of the claimed relative error of P_ucr, from leave-one-out errors."""
+    whole = np.isfinite(solved.values[:, :-1]).all(axis=1)
+    at = solved.at.where(whole)
+    shifted = np.where(np.isfinite(left_out), solved.values + left_out, 0.0)[whole]
+    found = physics.solve(case, at, shifted).pressure
+    return claimed_error(at.unit, found, solved.pressures[whole])

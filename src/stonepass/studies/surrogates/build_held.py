@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.errors import BadInput
 from stonepass.materials.relaxed_energy import Microbuckling
@@ -28,6 +27,7 @@ from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain_cases
 from stonepass.studies.surrogates.regression import FEWEST, fit_polynomial, joined
 from stonepass.studies.surrogates.solved import MOVES
+from stonepass.studies.surrogates.solved_cases import SolvedCases
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_held_stone"]
@@ -87,28 +87,79 @@ def _sizes(*, loaded: bool, wrinkles: bool) -> _Sizes:
     return replace(sizes, refined=0, change=(8, 8, 8, 5 if loaded else 0), total=8)
 
 
-@array_dataclass
 @dataclass(frozen=True)
-class _Cases:
-    """Solved cases: conditions, answers, and p with the functions at p."""
+class _Build:
+    """Solves the cases of the three levels.
 
-    at: Setting
-    answers: list[Answer]
-    values: Values
+    Attributes
+    ----------
+    case : Case
+        Material, model and load of the cases; the numerics are those of the surrogate.
+    domain : Domain
+    physics : HeldStone
+    solver : CaseSolver
+    sizes : _Sizes
+    effort : float
+        Factor on the number of cases.
+    """
 
-    def joined(self, other: _Cases) -> _Cases:
-        """Return the cases of both."""
-        return _Cases(
-            self.at.joined(other.at),
-            [*self.answers, *other.answers],
-            np.concatenate([self.values, other.values]),
-        )
+    case: Case
+    domain: Domain
+    physics: HeldStone
+    solver: CaseSolver
+    sizes: _Sizes
+    effort: float
 
-    def part(self, rows: slice) -> _Cases:
-        """Return some of the cases."""
-        chosen = np.zeros(len(self.answers), dtype=bool)
-        chosen[rows] = True
-        return _Cases(self.at.where(chosen), self.answers[rows], self.values[rows])
+    def count(self, number: int) -> int:
+        """Return a number of cases for the effort."""
+        return max(FEWEST, round(self.effort * number))
+
+    def solved(self, asked: Conditions, leaks: int) -> SolvedCases:
+        """Solve cases; with an error estimate the model computes the leak pressure too."""
+        cases = [case_at(self.case, asked, k) for k in range(len(asked.friction))]
+        answers = [
+            *self.solver.answers(cases[:leaks]),
+            *self.solver.answers(cases[leaks:], error=False),
+        ]
+        at = self.domain.setting(self.case, asked)
+        return SolvedCases(at, answers, self.physics.learnt(self.case, at, answers))
+
+    def free(self) -> SolvedCases:
+        """Solve the first level, nearly without friction."""
+        count, leaks = map(self.count, self.sizes.free)
+        asked = self.domain.training(self.case, count)
+        nearly = np.full(len(asked.friction), NEARLY_NONE)
+        return self.solved(replace(asked, friction=nearly), leaks)
+
+    def held(self, base: SparsePolynomial) -> SolvedCases:
+        """Solve the second and the third level, whose first level gave `base`."""
+        gentle = self.count(self.sizes.gentle[0])
+        asked = self.domain.training(self.case, gentle + self.count(self.sizes.pushed[0]))
+        first = np.arange(len(asked.friction)) < gentle
+        little, rest = asked.where(first), asked.where(~first)
+        little = replace(little, friction=GENTLER * little.friction)
+        second = self.solved(little, self.count(self.sizes.gentle[1]))
+        functions, _ = _with_changes(base, second, self.sizes)
+        at = self.domain.setting(self.case, rest)
+        below = self.physics.solve(self.case, at, functions(at)).outcome == MOVES
+        return second.joined(self.solved(rest.where(below), self.count(self.sizes.pushed[1])))
+
+    def refined(self, base: SparsePolynomial, held: SolvedCases) -> SolvedCases:
+        """Return the cases of `held` with further ones where the surrogate is least certain."""
+        if not self.sizes.refined:
+            return held
+
+        def pressures(half: slice, there: Setting) -> Float[np.ndarray, " m"]:
+            """Return P_ucr by a fit to a part of the cases."""
+            fitted, _ = _with_changes(base, held.part(half), self.sizes)
+            found: Float[np.ndarray, " m"] = self.physics.solve(
+                self.case, there, fitted(there)
+            ).pressure
+            return found
+
+        count = self.count(self.sizes.refined)
+        more = least_certain_cases(self.domain, self.case, pressures, count)
+        return held.joined(self.solved(more, leaks=0))
 
 
 def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) -> Surrogate:
@@ -132,54 +183,21 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     wrinkles = isinstance(case.ureter.material.law, Microbuckling)
     sizes = _sizes(loaded=case.load.confining_pressure > 0.0, wrinkles=wrinkles)
     stable = stable_loads(case, box.wall_ratio, WRINKLED if wrinkles else MARGIN)
-    domain, physics = Domain(box, stable), HeldStone()
-
-    def count(number: int) -> int:
-        return max(FEWEST, round(effort * number))
-
-    def solved(asked: Conditions, leaks: int) -> _Cases:
-        """Solve cases; with an error estimate the model computes the leak pressure too."""
-        cases = [case_at(quick, asked, k) for k in range(len(asked.friction))]
-        answers = [*solver.answers(cases[:leaks]), *solver.answers(cases[leaks:], error=False)]
-        at = domain.setting(quick, asked)
-        return _Cases(at, answers, physics.learnt(quick, at, answers))
-
-    asked = domain.training(quick, count(sizes.free[0]))
-    nearly = np.full(len(asked.friction), NEARLY_NONE)
-    free = solved(replace(asked, friction=nearly), count(sizes.free[1]))
+    build = _Build(quick, Domain(box, stable), HeldStone(), solver, sizes, effort)
+    free = build.free()
     base = _base(free, sizes)
-
-    gentle = count(sizes.gentle[0])
-    asked = domain.training(quick, gentle + count(sizes.pushed[0]))
-    first = np.arange(len(asked.friction)) < gentle
-    little = asked.where(first)
-    second = solved(replace(little, friction=GENTLER * little.friction), count(sizes.gentle[1]))
-    functions, _ = _with_changes(base, second, sizes)
-
-    rest = asked.where(~first)
-    at = domain.setting(quick, rest)
-    below = physics.solve(quick, at, functions(at)).outcome == MOVES
-    third = solved(rest.where(below), count(sizes.pushed[1]))
-    both = second.joined(third)
-
-    def pressures(half: slice, there: Setting) -> Float[np.ndarray, " m"]:
-        """Return P_ucr by a fit to a part of the second and third level."""
-        fitted, _ = _with_changes(base, both.part(half), sizes)
-        found: Float[np.ndarray, " m"] = physics.solve(quick, there, fitted(there)).pressure
-        return found
-
-    if sizes.refined:
-        more = least_certain_cases(domain, quick, pressures, count(sizes.refined))
-        both = both.joined(solved(more, leaks=0))
-    _refuse_lost([*free.answers, *both.answers])
-    learnt, left_out = _with_changes(base, both, sizes)
-    error = _claimed(quick, physics, learnt, both, left_out)
-    about = origin(case, [(quick, each.answers) for each in (free, both)])
+    held = build.refined(base, build.held(base))
+    _refuse_lost([*free.answers, *held.answers])
+    learnt, left_out = _with_changes(base, held, sizes)
+    error = _claimed(quick, build.physics, learnt, held, left_out)
+    about = origin(case, [(quick, each.answers) for each in (free, held)])
     lumen = fit_lumen(case, box) if case.load != Load() else None
-    return Surrogate(case, box, physics, learnt, error, FLOOR, domain.stable, lumen, about)
+    return Surrogate(
+        case, box, build.physics, learnt, error, FLOOR, build.domain.stable, lumen, about
+    )
 
 
-def _base(free: _Cases, sizes: _Sizes) -> SparsePolynomial:
+def _base(free: SolvedCases, sizes: _Sizes) -> SparsePolynomial:
     """Fit ln((π/2 − α)/root) and the functions of p without friction."""
     _, *functions = free.values.T
     widths = np.log(functions[1])
@@ -190,7 +208,7 @@ def _base(free: _Cases, sizes: _Sizes) -> SparsePolynomial:
 
 
 def _with_changes(
-    base: SparsePolynomial, solved: _Cases, sizes: _Sizes
+    base: SparsePolynomial, solved: SolvedCases, sizes: _Sizes
 ) -> tuple[HeldFunctions, Values]:
     """Fit what the pressure changes in all functions; return leave-one-out errors too."""
     at, p = solved.at, solved.values[:, 0]
@@ -204,15 +222,15 @@ def _with_changes(
 
 
 def _claimed(
-    case: Case, physics: HeldStone, learnt: HeldFunctions, solved: _Cases, left_out: Values
+    case: Case, physics: HeldStone, learnt: HeldFunctions, solved: SolvedCases, left_out: Values
 ) -> SparsePolynomial:
     """Return the claimed error from the leave-one-out errors of ln h."""
     known = np.isfinite(left_out[:, 0])
     at = solved.at.where(known)
     coefficients = learnt(at)
     coefficients[:, 0] += left_out[known, 0]
-    true = np.array([each.pressure for each in solved.answers], dtype=float)[known]
-    return claimed_error(at.unit, physics.solve(case, at, coefficients).pressure, true)
+    found = physics.solve(case, at, coefficients).pressure
+    return claimed_error(at.unit, found, solved.pressures[known])
 
 
 def _refuse_lost(answers: Sequence[Answer]) -> None:

@@ -16,7 +16,7 @@ __all__ = ["code_digest", "solver_digest"]
 # Version that a developer raises if results change for a reason outside the source code below.
 NUMBERS = 1
 PACKAGE = Path(__file__).parents[1]
-SOURCES = ("fe", "materials", "model", "units.py", "studies/serialisation.py")
+SOURCES = ("fe", "materials", "model", "strain.py", "units.py", "studies/serialisation.py")
 LIBRARIES = ("ngsolve", "numpy", "scipy", "autograd")
 
 

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 from stonepass.errors import BadInput
 from stonepass.sandbox.protocol import LONGEST
 
-__all__ = ["limit_memory", "serve"]
+__all__ = ["lift_memory_limit", "limit_memory", "serve"]
+
+RESERVE = 32_000_000  # bytes above the limit, with which a failure is told
+NEARLY = 0.85  # part of the limit above which a process lacks memory
 
 Parsed = tuple[dict[str, Any], memoryview]
 
@@ -61,7 +66,30 @@ def limit_memory(memory: int) -> None:
         import resource
     except ImportError:  # Windows
         return
-    _set(resource, ((resource.RLIMIT_DATA, memory, memory), (resource.RLIMIT_CORE, 0, 0)))
+    hard = memory + RESERVE
+    _set(resource, ((resource.RLIMIT_DATA, memory, hard), (resource.RLIMIT_CORE, 0, 0)))
+
+
+def lift_memory_limit() -> bool:
+    """Make the reserve above the limit of `limit_memory` available, to tell why a job failed.
+
+    Returns
+    -------
+    bool
+        True if the data of this process had nearly reached the limit. A library that lacks memory
+        raises errors of many kinds.
+    """
+    try:
+        import resource
+    except ImportError:  # Windows
+        return False
+    limit, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    _set(resource, ((resource.RLIMIT_DATA, hard, hard),))
+    status = Path("/proc/self/status")
+    if limit == resource.RLIM_INFINITY or not status.exists():
+        return False
+    found = re.search(r"^VmData:\s*(\d+) kB$", status.read_text(encoding="ascii"), re.MULTILINE)
+    return found is not None and 1024 * int(found[1]) > NEARLY * limit
 
 
 def _limit(memory: int, seconds: float) -> None:

@@ -174,7 +174,10 @@ class JobBook:
             await process.end()
             self._fail(job, TOO_LONG.format(seconds=limits.job_seconds), 422)
         except WorkerEnded as problem:
-            self._fail(job, ENDED.format(how=problem.how), 409)
+            if problem.lacked_memory:
+                self._lacked_memory(job)
+            else:
+                self._fail(job, ENDED.format(how=problem.how), 409)
         else:
             await self._conclude(job, message, process)
 
@@ -188,10 +191,13 @@ class JobBook:
             self._fail(job, detail, 422, field, value)
         elif message["fault"] == "MemoryError":
             await process.end()  # what is left of its memory may not be enough for the next job
-            memory = self._settings.limits.job_memory // 1_000_000
-            self._fail(job, NO_MEMORY.format(memory=memory), 422)
+            self._lacked_memory(job)
         else:
             self._fail(job, FAULT.format(name=message["fault"]), 500)
+
+    def _lacked_memory(self, job: Job) -> None:
+        memory = self._settings.limits.job_memory // 1_000_000
+        self._fail(job, NO_MEMORY.format(memory=memory), 422)
 
     def _fail(self, job: Job, detail: str, status: int, field: str = "", value: str = "") -> None:
         job.problem = problem_document(status, detail, field or None, value or None)

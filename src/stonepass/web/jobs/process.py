@@ -25,13 +25,29 @@ class WorkerEnded(Exception):
 
     Attributes
     ----------
-    how : str
-        The exit code or the signal, in words.
+    code : int or None
+        The exit code; minus the number of the signal that ended the process.
     """
 
-    def __init__(self, how: str) -> None:
-        super().__init__(how)
-        self.how = how
+    def __init__(self, code: int | None) -> None:
+        super().__init__(code)
+        self.code = code
+
+    @property
+    def how(self) -> str:
+        """The exit code or the signal, in words."""
+        if self.code is not None and self.code < 0:
+            return f"signal {-self.code}"
+        return f"exit code {self.code}"
+
+    @property
+    def lacked_memory(self) -> bool:
+        """True if the process ended itself.
+
+        It catches all errors but those that it lacks the memory to tell. OpenBLAS ends a process
+        with the exit code 1 if it gets no memory.
+        """
+        return self.code == 1
 
 
 class WorkerProcess:
@@ -82,7 +98,7 @@ class WorkerProcess:
         with suppress(TimeoutError):  # the exit code says why
             await asyncio.wait_for(process.wait(), GRACE)
         await self.end()
-        raise WorkerEnded(_how(process.returncode))
+        raise WorkerEnded(process.returncode)
 
     async def end(self) -> None:
         """Kill the process and all processes that it has started."""
@@ -115,9 +131,3 @@ class WorkerProcess:
 def _environment() -> dict[str, str]:
     kept = {key: value for key, value in os.environ.items() if key != "STONEPASS_TOKEN"}
     return kept | dict.fromkeys(ONE_THREAD, "1") | {"MPLBACKEND": "agg"}
-
-
-def _how(code: int | None) -> str:
-    if code is not None and code < 0:
-        return f"signal {-code}"
-    return f"exit code {code}"

@@ -23,7 +23,7 @@ from pydantic import ValidationError
 
 from stonepass.errors import BadInput, lacks_memory
 from stonepass.inputs.build import in_words
-from stonepass.sandbox.worker import limit_memory
+from stonepass.sandbox.worker import lift_memory_limit, limit_memory
 from stonepass.surface.surface_image import Area
 from stonepass.web.api_words import in_api_words
 from stonepass.web.jobs.context import Context, Done
@@ -81,7 +81,8 @@ def _answer(request: Mapping[str, Any], writing: IO[bytes]) -> dict[str, Any]:
         first = problem.errors()[0]
         return {"refused": [f"The request is not valid: {first['msg']}.", "", ""]}
     except Exception as problem:
-        return {"fault": "MemoryError" if lacks_memory(problem) else type(problem).__name__}
+        starved = lift_memory_limit() or lacks_memory(problem)
+        return {"fault": "MemoryError" if starved else type(problem).__name__}
 
 
 def _refusal(problem: BadInput) -> list[str]:

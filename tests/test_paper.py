@@ -418,7 +418,7 @@ def test_the_command(tmp_path, capsys):
     assert "--cache" not in warned  # no other folder is called for
     assert (out / "fig5.csv").read_bytes() == before
     assert run(["paper", "friction", "--limit", "0kPa"]) == 2
-    assert "limit is 0 kPa, but must be 0.1 kPa to 100 kPa" in capsys.readouterr().err
+    assert "--limit is 0kPa, but must be 0.001 kPa to 1000 kPa" in capsys.readouterr().err
     assert run(["paper", "fig12"]) == 2
     assert "did you mean" in capsys.readouterr().err
     assert run(["paper", "--cache", "x", "--no-cache"]) == 2

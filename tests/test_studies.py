@@ -163,10 +163,10 @@ def test_results_arrive_as_they_are_ready_and_few_blocks_are_under_way():
     assert list(iterate_jobs([Square(2), Square(3)])) == [(Square(2), 4), (Square(3), 9)]
 
 
-def test_a_long_block_returns_early_and_nothing_is_lost(monkeypatch):
-    """Sixteen items are sent at a time, but each one takes the whole time of a block."""
-    monkeypatch.setattr(executors, "BLOCK_SECONDS", 0.0)
-    monkeypatch.setattr(executors, "_block_size", lambda count, seconds: 16)
+def test_a_long_batch_returns_early_and_nothing_is_lost(monkeypatch):
+    """Sixteen items are sent at a time, but each one takes the whole time of a batch."""
+    monkeypatch.setattr(executors, "BATCH_SECONDS", 0.0)
+    monkeypatch.setattr(executors, "_batch_size", lambda count, seconds: 16)
     assert dict(stream(InProcessExecutor(), abs, list(range(100)))) == {k: k for k in range(100)}
 
 

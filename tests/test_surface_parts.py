@@ -546,4 +546,4 @@ def test_the_margin_is_an_option_and_its_effect_is_told(tmp_path, capsys):
     assert "range over end margins" in shown
     assert "the least-squares plane is" in shown
     assert run([*command, "--margin", "3"]) == 2
-    assert "margin is 3.0, but must be from 0 to 2" in capsys.readouterr().err
+    assert "margin is 3.0, but must be a number from 0 to 2" in capsys.readouterr().err

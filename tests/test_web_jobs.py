@@ -157,7 +157,7 @@ def test_a_refusal_of_the_model_names_the_field(asking):
         ({"case": QUICK | {"load": {"confining_pressure": "3"}}}, "load.confining_pressure"),
         ({"case": QUICK | {"method": {"model": "beam", "seating": "pressed"}}}, "method.seating"),
         ({"kind": "size"}, "limit"),
-        ({"kind": "size", "limit": "1 Pa"}, "limit"),
+        ({"kind": "size", "limit": "0.5 Pa"}, "limit"),
         ({"kind": "push", "steps": 1000}, "steps"),
         ({"kind": "nothing"}, "kind"),
         ({"case": []}, "case"),

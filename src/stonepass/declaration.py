@@ -309,7 +309,7 @@ def _choice(declaration: Input, title: str, value: Any) -> str:
 
 def _shown(kind: Kind, bound: float) -> str:
     if kind is Kind.LENGTH:
-        return format_length(bound)
+        return f"{bound * 1e9:g} nm" if bound < 1e-6 else format_length(bound)
     if kind is not Kind.PRESSURE:
         return f"{bound:g}"
     return f"{bound / 1e9:g} GPa" if bound >= 1e9 else format_pressure(bound)

@@ -33,6 +33,7 @@ from stonepass.bench.series_model import SeriesModel, series_curves
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, Outcome, require
 from stonepass.inputs.measured_pressures import Point
+from stonepass.model.models.registry import MODELS
 from stonepass.model.stone import FRICTION
 from stonepass.result import Result
 from stonepass.studies.case_solver import CaseSolver, JobSolver
@@ -181,7 +182,7 @@ def fit_friction(
     ------
     BadInput
         The model has an answer for fewer than two points, a standard deviation is 0, all pressures
-        are 0, `friction` is out of bounds, or the model is the beam.
+        are 0, `friction` is out of bounds, or the model has no finite elements.
 
     References
     ----------
@@ -189,8 +190,9 @@ def fit_friction(
     """
     library, solver = lmfit(), solver or JobSolver(progress=True)
     if not setting.model.NEEDS_ELEMENTS:
-        raise BadInput("model", "beam", "'paper' or 'direct'",
-                       "the beam model holds for thin walls only")  # fmt: skip
+        names = [f"'{name}'" for name, model in MODELS.items() if model.NEEDS_ELEMENTS]
+        raise BadInput("model", setting.model.NAME, " or ".join(names),
+                       "a model with finite elements is compared")  # fmt: skip
     weights, weighted = _weights(points)
     curves, warnings = series_curves(points, setting, solver)
     kept = [k for k, curve in enumerate(curves) if curve is not None]

@@ -9,7 +9,9 @@ import typer
 
 from stonepass.about import DISCLAIMER
 from stonepass.cli.help import OUTPUT, QUESTION, epilog
-from stonepass.cli.options import Json
+from stonepass.cli.options import Json, option_for
+from stonepass.declaration import inputs_of
+from stonepass.surface.analysis import CRYSTAL, HEIGHT_RANGE, PATHS, PIXEL_SIZE, Analysis
 
 if TYPE_CHECKING:
     from stonepass.surface.paths import StraightPath
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["EPILOG", "command"]
 
 ANALYSIS = "Analysis of the surface"
+CHOICES = inputs_of(Analysis)
 EPILOG = epilog(
     (
         (
@@ -42,43 +45,10 @@ def command(
             rich_help_panel=QUESTION,
         ),
     ],
-    pixel: Annotated[
-        str | None,
-        typer.Option(
-            "--pixel",
-            metavar="LENGTH",
-            help="Size of a pixel of a picture, instead of that in the file, e.g. 0.5um.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
-    height_range: Annotated[
-        str | None,
-        typer.Option(
-            "--height-range",
-            metavar="LENGTH",
-            help="Difference in height from black to white, e.g. 35um.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
-    crystal: Annotated[
-        str | None,
-        typer.Option(
-            "--crystal",
-            metavar="LENGTH",
-            help="Edge of the cubic crystals on the surface; the height range is then sqrt(3) "
-            "times the edge.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
-    paths: Annotated[
-        int | None,
-        typer.Option(
-            "--paths",
-            metavar="INTEGER",
-            help="Number of horizontal profiles, evenly spaced.  [default: 6]",
-            rich_help_panel=ANALYSIS,
-        ),
-    ] = None,
+    pixel: Annotated[str | None, option_for(PIXEL_SIZE, QUESTION)] = None,
+    height_range: Annotated[str | None, option_for(HEIGHT_RANGE, QUESTION)] = None,
+    crystal: Annotated[str | None, option_for(CRYSTAL, QUESTION)] = None,
+    paths: Annotated[int | None, option_for(PATHS, ANALYSIS)] = None,
     path: Annotated[
         list[str] | None,
         typer.Option(
@@ -97,43 +67,14 @@ def command(
             rich_help_panel=ANALYSIS,
         ),
     ] = None,
-    baseline_order: Annotated[
-        int,
-        typer.Option(
-            "--baseline-order",
-            metavar="INTEGER",
-            help="Number of half waves in the baseline of the mean profile.",
-            rich_help_panel=ANALYSIS,
-        ),
-    ] = 8,
+    baseline_order: Annotated[int, option_for(CHOICES["baseline_order"], ANALYSIS)] = (
+        Analysis.baseline_order
+    ),
     deviation_order: Annotated[
-        int | None,
-        typer.Option(
-            "--deviation-order",
-            metavar="INTEGER",
-            help="Number of half waves in the baseline of the deviations from it.  [default: twice "
-            "--baseline-order]",
-            rich_help_panel=ANALYSIS,
-        ),
-    ] = None,
-    level: Annotated[
-        bool,
-        typer.Option(
-            "--level",
-            help="Subtract the least-squares plane first, which removes the tilt of the specimen.",
-            rich_help_panel=ANALYSIS,
-        ),
-    ] = False,
-    margin: Annotated[
-        float,
-        typer.Option(
-            "--margin",
-            metavar="WAVES",
-            help="Length at both ends of a profile that is left out when the steepest slope is "
-            "sought, in shortest waves of the baseline (0 to 2).",
-            rich_help_panel=ANALYSIS,
-        ),
-    ] = 0.5,
+        int | None, option_for(CHOICES["deviation_order"], ANALYSIS)
+    ] = Analysis.deviation_order,
+    level: Annotated[bool, option_for(CHOICES["level"], ANALYSIS)] = Analysis.level,
+    margin: Annotated[float, option_for(CHOICES["margin"], ANALYSIS)] = Analysis.margin,
     json: Json = False,
     figure: Annotated[
         Path | None,
@@ -207,4 +148,4 @@ def _paths(count: int | None, given: list[str] | None) -> int | list[StraightPat
         raise BadInput("combination of --paths and --path", "ambiguous", "one of the two")
     if given:
         return [read_path(text, "--path") for text in given]
-    return 6 if count is None else count
+    return PATHS.default if count is None else count

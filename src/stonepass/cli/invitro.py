@@ -9,10 +9,23 @@ import typer
 
 from stonepass.about import DISCLAIMER
 from stonepass.cli.help import MODEL_PANEL, OUTPUT, QUESTION, epilog
-from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder, complete_material
+from stonepass.cli.options import (
+    Cache,
+    Json,
+    NoCache,
+    Workers,
+    cache_folder,
+    complete_material,
+    model_input,
+    option_for,
+)
+from stonepass.inputs.catalogue import all_inputs
+from stonepass.model.models.registry import MODELS
 
 __all__ = ["EPILOG", "command"]
 
+INPUTS = all_inputs()
+MODEL_INPUT = model_input([name for name, model in MODELS.items() if model.NEEDS_ELEMENTS])
 SECONDS_OF_A_POINT = {"paper": 25.0, "direct": 100.0}  # one process, an empty cache
 EPILOG = epilog(
     (
@@ -52,36 +65,13 @@ def command(
     ],
     friction: Annotated[
         float | None,
-        typer.Option(
-            "--friction",
-            metavar="NUMBER",
-            help="Friction coefficient of the model.  [default: the one that fits best]",
-            rich_help_panel=QUESTION,
-        ),
+        option_for(INPUTS["stone.friction"], QUESTION, default="the one that fits best"),
     ] = None,
     confinement: Annotated[
-        str,
-        typer.Option(
-            "--confinement",
-            metavar="dead|hydrostatic",
-            help="How the confining pressure acts: as a dead load, or as the pressure of a fluid "
-            "bath.",
-            rich_help_panel=QUESTION,
-        ),
+        str, option_for(INPUTS["load.confinement"], QUESTION, default="hydrostatic")
     ] = "hydrostatic",
-    model: Annotated[
-        str,
-        typer.Option("--model", metavar="paper|direct", help="Model.", rich_help_panel=MODEL_PANEL),
-    ] = "paper",
-    seating: Annotated[
-        str | None,
-        typer.Option(
-            "--seating",
-            metavar="pressed|frictionless|growing",
-            help="How the stones were seated, for the model 'paper'.  [default: pressed]",
-            rich_help_panel=MODEL_PANEL,
-        ),
-    ] = None,
+    model: Annotated[str, option_for(MODEL_INPUT, MODEL_PANEL)] = MODEL_INPUT.default,
+    seating: Annotated[str | None, option_for(INPUTS["method.seating"], MODEL_PANEL)] = None,
     out: Annotated[
         Path | None,
         typer.Option(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
+from typer.models import OptionInfo
 
 from stonepass.cli.help import MODEL_PANEL, OUTPUT, QUESTION, SOLVER, STONE, URETER
 from stonepass.declaration import DeclaredInput, Kind
@@ -28,6 +29,8 @@ __all__ = [
     "Workers",
     "cache_folder",
     "complete_material",
+    "model_input",
+    "option_for",
     "takes_settings",
 ]
 
@@ -254,33 +257,53 @@ def _belongs(each: DeclaredInput, models: Collection[str], choose_model: bool) -
 
 
 def _option(each: DeclaredInput, models: Collection[str], remark: str) -> Any:
-    """Return the annotation of an option: its type, names, panel and help."""
+    """Return the annotation of an option of a case: its type, names, panel and help."""
+    if each.key == MODEL:
+        each = model_input(models)
     declaration = each.declaration
-    kind, choices = declaration.kind, declaration.choices
-    if each.key == MODEL and models:
-        choices = tuple(name for name in choices if name in models)
-    default = declaration.shown_default or ("" if each.default is None else _shown(each.default))
+    meaning = f"{declaration.meaning} {remark}" if remark else declaration.meaning
+    told = replace(each, declaration=replace(declaration, meaning=meaning))
+    return Annotated[
+        _TYPES.get(declaration.kind, str) | None, option_for(told, _panel(each, models))
+    ]
+
+
+def model_input(models: Collection[str]) -> DeclaredInput:
+    """Return the input ``--model``, restricted to the models of a command if there are any."""
+    each = all_inputs()[MODEL]
+    names = tuple(name for name in each.declaration.choices if not models or name in models)
+    meaning = "; ".join(f"{name}: {MODELS[name].MEANING}" for name in names) + "."
+    return replace(each, declaration=replace(each.declaration, choices=names, meaning=meaning))
+
+
+def option_for(each: DeclaredInput, panel: str, *, default: str | None = None) -> OptionInfo:
+    """Return the option of a declared input, for an annotation ``Annotated[type | None, …]``.
+
+    Parameters
+    ----------
+    each : DeclaredInput
+    panel : str
+        Panel of the help.
+    default : str, optional
+        The default in words, instead of that of the declaration; "" if there is none.
+    """
+    declaration = each.declaration
+    if default is None:
+        plain = each.default is None or each.default is MISSING or declaration.kind is Kind.FLAG
+        default = declaration.shown_default or ("" if plain else _shown(each.default))
     notes = [f"default: {default}"] if default else []
-    if kind in _METAVARS and declaration.bounds is not None:
+    if declaration.kind in _METAVARS and declaration.bounds is not None:
         notes.insert(0, "{:g} to {:g}".format(*declaration.bounds))
-    words = [_meaning(each, choices), *([remark] * bool(remark))]
-    if notes:
-        words.append(f" [{'; '.join(notes)}]")
-    option = typer.Option(
-        declaration.option,
-        metavar=declaration.metavar or "|".join(choices) or _METAVARS.get(kind),
-        help=" ".join(words),
-        rich_help_panel=_panel(each, models),
+    metavar = declaration.metavar or "|".join(declaration.choices)
+    found: OptionInfo = typer.Option(
+        *declaration.option.split(" "),
+        metavar=metavar or _METAVARS.get(declaration.kind),
+        help=declaration.meaning + (f"  [{'; '.join(notes)}]" if notes else ""),
+        rich_help_panel=panel,
         autocompletion=_completion(each),
+        show_default=False,
     )
-    return Annotated[_TYPES.get(kind, str) | None, option]
-
-
-def _meaning(each: DeclaredInput, choices: Collection[str]) -> str:
-    """Return the meaning of an input; that of ``--model`` lists the models of the command."""
-    if each.key != MODEL:
-        return each.declaration.meaning
-    return "; ".join(f"{name}: {MODELS[name].MEANING}" for name in choices) + "."
+    return found
 
 
 def _panel(each: DeclaredInput, models: Collection[str]) -> str:

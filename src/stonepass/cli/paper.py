@@ -72,14 +72,14 @@ def command(
     from stonepass.cli.durations import estimated_seconds
     from stonepass.cli.terminal import announce, counting, show, warn, wrote
     from stonepass.inputs.measured_pressures import read_points
+    from stonepass.model.pressure_limit import read_limit
     from stonepass.paper.claims_table import claims_table
     from stonepass.paper.run import PARTS, chosen, reproduce
     from stonepass.paper.section import Asked
     from stonepass.studies.executor import CORES, process_pool
-    from stonepass.units import pressure
 
     names = chosen(parts or [])
-    asked = Asked(pressure(limit, "--limit"), () if points is None else read_points(points))
+    asked = Asked(read_limit(limit, "--limit"), () if points is None else read_points(points))
     folder = cache_folder(cache, no_cache)
     count = workers or CORES
     jobs = {job for name in names for job in PARTS[name].jobs(asked)}

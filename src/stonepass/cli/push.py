@@ -15,8 +15,10 @@ from stonepass.cli.options import (
     NoCache,
     Settings,
     cache_folder,
+    option_for,
     takes_settings,
 )
+from stonepass.studies.rising_inputs import HIGHEST, STEPS
 
 if TYPE_CHECKING:
     from stonepass.studies.rising import Rising
@@ -43,24 +45,8 @@ EPILOG = epilog(
 def command(
     settings: Settings,
     json: Json = False,
-    to: Annotated[
-        str | None,
-        typer.Option(
-            "--to",
-            metavar="PRESSURE",
-            help="Highest urine pressure.  [default: the critical pressure]",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
-    steps: Annotated[
-        int,
-        typer.Option(
-            "--steps",
-            metavar="INTEGER",
-            help="Number of urine pressures, including 0.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = 13,
+    to: Annotated[str | None, option_for(HIGHEST, QUESTION)] = None,
+    steps: Annotated[int, option_for(STEPS, QUESTION)] = STEPS.default,
     out: Annotated[
         Path | None,
         typer.Option(

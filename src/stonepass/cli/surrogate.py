@@ -17,9 +17,12 @@ from stonepass.cli.options import (
     Settings,
     Workers,
     cache_folder,
+    option_for,
     takes_settings,
 )
 from stonepass.errors import BadInput
+from stonepass.inputs.catalogue import all_inputs
+from stonepass.studies.stiffness_input import STIFFNESS
 
 __all__ = ["app"]
 
@@ -40,6 +43,8 @@ COLUMNS = ("size_ratio", "wall_ratio", "friction", "confining_pressure_kPa")
 TINY, HUGE = 1e-6, 1e6
 BOUNDS = {"size_ratio": (TINY, HUGE), "wall_ratio": (1.0, HUGE), "friction": (0.0, HUGE),
           "confining_pressure_kPa": (0.0, HUGE)}  # fmt: skip
+INPUTS = all_inputs()
+FRICTION = INPUTS["stone.friction"]
 OPTIONS = {"size_ratio": "--xi", "wall_ratio": "--eta", "friction": "--friction",
            "confining_pressure": "--confining", "stiffness": "--stiffness"}  # fmt: skip
 
@@ -237,35 +242,13 @@ def show_surrogate(name: Name, model: ModelName = "paper") -> int:
 def evaluate(
     name: Name,
     model: ModelName = "paper",
-    xi: Annotated[
-        float | None, typer.Option("--xi", help="Size ratio.", rich_help_panel=QUESTION)
-    ] = None,
-    eta: Annotated[
-        float | None, typer.Option("--eta", help="Wall ratio.", rich_help_panel=QUESTION)
-    ] = None,
-    friction: Annotated[
-        float | None,
-        typer.Option(
-            "--friction", help="Friction coefficient.  [default: 0.5]", rich_help_panel=QUESTION
-        ),
-    ] = None,
+    xi: Annotated[float | None, option_for(INPUTS["stone.size_ratio"], QUESTION)] = None,
+    eta: Annotated[float | None, option_for(INPUTS["ureter.wall_ratio"], QUESTION)] = None,
+    friction: Annotated[float | None, option_for(FRICTION, QUESTION)] = None,
     confining: Annotated[
-        str | None,
-        typer.Option(
-            "--confining",
-            metavar="PRESSURE",
-            help="Confining pressure, e.g. 5.4kPa.  [default: 0kPa]",
-            rich_help_panel=QUESTION,
-        ),
+        str | None, option_for(INPUTS["load.confining_pressure"], QUESTION)
     ] = None,
-    stiffness: Annotated[
-        float,
-        typer.Option(
-            "--stiffness",
-            help="Factor on all moduli of the material.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = 1.0,
+    stiffness: Annotated[float, option_for(STIFFNESS, QUESTION)] = STIFFNESS.default,
     points: Annotated[
         Path | None,
         typer.Option(
@@ -325,7 +308,7 @@ def _conditions(
                 raise BadInput(option, "missing", "given", "or give a table with --points")
         outside = float(pressure("0 kPa" if confining is None else confining, "--confining"))
         return {"size_ratio": [xi], "wall_ratio": [eta], "confining_pressure": [outside],
-                "friction": [0.5 if friction is None else friction]}  # fmt: skip
+                "friction": [FRICTION.default if friction is None else friction]}  # fmt: skip
     given = {"--xi": xi, "--eta": eta, "--friction": friction, "--confining": confining}
     for option, unwanted in given.items():
         if unwanted is not None:

@@ -11,7 +11,6 @@ from pydantic import Field, create_model
 
 from stonepass.caution import Caution, caution
 from stonepass.clinic.cohorts import PLACES, place_meant
-from stonepass.clinic.pressure_limits import read_limit
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.inputs.build import build_load, build_method, in_words
 from stonepass.inputs.catalogue import all_inputs
@@ -25,17 +24,18 @@ from stonepass.model.case import Case
 from stonepass.model.load import Load
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.model.numerics import Numerics
+from stonepass.model.pressure_limit import read_limit
 from stonepass.model.shape import ASPECT, Shape
 from stonepass.model.stone import DIAMETER, FRICTION, SIZE_RATIO, Stone
 from stonepass.model.ureter import Ureter
+from stonepass.studies.seed import check_seed
+from stonepass.studies.stiffness_input import STIFFNESS_BOUNDS
 from stonepass.studies.uncertain_quantity import UncertainQuantity, measured_length, measured_number
 from stonepass.units import Length, Pressure, Quantity
 
 __all__ = ["INPUTS", "SHARED_WORDS", "Patient", "PatientFile", "patient_of", "read_patient"]
 
-STIFFNESS = (0.05, 20.0)  # smallest and largest factor on the stiffness of the material
 SAMPLES = (256, 65_536)  # smallest and largest number of samples
-LARGEST_SEED = 2**32  # seeds are smaller than this
 LONGEST_TITLE = 120  # largest number of characters of a title
 # Values that are assumed if the file does not give friction and stiffness, which are not measured
 # in patients.
@@ -242,14 +242,16 @@ def patient_of(parsed: Any, folder: Path = Path()) -> Patient:
         if text is not None
     }
     measured["friction"] = measured_number(stone.friction, "friction", FRICTION)
-    measured["stiffness"] = measured_number(ureter.stiffness, "stiffness", STIFFNESS, factor=True)
+    measured["stiffness"] = measured_number(
+        ureter.stiffness, "stiffness", STIFFNESS_BOUNDS, factor=True
+    )
     _check(measured)
     _check_place(stone.place)
     low, high = SAMPLES
     count = parsed.assessment.samples
     require(low <= count <= high, "samples", count, f"a whole number from {low} to {high}")
     seed = parsed.assessment.seed
-    require(0 <= seed < LARGEST_SEED, "seed", seed, f"from 0 to {LARGEST_SEED - 1}")
+    check_seed(seed)
     assumed = [
         caution(code)
         for code, given, default in (

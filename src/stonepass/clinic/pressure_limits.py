@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from stonepass.errors import require
-from stonepass.units import Pressure, Quantity, pressure
+from stonepass.units import Pressure
 
-__all__ = ["LIMITS", "PressureLimit", "describe_limit", "read_limit"]
-
-BOUNDS = (100.0, 1e5)  # smallest and largest pressure limit in Pa
+__all__ = ["LIMITS", "PressureLimit", "describe_limit"]
 
 
 @dataclass(frozen=True)
@@ -63,24 +60,6 @@ LIMITS = (
         "Liu et al. 2022, doi:10.1016/j.jmbbm.2022.105432; WCET congress, abstract 4800",
     ),
 )
-
-
-def read_limit(value: str | Pressure | Quantity) -> Pressure:
-    """Read a pressure limit.
-
-    Parameters
-    ----------
-    value : str, Pressure or pint.Quantity
-        Text has a unit, e.g. ``"6 kPa"``.
-
-    Raises
-    ------
-    BadInput
-        The value has no unit, or it is not from 0.1 kPa to 100 kPa.
-    """
-    limit = pressure(value, "limit")
-    require(BOUNDS[0] <= limit <= BOUNDS[1], "limit", value, "0.1 kPa to 100 kPa")
-    return limit
 
 
 def describe_limit(limit: float) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.caution import Caution
-from stonepass.errors import Outcome, require
+from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.answer import Answer, Model
 from stonepass.model.case import Case
@@ -16,6 +16,7 @@ from stonepass.model.far_field import lumen_ratio
 from stonepass.model.load import Load
 from stonepass.model.models.seated_balance import SeatedBalance
 from stonepass.model.numerics import Numerics
+from stonepass.model.pressure_limit import read_limit
 from stonepass.model.problem import EXAMPLES, require_kind
 from stonepass.model.shape import Shape
 from stonepass.model.size_search import (
@@ -31,7 +32,7 @@ from stonepass.model.states.uncached import UNCACHED
 from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.result import Result
-from stonepass.units import Length, Pressure, Quantity, pressure
+from stonepass.units import Length, Pressure, Quantity
 
 __all__ = ["SizeAnswer", "critical_size"]
 
@@ -42,7 +43,6 @@ FIRST_TOLERANCE = 1e-4  # tolerance on the coarser mesh, whose root is only a fi
 # A critical size less than this fraction above the lumen is not distinguished from the lumen.
 SMALLEST_CRITICAL_OVERSIZE = 2e-4
 SMALL_LIMIT = 100.0  # Pa; every stuck stone may need more than a limit that is smaller than this
-LIMIT = (1.0, 1e6)
 
 
 @array_dataclass
@@ -180,8 +180,7 @@ def critical_size(
         high = ureter.material.strain_range[1]
         stone = Stone(size_ratio=high, friction=friction, shape=shape)
         case = Case(stone, ureter, load or Load(), model or SeatedBalance(), numerics or Numerics())
-    bound = pressure(limit, "limit")
-    require(LIMIT[0] <= bound <= LIMIT[1], "limit", limit, "0.001 kPa to 1000 kPa")
+    bound = read_limit(limit)
     case = case.with_size_ratio(case.ureter.material.strain_range[1])
     case = case.with_size_ratio(case.model.largest_size(case))
     return _search(case, bound, progress or (lambda size_ratio: None), states)

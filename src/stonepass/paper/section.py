@@ -9,7 +9,6 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from stonepass.errors import require
 from stonepass.inputs.measured_pressures import Point
 from stonepass.io.csv_file import write_csv
 from stonepass.model.answer import Answer
@@ -19,8 +18,6 @@ from stonepass.units import Pressure
 
 __all__ = ["Asked", "Claim", "Illustration", "Section", "Table", "answers_table"]
 
-LIMITS = (1e2, 1e5)  # Pa
-
 
 @dataclass(frozen=True)
 class Asked:
@@ -28,11 +25,6 @@ class Asked:
 
     limit: Pressure
     points: tuple[Point, ...] = ()
-
-    def __post_init__(self) -> None:
-        low, high = LIMITS
-        shown = f"{self.limit / 1e3:g} kPa"
-        require(low <= self.limit <= high, "limit", shown, "0.1 kPa to 100 kPa")
 
 
 @dataclass(frozen=True)

@@ -35,9 +35,9 @@ from stonepass.io.text_file import WRITING
 __all__ = ["CORES", "KILLED", "InProcessExecutor", "executor_for", "process_pool", "stream"]
 
 CORES = os.cpu_count() or 1  # number of processors
-BLOCK_SECONDS = 1.0  # time in s after which a block ends; its remaining items are sent again
-LARGEST_BLOCK = 256  # largest number of items in a block
-IN_FLIGHT = 64  # largest number of blocks that were sent and have not returned
+BATCH_SECONDS = 1.0  # time in s after which a batch ends; its remaining items are sent again
+LARGEST_BATCH = 256  # largest number of items in a batch
+IN_FLIGHT = 64  # largest number of batches that were sent and have not returned
 KILLED = (
     "a worker process was killed, which the system does when memory runs out: use fewer workers, "
     "or close other programs."
@@ -48,8 +48,8 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
-# Results of the first items of a block, their duration in s, and the warnings they raised.
-_Block = tuple[list[Result], float, list[warnings.WarningMessage]]
+# Results of the first items of a batch, their duration in s, and the warnings they raised.
+_Batch = tuple[list[Result], float, list[warnings.WarningMessage]]
 
 
 class InProcessExecutor(Executor):
@@ -238,16 +238,16 @@ def stream(
 ) -> Iterator[tuple[int, Result]]:
     """Apply a function to every item and yield (index, result) in the order of completion.
 
-    Items are sent in blocks that take about 1 s, so that the cost of the transfer is small. A block
-    that takes longer returns early, and its remaining items are sent again. At most 64 blocks are
-    in progress at a time, which limits the memory.
+    Items are sent in batches that take about 1 s, so that the cost of the transfer is small. A
+    batch that takes longer returns early, and its remaining items are sent again. At most 64
+    batches are in progress at a time, which limits the memory.
 
     Parameters
     ----------
     executor : concurrent.futures.Executor
         Where the function runs.
     work : callable
-        Function of one item. Its result must not depend on the other items of a block.
+        Function of one item. Its result must not depend on the other items of a batch.
     items : sequence
         Arguments of the function.
 
@@ -256,28 +256,28 @@ def stream(
     StonepassError
         A process of the executor was killed.
     Exception
-        An error of `work` is passed on; blocks that have not begun are then cancelled.
+        An error of `work` is passed on; batches that have not begun are then cancelled.
     """
     waiting = deque(enumerate(items))
-    pending: dict[Future[_Block[Result]], list[tuple[int, Item]]] = {}
+    pending: dict[Future[_Batch[Result]], list[tuple[int, Item]]] = {}
     size = 1
     try:
         while waiting or pending:
             while waiting and len(pending) < IN_FLIGHT:
-                block = [waiting.popleft() for _ in range(min(size, len(waiting)))]
-                future = executor.submit(_run_block, work, [item for _, item in block])
-                pending[future] = block
+                batch = [waiting.popleft() for _ in range(min(size, len(waiting)))]
+                future = executor.submit(_run_batch, work, [item for _, item in batch])
+                pending[future] = batch
                 if future.done():  # the executor runs in this process; the results are passed on
                     break
             done, _ = wait(pending, return_when=FIRST_COMPLETED)
             for future in done:
-                block = pending.pop(future)
+                batch = pending.pop(future)
                 results, seconds, noted = future.result()
                 for each in noted:
                     warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
-                waiting.extendleft(reversed(block[len(results) :]))
-                size = _block_size(len(results), seconds)
-                for (index, _), result in zip(block, results, strict=False):
+                waiting.extendleft(reversed(batch[len(results) :]))
+                size = _batch_size(len(results), seconds)
+                for (index, _), result in zip(batch, results, strict=False):
                     yield index, result
     except BrokenExecutor as problem:
         raise StonepassError(KILLED) from problem
@@ -286,20 +286,20 @@ def stream(
             future.cancel()
 
 
-def _block_size(count: int, seconds: float) -> int:
+def _batch_size(count: int, seconds: float) -> int:
     """Return how many items take 1 s if `count` items took `seconds`."""
-    if seconds * LARGEST_BLOCK <= BLOCK_SECONDS * count:
-        return LARGEST_BLOCK
-    return max(1, int(BLOCK_SECONDS * count / seconds))
+    if seconds * LARGEST_BATCH <= BATCH_SECONDS * count:
+        return LARGEST_BATCH
+    return max(1, int(BATCH_SECONDS * count / seconds))
 
 
-def _run_block(work: Callable[[Item], Result], items: Sequence[Item]) -> _Block[Result]:
-    """Return the results of as many first items as the time for a block allows."""
+def _run_batch(work: Callable[[Item], Result], items: Sequence[Item]) -> _Batch[Result]:
+    """Return the results of as many first items as the time for a batch allows."""
     started = time.perf_counter()
     results = []
     for item in items:
         results.append(work(item))
-        if time.perf_counter() - started >= BLOCK_SECONDS:
+        if time.perf_counter() - started >= BATCH_SECONDS:
             break
     noted = _noted.copy()
     _noted.clear()

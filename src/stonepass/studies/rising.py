@@ -9,6 +9,7 @@ import numpy as np
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
+from stonepass.declaration import read_declared
 from stonepass.errors import Outcome, require
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
@@ -22,11 +23,11 @@ from stonepass.model.states.uncached import UNCACHED
 from stonepass.result import Result
 from stonepass.studies.closures import seated_model
 from stonepass.studies.jobs import Results, state_solver
+from stonepass.studies.rising_inputs import STEPS
 from stonepass.units import Pressure
 
 __all__ = ["Rising", "RisingPressure", "contact_deviation", "raise_pressure"]
 
-STEPS = (2, 200)  # smallest and largest number of pressures
 SAMPLES = 400  # number of angles in the integrals over the contact
 
 
@@ -81,7 +82,7 @@ class RisingPressure:
 
     case: Case
     top: Pressure | None = None
-    steps: int = 13
+    steps: int = STEPS.default
     wetted: bool = False
 
     def jobs(self) -> list[RisingPressure]:
@@ -101,7 +102,7 @@ class RisingPressure:
 def raise_pressure(
     case: Case,
     top: Pressure | None = None,
-    steps: int = 13,
+    steps: int = STEPS.default,
     states: StateSolver = UNCACHED,
     *,
     wetted: bool = False,
@@ -137,7 +138,7 @@ def raise_pressure(
     ----------
     docs/theory.md, "The push-through, solved directly"; docs/closures.md.
     """
-    require(STEPS[0] <= steps <= STEPS[1], "steps", steps, f"{STEPS[0]} to {STEPS[1]}")
+    steps = read_declared(STEPS.declaration, "steps", steps)
     if top is not None:
         require(0.0 < top < np.inf, "highest pressure", f"{top:g} Pa", "above zero")
     model, numerics = seated_model(case), case.numerics

@@ -14,13 +14,12 @@ import numpy as np
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
+from stonepass.surface.analysis import MARGIN
 
-__all__ = ["MARGIN", "POWERS", "Baseline", "fit_baseline"]
+__all__ = ["POWERS", "Baseline", "fit_baseline"]
 
 POWERS = 3  # number of power terms: 1, t, t²
 PER_HALF_WAVE = 100  # points per shortest half wave at which the slope is evaluated
-# Margin at each end in which the slope is not evaluated, in units of the shortest wavelength.
-MARGIN = 0.5
 MOST = 0.25  # widest margin at each end, as a fraction of the length
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import degrees, tan
-from numbers import Integral, Real
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,9 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
-from stonepass.surface.baseline import MARGIN, POWERS, Baseline, fit_baseline
+from stonepass.model.stone import FRICTION
+from stonepass.surface.analysis import MARGIN, ORDER, PATHS, Analysis
+from stonepass.surface.baseline import POWERS, Baseline, fit_baseline
 from stonepass.surface.friction_result import Spread, SurfaceFriction
 from stonepass.surface.gaps import BRIDGED
 from stonepass.surface.grey_scale import Greys, check_surface, grey_ranges, to_heights
@@ -40,13 +42,9 @@ from stonepass.units import Length, Quantity
 
 __all__ = ["friction_of_slopes", "surface_friction"]
 
-ORDER = (1, 200)  # smallest and largest order of a baseline
-RICHER = 2  # default ratio of the orders of the second and the first baseline
-WIDEST = 2.0  # widest margin that may be given, in units of the shortest wavelength
 SAMPLES = 4  # least number of samples per term of a baseline
 FACTORS = (0.5, 0.75, 1.0, 1.25, 1.5)  # factors on both orders, for the spread
 MARGINS = (0.0, 0.25, MARGIN, 1.0)  # margins in shortest wavelengths, for the spread
-LARGEST = 2.0  # largest friction coefficient that a case accepts
 # The plane is ignored if it changes along the paths by less than this fraction of the range of the
 # profiles.
 DRIFT = 0.01
@@ -77,15 +75,6 @@ def friction_of_slopes(k0: float, k1: float) -> float:
     return (k0 + k1) / (1.0 - k0 * k1)
 
 
-@dataclass(frozen=True)
-class _Choices:
-    """Orders of both baselines, and the margin in units of their shortest wavelengths."""
-
-    first: int
-    second: int
-    margin: float
-
-
 @dataclass(frozen=True, eq=False)
 class _Surface:
     """Sampled profiles, the same profiles as heights in m, and the range of each grey scaling."""
@@ -98,11 +87,11 @@ class _Surface:
 def surface_friction(
     picture: SurfaceImage,
     height_range: str | Length | Quantity | None = None,
-    paths: int | Sequence[StraightPath] = 6,
-    baseline_order: int = 8,
-    deviation_order: int | None = None,
-    level: bool = False,
-    margin: float = MARGIN,
+    paths: int | Sequence[StraightPath] = PATHS.default,
+    baseline_order: int = Analysis.baseline_order,
+    deviation_order: int | None = Analysis.deviation_order,
+    level: bool = Analysis.level,
+    margin: float = Analysis.margin,
 ) -> SurfaceFriction:
     """Compute the friction coefficient of a surface from a micrograph or height map.
 
@@ -119,18 +108,8 @@ def surface_friction(
         gaps are bridged up to a quarter of the shortest wavelength of the second baseline; a row
         with longer gaps is replaced by the nearest row without them. Lost points and spikes are
         gaps too.
-    baseline_order : int
-        Order N of the first baseline, 1 to 200. It follows waves of the length 2L/N and longer.
-    deviation_order : int, optional
-        Order of the second baseline, larger than the first; by default twice the first. With equal
-        orders the second baseline would be zero, since a least-squares residual is orthogonal to
-        its basis.
-    level : bool
-        True if the least-squares plane of the area is subtracted first, which removes the tilt of
-        the specimen. Without it a warning is given if the tilt influences the result.
-    margin : float
-        Margin at the ends of the paths in which slopes are not evaluated, in units of the shortest
-        wavelength of each baseline, 0 to 2. The margin is a quarter of the path at most.
+    baseline_order, deviation_order, level, margin
+        See `Analysis`. Without `level` a warning is given if the tilt influences the result.
 
     Returns
     -------
@@ -148,10 +127,10 @@ def surface_friction(
     Liu et al. 2022, section 2.3 and Eq. 18; docs/friction.md, "What is done".
     """
     scale = height_scale(picture, height_range)
-    choices = _choices(baseline_order, deviation_order, margin)
+    choices = Analysis(baseline_order, deviation_order, level, margin)
     picture, warnings = without_lost_points(picture)
     warnings += check_surface(picture)
-    longest_gap = BRIDGED * 2.0 / choices.second
+    longest_gap = BRIDGED * 2.0 / choices.second_order
     chosen, moved = _chosen(picture, paths, longest_gap)
     sampled = profiles_along(picture, chosen, longest_gap)
     _check_samples(len(sampled.distance), choices)
@@ -189,8 +168,8 @@ def _warnings(found: SurfaceFriction) -> list[Caution]:
         told.append(caution("paths_too_short"))
     if any(part.at_edge for part in (found.baseline, found.deviation_baseline)):
         told.append(caution("baseline_at_path_end"))
-    if found.friction > LARGEST:
-        told.append(caution("friction_beyond_range", largest=LARGEST))
+    if found.friction > FRICTION[1]:
+        told.append(caution("friction_beyond_range", largest=FRICTION[1]))
     tilted = not found.levelled and tan(found.tilt) > TELL_TILT * found.friction
     if tilted and levelled is not None:
         told.append(caution("tilted", tilt_deg=degrees(found.tilt), levelled=levelled))
@@ -219,7 +198,7 @@ def _tilt(picture: SurfaceImage, plane: Plane, scale: float | None, surface: _Su
 
 
 def _friction_levelled(
-    picture: SurfaceImage, sampled: Profiles, scale: float | None, plane: Plane, choices: _Choices
+    picture: SurfaceImage, sampled: Profiles, scale: float | None, plane: Plane, choices: Analysis
 ) -> float | None:
     """Return μ_f with the plane subtracted; None if the plane is flat or μ_f does not exist."""
     values = sampled.values
@@ -233,11 +212,11 @@ def _friction_levelled(
         return None
 
 
-def _check_samples(samples: int, choices: _Choices) -> None:
+def _check_samples(samples: int, choices: Analysis) -> None:
     require(
-        choices.second <= _most(samples),
+        choices.second_order <= _most(samples),
         "order of the deviation's baseline",
-        choices.second,
+        choices.second_order,
         f"at most {_most(samples)} for paths of {samples} pixels",
         "choose longer paths or a smaller order",
     )
@@ -258,32 +237,12 @@ def _chosen(
     return listed, []
 
 
-def _choices(first: int, second: int | None, margin: float) -> _Choices:
-    low, high = ORDER
-    found: list[int] = []
-    for name, order in (("baseline", first), ("deviation's baseline", second)):
-        if order is None:
-            found.append(min(RICHER * found[0], high))
-            continue
-        whole = isinstance(order, Integral) and not isinstance(order, bool)
-        allowed = f"a whole number from {low} to {high}"
-        require(whole and low <= order <= high, f"order of the {name}", order, allowed)
-        found.append(int(order))
-    why = "with equal orders the baseline of the deviation would be zero"
-    require(found[1] > found[0], "order of the deviation's baseline", found[1],
-            f"larger than the order of the first baseline, {found[0]}", why)  # fmt: skip
-    number = isinstance(margin, Real) and not isinstance(margin, bool)
-    within = number and 0.0 <= margin <= WIDEST
-    require(within, "margin", margin, f"from 0 to {WIDEST:g} (shortest wavelengths)")
-    return _Choices(found[0], found[1], float(margin))
-
-
 def _fit(
-    distance: Float[np.ndarray, " n"], mean: Float[np.ndarray, " n"], choices: _Choices
+    distance: Float[np.ndarray, " n"], mean: Float[np.ndarray, " n"], choices: Analysis
 ) -> tuple[Baseline, Baseline, float]:
-    baseline = fit_baseline(distance, mean, choices.first, choices.margin)
+    baseline = fit_baseline(distance, mean, choices.baseline_order, choices.margin)
     left = mean - baseline.at(distance)
-    rest = fit_baseline(distance, left, choices.second, choices.margin)
+    rest = fit_baseline(distance, left, choices.second_order, choices.margin)
     return baseline, rest, friction_of_slopes(baseline.steepest, rest.steepest)
 
 
@@ -291,13 +250,13 @@ def _spread(
     distance: Float[np.ndarray, " n"],
     surface: _Surface,
     scale: float | None,
-    choices: _Choices,
+    choices: Analysis,
     fitted: tuple[Baseline, Baseline],
 ) -> Spread:
     heights = surface.heights
     count = len(heights)
 
-    def friction(profile: Float[np.ndarray, " n"], other: _Choices = choices) -> float:
+    def friction(profile: Float[np.ndarray, " n"], other: Analysis = choices) -> float:
         """Return μ_f for other choices; NaN if it does not exist."""
         try:
             return _fit(distance, profile, other)[2]
@@ -307,10 +266,11 @@ def _spread(
     total, raw = heights.sum(axis=0), surface.sampled.mean(axis=0)[None]
     without = [(total - row) / (count - 1) for row in heights] if count > 1 else []
     by_order = []
-    for order in dict.fromkeys(round(choices.first * factor) for factor in FACTORS):
-        rest = round(order * choices.second / choices.first)
+    for order in dict.fromkeys(round(choices.baseline_order * factor) for factor in FACTORS):
+        rest = round(order * choices.second_order / choices.baseline_order)
         if ORDER[0] <= order < rest <= min(_most(len(distance)), ORDER[1]):
-            by_order.append((order, friction(total / count, _Choices(order, rest, choices.margin))))
+            other = replace(choices, baseline_order=order, deviation_order=rest)
+            by_order.append((order, friction(total / count, other)))
     by_scale = []
     for how, greys in surface.ranges:
         flat = not greys[1] > greys[0]

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from math import sqrt
 
-from stonepass.errors import BadInput, require
+from stonepass.declaration import read_declared
+from stonepass.errors import BadInput
+from stonepass.surface.analysis import CRYSTAL, HEIGHT_RANGE
 from stonepass.surface.surface_image import SurfaceImage
-from stonepass.units import Length, Quantity, length
+from stonepass.units import Length, Quantity
 
-__all__ = ["CRYSTAL_DIAGONAL", "RELIEF", "crystal_height", "height_scale"]
+__all__ = ["CRYSTAL_DIAGONAL", "crystal_height", "height_scale"]
 
 # Height range of a cubic crystal that stands on a corner, divided by its edge: its space diagonal.
 CRYSTAL_DIAGONAL = sqrt(3.0)
-RELIEF = (1e-9, 1e-2)  # smallest and largest height range in m
 
 
 def crystal_height(edge: str | Length | Quantity, argument: str = "crystal") -> Length:
@@ -30,9 +31,7 @@ def crystal_height(edge: str | Length | Quantity, argument: str = "crystal") -> 
     BadInput
         The edge has no unit or is out of bounds.
     """
-    read = length(edge, argument)
-    require(RELIEF[0] < read <= RELIEF[1] / 2, argument, edge, "1 nm to 5 mm")
-    return Length(CRYSTAL_DIAGONAL * read)
+    return Length(CRYSTAL_DIAGONAL * read_declared(CRYSTAL.declaration, argument, edge))
 
 
 def height_scale(
@@ -62,7 +61,4 @@ def height_scale(
         raise BadInput(
             "height range", "missing", "given for a grey picture, as --height-range or --crystal"
         )
-    scale = length(height_range, "height range")
-    low, high = RELIEF
-    require(low <= scale <= high, "height range", str(height_range), "1 nm to 10 mm")
-    return float(scale)
+    return float(read_declared(HEIGHT_RANGE.declaration, "height range", height_range))

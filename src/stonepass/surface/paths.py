@@ -12,12 +12,12 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float, Num
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
+from stonepass.surface.analysis import PATH_COUNT
 from stonepass.surface.gaps import bridge, bridgeable, gap_length, known_area
 from stonepass.surface.surface_image import Area, SurfaceImage
 
 __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path", "rows_moved"]
 
-COUNT = (1, 100)  # smallest and largest number of paths
 UNEVEN = 0.01  # relative difference of the lengths of paths above which a warning is given
 # A point within this distance, in pixels, of the centre of a pixel takes the value of this pixel.
 SNAP = 1e-9
@@ -142,7 +142,7 @@ def evenly_spaced(
     ----------
     docs/friction.md, "What is done".
     """
-    low, high = COUNT
+    low, high = PATH_COUNT
     area = picture.area
     height = area.bottom - area.top
     high = min(high, height)
@@ -250,7 +250,7 @@ def profiles_along(
     if pixel is None:
         remedy = picture.pixel_hint or "the file does not contain it"
         raise BadInput("pixel size", "missing", "given as --pixel", remedy)
-    low, high = COUNT
+    low, high = PATH_COUNT
     require(low <= len(paths) <= high, "number of paths", len(paths), f"from {low} to {high}")
     for path in paths:
         _check(picture, path)

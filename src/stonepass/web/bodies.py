@@ -6,15 +6,16 @@ from typing import Literal
 
 from pydantic import Field
 
-from stonepass.clinic.pressure_limits import read_limit
 from stonepass.declaration import read_declared
+from stonepass.model.pressure_limit import PRESSURE_LIMIT, read_limit
+from stonepass.studies.stiffness_input import STIFFNESS
 from stonepass.web.case_body import CaseBody, case_of
-from stonepass.web.instant.question import STIFFNESS_INPUT, InstantQuestion
+from stonepass.web.declared_field import declared_field
+from stonepass.web.instant.question import InstantQuestion
 from stonepass.web.strict_body import StrictBody
 
 __all__ = ["InstantBody"]
 
-STIFFNESS_LOW, STIFFNESS_HIGH = STIFFNESS_INPUT.bounds or (0.0, 1.0)
 Part = Literal["curve", "map", "section"]
 
 
@@ -22,14 +23,10 @@ class InstantBody(StrictBody):
     """The question of an instant answer."""
 
     case: CaseBody = Field(description="the sections of a case file")  # type: ignore[valid-type]
-    stiffness: float = Field(
-        1.0,
-        description=STIFFNESS_INPUT.meaning,
-        json_schema_extra={"minimum": STIFFNESS_LOW, "maximum": STIFFNESS_HIGH},
-    )
-    limit: str | None = Field(
-        None,
-        description="pressure limit with its unit, for the largest stone that moves",
+    stiffness: float = declared_field(STIFFNESS)
+    limit: str | None = declared_field(
+        PRESSURE_LIMIT,
+        "pressure limit with its unit, for the largest stone that moves",
         examples=["6 kPa", "60 cmH2O"],
     )
     include: list[Part] = Field(
@@ -44,6 +41,6 @@ class InstantBody(StrictBody):
         BadInput
             A value is out of bounds, names a file, or contradicts another one.
         """
-        stiffness = read_declared(STIFFNESS_INPUT, "stiffness", self.stiffness)
+        stiffness = read_declared(STIFFNESS.declaration, "stiffness", self.stiffness)
         limit = None if self.limit is None else read_limit(self.limit)
         return InstantQuestion(case_of(self.case), stiffness, limit, frozenset(self.include))

@@ -16,8 +16,8 @@ from stonepass.inputs.catalogue import all_inputs, models_with
 from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.constants import ConstantDeclaration, constants_of
 from stonepass.materials.known_laws import KNOWN_LAWS
+from stonepass.studies.stiffness_input import STIFFNESS
 from stonepass.studies.surrogates.store import shipped_surrogates
-from stonepass.web.instant.question import STIFFNESS_INPUT
 
 __all__ = ["about", "glossary", "inputs", "laws", "materials", "pressure_limits"]
 
@@ -46,8 +46,7 @@ def about() -> dict[str, Any]:
 def inputs() -> list[dict[str, Any]]:
     """Return every declared input of a case, and the stiffness, in the order of the help."""
     found = [_described(each) for each in all_inputs().values()]
-    stiffness = DeclaredInput("", "stiffness", 1.0, STIFFNESS_INPUT)
-    return [*found, _described(stiffness) | {"key": "stiffness", "section": None}]
+    return [*found, _described(STIFFNESS) | {"key": "stiffness", "section": None}]
 
 
 def _described(each: DeclaredInput) -> dict[str, Any]:

@@ -37,7 +37,7 @@ from stonepass.fe.core.systems import BorderedSystem
 
 __all__ = ["solve_fitted_contact"]
 
-PENETRATION = 1e-7  # penetration attributed to rounding, in radii of the stone
+ROUNDED_PENETRATION = 1e-7  # penetration attributed to rounding, in radii of the stone
 
 
 def solve_fitted_contact(
@@ -103,7 +103,7 @@ def solve_fitted_contact(
     report = newton_or_homotopy(system, d.stiffening.Set, tolerance, polish=POLISH)
     if not report.converged:
         return Failure(report.reason, report.steps)
-    flaw = contact_flaw(d, inner_wall(d, "closed").normal, PENETRATION)
+    flaw = contact_flaw(d, inner_wall(d, "closed").normal, ROUNDED_PENETRATION)
     if flaw:
         return Failure(flaw, report.steps)
     return equilibrium_state(d, layout(system.values), system, report, start, friction)

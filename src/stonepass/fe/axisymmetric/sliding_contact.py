@@ -61,7 +61,7 @@ NEAREST_SEAL = 0.05  # smallest distance of the seal from an edge, as a fraction
 # nodal spacing. In reality fluid would enter there and remove the friction, so that the step would
 # move downstream; the model has no well-defined position for it. The error of the axial force is of
 # the order of the penetration, which is therefore limited.
-PENETRATION = 1e-3
+LARGEST_PENETRATION = 1e-3
 
 # A function that evaluates the current state of the workspace and returns a scalar, which vanishes
 # at the solution.
@@ -174,7 +174,7 @@ def _finished(
         return Failure(report.reason, steps)
     load(workspace, found)
     forces = contact_forces(workspace)
-    flaw = contact_flaw(workspace.discretisation, forces.normal, PENETRATION)
+    flaw = contact_flaw(workspace.discretisation, forces.normal, LARGEST_PENETRATION)
     if flaw:
         return Failure(flaw, steps)
     return SlidingState(

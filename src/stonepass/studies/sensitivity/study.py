@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stonepass.errors import Misplaced, refuse_unknown, require
+from stonepass.model.pressure_limit import read_limit
 from stonepass.model.problem import require_kind
+from stonepass.studies.seed import check_seed
 from stonepass.studies.sensitivity.uncertain_case import UncertainCase
-from stonepass.units import Pressure, Quantity, pressure
+from stonepass.units import Pressure, Quantity
 
 __all__ = ["METHODS", "SensitivityStudy"]
 
@@ -16,8 +18,6 @@ METHODS = {
     "sobol": ("base samples, a power of two", 1024, (32, 65_536)),
     "morris": ("trajectories", 10, (4, 10_000)),
 }
-LIMIT = (1.0, 1e6)  # smallest and largest pressure limit in Pa
-LARGEST_SEED = 2**32 - 2
 
 
 @dataclass(frozen=True)
@@ -76,12 +76,8 @@ class SensitivityStudy:
         whole = isinstance(count, int) and not isinstance(count, bool) and low <= count <= high
         right = whole and (method != "sobol" or count & (count - 1) == 0)
         require(right, "samples", count, f"a number of {meaning}, from {low} to {high}")
-        whole = isinstance(self.seed, int) and not isinstance(self.seed, bool)
-        require(whole and 0 <= self.seed <= LARGEST_SEED, "seed", self.seed,
-                f"a whole number from 0 to {LARGEST_SEED}")  # fmt: skip
-        limit = None if self.limit is None else pressure(self.limit, "limit")
-        if limit is not None:
-            require(LIMIT[0] <= limit <= LIMIT[1], "limit", self.limit, "0.001 kPa to 1000 kPa")
+        check_seed(self.seed)
+        limit = None if self.limit is None else read_limit(self.limit)
         for name, value in (("method", method), ("samples", count), ("limit", limit)):
             object.__setattr__(self, name, value)
 

@@ -14,6 +14,7 @@ from stonepass.model.answer import Answer
 from stonepass.studies.case_solver import CaseSolver
 from stonepass.studies.conditions import Conditions, case_at
 from stonepass.studies.surrogates.box import HELD_OUT
+from stonepass.studies.surrogates.claimed_error import NONE
 from stonepass.studies.surrogates.domain import POOL
 from stonepass.studies.surrogates.held_stone import balanced
 from stonepass.studies.surrogates.solved import NO_SOLUTION, OUTCOMES
@@ -23,7 +24,6 @@ __all__ = ["HeldOut", "check_surrogate", "compare", "with_check"]
 
 CASES = 300  # number of cases of a check
 MOST = POOL - HELD_OUT  # number of cases that are left to checks
-SMALL = 10.0  # Pa, difference that counts as none in the relative error
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ def _pressure(answer: Answer) -> float:
 def _relative(
     off: Float[np.ndarray, " n"], true: Float[np.ndarray, " n"]
 ) -> Float[np.ndarray, " n"]:
-    return np.where(off <= SMALL, 0.0, off / true)
+    return np.where(off <= NONE, 0.0, off / true)
 
 
 def _of_surrogate(answer: Answer) -> Outcome:

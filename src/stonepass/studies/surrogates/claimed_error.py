@@ -8,11 +8,12 @@ from stonepass.array_types import Float
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.regression import fit_polynomial
 
-__all__ = ["FLOOR", "claimed_error"]
+__all__ = ["FLOOR", "NONE", "claimed_error"]
 
 CLAIM = 0.99  # fraction of the leave-one-out errors that the claimed error covers
 MARGIN = 2.0  # factor on the claimed relative error
 FLOOR = 5.0  # Pa, claimed absolute error
+NONE = 10.0  # Pa, difference of two critical pressures that counts as none
 DEGREES, TOTAL = (2, 2, 2, 2), 2  # degrees of the claimed relative error
 SMALLEST = 1e-4  # smallest relative error in the fit of the claimed error
 

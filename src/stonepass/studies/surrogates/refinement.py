@@ -10,12 +10,12 @@ from stonepass.array_types import Float, Int
 from stonepass.model.case import Case
 from stonepass.studies.conditions import Conditions
 from stonepass.studies.surrogates.box import Setting
+from stonepass.studies.surrogates.claimed_error import NONE
 from stonepass.studies.surrogates.domain import Domain
 
 __all__ = ["least_certain", "least_certain_cases"]
 
 APART = 0.08  # smallest distance of two chosen cases, in coordinates of the box
-SMALL = 10.0  # Pa, difference of two pressures that counts as none
 
 
 def least_certain(
@@ -44,7 +44,7 @@ def least_certain(
     """
     even, odd = (pressures(slice(first, None, 2)) for first in (0, 1))
     off = np.abs(even - odd)
-    apart = np.where(np.isfinite(off) & (off > SMALL), off / np.maximum(even, odd), 0.0)
+    apart = np.where(np.isfinite(off) & (off > NONE), off / np.maximum(even, odd), 0.0)
     chosen: list[int] = []
     for k in np.argsort(-apart):
         if len(chosen) == count or apart[k] == 0.0:

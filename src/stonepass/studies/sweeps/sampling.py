@@ -12,13 +12,13 @@ import numpy as np
 
 from stonepass.array_types import Float
 from stonepass.errors import refuse_unknown, require
+from stonepass.studies.seed import check_seed
 
 __all__ = ["METHODS", "Sampling", "read_sampling"]
 
 KEYS = ("method", "count", "seed")
 METHODS = ("sobol", "latin-hypercube")
 MOST = {"sobol": 2**30, "latin-hypercube": 2**20}  # samples
-LARGEST_SEED = 2**32 - 1
 
 
 @dataclass(frozen=True)
@@ -102,10 +102,7 @@ def read_sampling(table: Mapping[str, Any]) -> Sampling:
 def _check(method: Any, count: Any, seed: Any) -> None:
     if method not in METHODS:
         refuse_unknown("'samples.method'", str(method), list(METHODS))
-    for name, value, low, high in (
-        ("count", count, 1, MOST[method]),
-        ("seed", seed, 0, LARGEST_SEED),
-    ):
-        whole = isinstance(value, int) and not isinstance(value, bool)
-        allowed = f"a whole number from {low} to {high}"
-        require(whole and low <= value <= high, f"'samples.{name}'", value, allowed)
+    whole = isinstance(count, int) and not isinstance(count, bool)
+    allowed = f"a whole number from 1 to {MOST[method]}"
+    require(whole and 1 <= count <= MOST[method], "'samples.count'", count, allowed)
+    check_seed(seed, "'samples.seed'")

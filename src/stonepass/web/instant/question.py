@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from stonepass.clinic.patient import STIFFNESS
-from stonepass.declaration import Input, Kind
 from stonepass.model.case import Case
 from stonepass.studies.surrogates.answers import SurrogateAnswers
 from stonepass.studies.surrogates.box import SLACK
@@ -18,7 +16,6 @@ from stonepass.studies.surrogates.surrogate import Surrogate
 from stonepass.units import Pressure
 
 __all__ = [
-    "STIFFNESS_INPUT",
     "Held",
     "InstantQuestion",
     "Obstacle",
@@ -27,14 +24,6 @@ __all__ = [
     "obstacles",
     "surrogate_for",
 ]
-
-STIFFNESS_INPUT = Input(
-    Kind.NUMBER,
-    "--stiffness",
-    "Factor on all moduli of the material.",
-    title="stiffness",
-    bounds=STIFFNESS,
-)
 
 
 @dataclass(frozen=True)

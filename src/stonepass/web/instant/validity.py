@@ -8,8 +8,9 @@ import numpy as np
 
 from stonepass.model.load import CONFINING
 from stonepass.model.stone import SIZE_RATIO
+from stonepass.studies.stiffness_input import STIFFNESS_BOUNDS
 from stonepass.studies.surrogates.surrogate import Surrogate
-from stonepass.web.instant.question import STIFFNESS_INPUT, InstantQuestion, largest_load
+from stonepass.web.instant.question import InstantQuestion, largest_load
 
 __all__ = ["validity"]
 
@@ -79,7 +80,7 @@ def _millimetres(length: float) -> str:
 
 def _stiffness(question: InstantQuestion, surrogate: Surrogate) -> dict[str, Any]:
     """Return the range of the stiffness; a load needs a wall that is stiff enough."""
-    low, high = STIFFNESS_INPUT.bounds or (0.0, 1.0)
+    low, high = STIFFNESS_BOUNDS
     confining = float(question.case.load.confining_pressure)
     most = largest_load(surrogate, question.case.wall_ratio)
     if confining > 0.0 and most > 0.0:

@@ -8,8 +8,7 @@ from pydantic import Field
 
 from stonepass.bench.test_files import size_at_rest
 from stonepass.clinic.patient import PatientFile, patient_of
-from stonepass.clinic.pressure_limits import read_limit
-from stonepass.declaration import read_declared
+from stonepass.declaration import inputs_of, read_declared
 from stonepass.errors import BadInput, require
 from stonepass.inputs.case_record import describe
 from stonepass.inputs.sections import section_values
@@ -17,9 +16,20 @@ from stonepass.materials.catalogue import CATALOGUE
 from stonepass.materials.constants import fixed_constant
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name
 from stonepass.model.case import Case
+from stonepass.model.pressure_limit import read_limit
+from stonepass.studies.rising_inputs import HIGHEST, STEPS
+from stonepass.studies.stiffness_input import STIFFNESS
+from stonepass.surface.analysis import (
+    CRYSTAL,
+    HEIGHT_RANGE,
+    PATH_COUNT,
+    PATHS,
+    PIXEL_SIZE,
+    Analysis,
+)
 from stonepass.units import area, length, pressure
 from stonepass.web.case_body import NO_FILES, CaseBody, case_of, refuse_files
-from stonepass.web.instant.question import STIFFNESS_INPUT
+from stonepass.web.declared_field import declared_field
 from stonepass.web.stiffness import stiffened
 from stonepass.web.strict_body import StrictBody
 
@@ -35,15 +45,10 @@ __all__ = [
     "solved_case",
 ]
 
-STEPS = (2, 61)  # smallest and largest number of pressures of a push
-LOW, HIGH = STIFFNESS_INPUT.bounds or (0.0, 1.0)
-Stiffness = Annotated[
-    float,
-    Field(description=STIFFNESS_INPUT.meaning, json_schema_extra={"minimum": LOW, "maximum": HIGH}),
-]
 Text = Annotated[str, Field(max_length=200)]
 Upload = Annotated[str, Field(pattern="^[0-9a-f]{64}$", description="id of an uploaded file")]
 CASE = "the sections of a case file"
+CHOICES = inputs_of(Analysis)
 
 
 def solved_case(body: Any) -> Case:
@@ -54,7 +59,7 @@ def solved_case(body: Any) -> Case:
     BadInput
         A value is out of bounds, names a file, or contradicts another one.
     """
-    stiffness = read_declared(STIFFNESS_INPUT, "stiffness", body.stiffness)
+    stiffness = read_declared(STIFFNESS.declaration, "stiffness", body.stiffness)
     return stiffened(case_of(body.case), stiffness)
 
 
@@ -72,7 +77,7 @@ class PressureJob(StrictBody):
 
     kind: Literal["pressure"]
     case: CaseBody = Field(description=CASE)  # type: ignore[valid-type]
-    stiffness: Stiffness = 1.0
+    stiffness: float = declared_field(STIFFNESS)
 
     def question(self) -> dict[str, Any]:
         """Return everything that the answer depends on, with all values checked."""
@@ -90,7 +95,7 @@ class SizeJob(StrictBody):
     kind: Literal["size"]
     case: CaseBody = Field(description=CASE)  # type: ignore[valid-type]
     limit: Text = Field(description="pressure limit with its unit", examples=["6 kPa"])
-    stiffness: Stiffness = 1.0
+    stiffness: float = declared_field(STIFFNESS)
 
     def question(self) -> dict[str, Any]:
         """Return everything that the answer depends on, with all values checked."""
@@ -98,7 +103,7 @@ class SizeJob(StrictBody):
 
     def solved(self) -> Case:
         """Return the case with a stone of any size."""
-        stiffness = read_declared(STIFFNESS_INPUT, "stiffness", self.stiffness)
+        stiffness = read_declared(STIFFNESS.declaration, "stiffness", self.stiffness)
         return stiffened(case_of(self.case, size_ratio=1.0), stiffness)
 
 
@@ -109,21 +114,13 @@ class PushJob(StrictBody):
 
     kind: Literal["push"]
     case: CaseBody = Field(description=CASE)  # type: ignore[valid-type]
-    stiffness: Stiffness = 1.0
-    to: Text | None = Field(
-        None, description="highest urine pressure with its unit; by default above P_ucr"
-    )
-    steps: int = Field(
-        13,
-        description="number of urine pressures, including 0",
-        json_schema_extra={"minimum": STEPS[0], "maximum": STEPS[1]},
-    )
+    stiffness: float = declared_field(STIFFNESS)
+    to: Text | None = declared_field(HIGHEST)
+    steps: int = declared_field(STEPS)
 
     def question(self) -> dict[str, Any]:
         """Return everything that the answer depends on, with all values checked."""
-        low, high = STEPS
-        require(low <= self.steps <= high, "steps", self.steps,
-                f"a whole number from {low} to {high}")  # fmt: skip
+        read_declared(STEPS.declaration, "steps", self.steps)
         to = None if self.to is None else float(pressure(self.to, "to"))
         return _described(solved_case(self)) | {"to_Pa": to, "steps": self.steps}
 
@@ -207,32 +204,33 @@ class FrictionJob(StrictBody):
 
     kind: Literal["friction"]
     upload: Upload
-    pixel: Text | None = Field(None, description="size of a pixel, e.g. '0.5 um'")
-    height_range: Text | None = Field(None, description="height from black to white, e.g. '35 um'")
-    crystal: Text | None = Field(None, description="edge of the cubic crystals on the surface")
-    paths: int | None = Field(None, description="number of horizontal profiles; 6 by default")
+    pixel: Text | None = declared_field(PIXEL_SIZE)
+    height_range: Text | None = declared_field(HEIGHT_RANGE)
+    crystal: Text | None = declared_field(CRYSTAL)
+    paths: int = declared_field(PATHS)
     path: list[Annotated[list[float], Field(min_length=4, max_length=4)]] = Field(
         default_factory=list,
-        max_length=100,
+        max_length=PATH_COUNT[1],
         description="ends x0, y0, x1, y1 of profiles in pixels",
     )
     area: Annotated[list[int], Field(min_length=4, max_length=4)] | None = Field(
         None, description="left, top, right and bottom of the surface in pixels"
     )
-    baseline_order: int = Field(8, description="half waves of the baseline of the mean profile")
-    deviation_order: int | None = Field(None, description="half waves of the second baseline")
-    level: bool = Field(False, description="subtract the least-squares plane first")
-    margin: float = Field(0.5, description="length that is left out at both ends, in waves")
+    baseline_order: int = declared_field(CHOICES["baseline_order"])
+    deviation_order: int | None = declared_field(CHOICES["deviation_order"])
+    level: bool = declared_field(CHOICES["level"])
+    margin: float = declared_field(CHOICES["margin"])
 
     def question(self) -> dict[str, Any]:
-        """Return everything that the answer depends on, with lengths checked."""
-        for name in ("pixel", "height_range", "crystal"):
-            text = getattr(self, name)
-            if text is not None:
-                length(text, name)
+        """Return everything that the answer depends on, with all values checked."""
+        for each in (PIXEL_SIZE, HEIGHT_RANGE, CRYSTAL, PATHS):
+            value = getattr(self, each.name)
+            if value is not None:
+                read_declared(each.declaration, each.name, value)
+        Analysis(self.baseline_order, self.deviation_order, self.level, self.margin)
         if self.height_range is not None and self.crystal is not None:
             raise BadInput("crystal", self.crystal, "left out if the height range is given")
-        if self.paths is not None and self.path:
+        if self.path and "paths" in self.model_fields_set:
             raise BadInput("paths", self.paths, "left out if the profiles are given")
         return self.model_dump(mode="json")
 

@@ -82,7 +82,7 @@ def _friction(request: Mapping[str, Any], context: Context) -> Done:
     found = surface_friction(
         picture,
         _height_range(body),
-        [StraightPath(*each) for each in body.path] or (6 if body.paths is None else body.paths),
+        [StraightPath(*each) for each in body.path] or body.paths,
         body.baseline_order,
         body.deviation_order,
         body.level,

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from stonepass.clinic.pressure_limits import read_limit
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.critical import solve
 from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
+from stonepass.model.pressure_limit import read_limit
 from stonepass.model.problem import Problem
 from stonepass.model.seating import Seating
 from stonepass.model.size import critical_size

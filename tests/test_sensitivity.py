@@ -21,7 +21,7 @@ from stonepass.studies.sensitivity.estimate import Gap, Response
 from stonepass.studies.sensitivity.evaluator import BAD_INPUT, OUTCOMES, evaluations, outcome_name
 from stonepass.studies.sensitivity.interpolated_cases import InterpolatedCases
 from stonepass.studies.sensitivity.morris import morris_design, morris_sensitivities
-from stonepass.studies.sensitivity.responses import responses
+from stonepass.studies.sensitivity.responses import ANSWERED, responses
 from stonepass.studies.sensitivity.sensitivity import sensitivity
 from stonepass.studies.sensitivity.sobol import saltelli_design, sobol_sensitivities
 from stonepass.studies.sensitivity.solved_cases import SolvedCases
@@ -403,6 +403,23 @@ def test_what_a_surrogate_cannot_answer_has_a_name():
     assert told["bounds_in_rank"]["fraction"] == outcomes["BEYOND_CLOSURE"]
     high = found.sizes.bars[0].high
     assert (high.outcome, high.value) == ("BEYOND_CLOSURE", None)
+
+
+def test_outside_the_range_of_a_surrogate_nothing_is_said_to_not_exist():
+    """Every case in the box of this surrogate has a critical pressure."""
+    uncertain = {"stone.friction": "0.1 to 0.9", "stone.diameter": "3.6 mm to 6.4 mm"}
+    study, surrogate = surrogate_study(uncertain, samples=64)
+    found = sensitivity(study, surrogate)
+    assert set(dict(found.outcomes)) == {"MOVES", "OUTSIDE"}
+    (answered,) = (each for each in found.responses if each.response is ANSWERED)
+    assert not answered.inputs
+    assert answered.gap is Gap.CONSTANT
+    text = " ".join(conclusions(found))
+    assert "There is no critical pressure" not in text
+    assert "a critical pressure exists" not in text
+    high = next(bar for bar in found.pressures.bars if bar.key == "stone.diameter").high
+    assert (high.outcome, high.value) == ("OUTSIDE", None)
+    assert "The critical pressure is not known where the stone diameter is 6.26 mm and all" in text
 
 
 def test_a_size_beyond_the_surrogate_has_a_lower_bound():

@@ -295,8 +295,8 @@ SENTENCES = {
         "without an answer; the most frequent reason: {reason}"
     ),
     "cases_outside": (
-        "{fraction:.1%} of the samples lie outside the range of the surrogate or of the sweep and "
-        "count as cases without an answer"
+        "{fraction:.1%} of the samples lie outside the range of the surrogate or of the sweep, so "
+        "that their outcome is not known"
     ),
     "groups_dropped": (
         "{dropped} of {groups} groups of samples are left out of the sensitivity of {response}, "

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from stonepass.studies.sensitivity.estimate import Effects, Estimate, Gap, Indices, Sensitivities
+from stonepass.studies.sensitivity.evaluator import OUTSIDE, outcome_name
 from stonepass.studies.sensitivity.responses import ANSWERED, MOVES, PRESSURE
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
 from stonepass.studies.sensitivity.tornado import Bar, End, Tornado
@@ -12,6 +13,7 @@ from stonepass.studies.sensitivity.tornado import Bar, End, Tornado
 __all__ = ["conclusions"]
 
 SMALL = 0.05  # part of the variance, or of the largest effect, below which an input does not matter
+UNKNOWN = outcome_name(OUTSIDE)
 Input = Indices | Effects
 
 
@@ -43,8 +45,8 @@ def _outcomes(found: Sensitivity) -> str:
     if found.main.response is PRESSURE:
         return f"{text} The critical pressure is known in all of them."
     return (
-        f"{text} Because the critical pressure does not exist in all cases, the order of the "
-        "inputs is that of its rank, in which a lower bound stands for a missing critical pressure."
+        f"{text} Because the critical pressure is not known in all cases, the order of the inputs "
+        "is that of its rank, in which a lower bound stands for a missing critical pressure."
     )
 
 
@@ -171,6 +173,9 @@ def _tornado(found: Sensitivity, tornado: Tornado) -> list[str]:
     if centre.value is None:
         told = [f"With all inputs at their medians there is no {tornado.quantity}: "
                 f"{centre.describe()}."]  # fmt: skip
+        if centre.outcome == UNKNOWN:
+            told = [f"With all inputs at their medians the {tornado.quantity} is not known, "
+                    f"because they are outside the range of the {found.source}."]  # fmt: skip
     known = [bar for bar in tornado.bars if bar.span is not None]
     if known and not any(bar.span for bar in known):
         return [*told, f"None of the inputs changes the {tornado.quantity} alone."]
@@ -199,13 +204,16 @@ def _at(found: Sensitivity, tornado: Tornado, key: str, end: End) -> str:
 def _missing(found: Sensitivity, tornado: Tornado, bar: Bar, end: End) -> str:
     assert end.input is not None
     shown = found.study.uncertain[bar.key].show(end.input)
+    where = f"where the {found.title(bar.key)} is {shown} and all other inputs have their medians"
+    if end.outcome == UNKNOWN:
+        return (
+            f"The {tornado.quantity} is not known {where}, because this is outside the range of "
+            f"the {found.source}."
+        )
     bound = "" if end.lower_bound is None else (
         f", but it is above {end.lower_bound:.3g} {tornado.unit}"
     )  # fmt: skip
-    return (
-        f"There is no {tornado.quantity} where the {found.title(bar.key)} is {shown} and all other "
-        f"inputs have their medians (outcome {end.outcome}){bound}."
-    )
+    return f"There is no {tornado.quantity} {where} (outcome {end.outcome}){bound}."
 
 
 def _amount(each: Sensitivities, estimate: Estimate) -> str:

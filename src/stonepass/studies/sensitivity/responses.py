@@ -10,7 +10,7 @@ import numpy as np
 
 from stonepass.errors import Outcome
 from stonepass.studies.sensitivity.estimate import Response
-from stonepass.studies.sensitivity.evaluator import OUTCOMES, Evaluations
+from stonepass.studies.sensitivity.evaluator import OUTCOMES, OUTSIDE, Evaluations
 from stonepass.studies.sensitivity_indices import rank_among
 
 __all__ = ["ANSWERED", "MOVES", "PRESSURE", "RANK", "responses"]
@@ -41,7 +41,8 @@ def responses(
         does not exist, and the rank is masked where no bound is known. `MOVES` is 1 if the critical
         pressure is at most the limit; it is 0 if the critical pressure or its lower bound is above
         the limit, or if urine passes the stone first; else it is masked. `ANSWERED` is 1 if a
-        critical pressure exists and 0 if not.
+        critical pressure exists and 0 if not; it is masked outside the range of a surrogate or of a
+        sweep, where neither is known.
 
     References
     ----------
@@ -52,7 +53,7 @@ def responses(
     if limit is not None:
         all_of_them.append((MOVES, _moves(found, limit)))
     known = (~np.ma.getmaskarray(found.value)).astype(float)
-    return (*all_of_them, (ANSWERED, np.ma.MaskedArray(known)))
+    return (*all_of_them, (ANSWERED, np.ma.MaskedArray(known, found.outcome == OUTSIDE)))
 
 
 def _rank(found: Evaluations) -> np.ma.MaskedArray:

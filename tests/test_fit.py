@@ -436,6 +436,9 @@ def test_constants_that_are_no_solid_are_given_as_such(tmp_path, capsys, fix):
          "nominal stress is 20 kPa in every row, but must be different in at least two"),
         ("neo-hookean", [(1.2, 20), (1.2, 20.5), (1.2, 19.8)],
          "stretch is 1.2 in every row, but must be different in at least two rows"),
+        ("neo-hookean", [(1, 20), (1.1, 20), (1.2, 20), (1.3, 20), (1.4, 20)],
+         "nominal stress is 20 kPa in every row"),
+        ("neo-hookean", [(1, 0), (1, 20), (1, 30), (1, 40)], "stretch is 1 in every row"),
         ("neo-hookean", [(1.1, 0), (1.2, 0), (1.3, 0), (1.4, 1)], "no better than chance"),
         ("neo-hookean", [(1.1, 90), (1.2, 100), (1.3, 95), (1.4, 92)], "worse than a constant, R² = -"),
         # exact data of a law with C10 < 0, compressed: C10 ends at zero
@@ -463,6 +466,13 @@ def test_a_fit_that_is_none_is_one_sentence_and_no_file(tmp_path, capsys, law, r
     [
         ("inner_diameter_mm", [(10, 1.85), (20, 1.95), (30, 2.05)], ("3.5mm", "4.55mm"),
          "is 2.05 at 30 kPa, but must be larger than at rest, 3.5 mm \\(--inner\\).*double the values"),
+        # radii, with the row at rest
+        ("inner_diameter_mm", [(0, 1.75), (1, 1.78), (2, 1.81), (3, 1.85)], ("3.5mm", "4.55mm"),
+         "is 1.85 at 3 kPa, .* double the values if they are radii"),
+        ("outer_radius_mm", [(0, 2.275), (1, 2.3), (2, 2.35)], ("3.5mm", "4.55mm"),
+         "convert the values to 'outer_diameter_mm': a diameter is twice the radius"),
+        ("inner_diameter_mm", [(0, 3.5), (1, 3.5), (2, 3.5), (3, 3.5)], ("3.5mm", "4.55mm"),
+         "stretch is 1 in every row"),
         ("outer_diameter_mm", [(10, 2.35), (20, 2.45), (30, 2.5)], ("3.5mm", "4.55mm"),
          "large enough for the volume of the wall, 4.55 mm \\(--outer\\) at rest; double the values"),
         ("inner_diameter_mm", [(-10, 3.7), (-20, 3.9), (-30, 4.1)], ("3.5mm", "4.55mm"),
@@ -480,6 +490,29 @@ def test_tubes_that_are_none(tmp_path, capsys, header, rows, sizes, sentence):
     assert (code, shown) == (2, "")
     with pytest.raises(AssertionError, match=sentence):
         raise AssertionError(told)
+
+
+@pytest.mark.parametrize(
+    ("header", "sentence"),
+    [
+        ("strain_percent", "a stretch is 1 + the strain, which is the value in per cent divided by 100"),
+        ("strain", "a stretch is 1 + the strain."),
+        ("time_s", "one of stretch, nominal_stress_kPa, force_N, extension_mm, axis."),
+    ],
+)  # fmt: skip
+def test_other_columns_are_named_without_false_advice(tmp_path, capsys, header, sentence):
+    path = table(tmp_path, [(0, 0), (10, 30)], f"{header},nominal_stress_kPa")
+    code, _, told = fitted(capsys, "tensile", path, "--law", "neo-hookean")
+    assert code == 2
+    assert sentence in " ".join(told.split())
+
+
+def test_columns_of_a_testing_machine_are_named_before_their_units(tmp_path, capsys):
+    path = tmp_path / "machine.csv"
+    path.write_text("Time;Extension;Load\ns;mm;N\n0;0;0\n1;1;2\n2;2;3.5\n", encoding="utf-8")
+    code, _, told = fitted(capsys, "tensile", str(path), "--law", "yeoh", "--gauge-length", "9mm")
+    assert code == 2
+    assert "column is Time, but must be one of extension_mm" in told
 
 
 def test_outer_diameters_are_not_fitted_as_inner_ones(tmp_path, capsys):

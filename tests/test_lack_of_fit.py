@@ -154,3 +154,22 @@ def test_branches_by_hand():
     found = branches(strips(np.array(up + up), np.ones(8)))
     assert list(found.loading) == [1] * 8
     assert list(found.run) == [0] * 4 + [1] * 4
+
+
+def test_one_outlier_is_no_offset_and_no_wrong_size_at_rest():
+    """A single point makes the residuals appear to grow with the stress."""
+    stretch = np.linspace(1.0, 1.5, 11)
+    for seed in range(8):
+        noise = np.random.default_rng(seed).normal(0.0, 0.5e3, 11)
+        stress = 2.0 * 150e3 * (stretch - stretch**-2) + noise
+        stress[7] *= 1.3
+        found = fit_law(Tension(stretch, stress, ("axial",) * 11), "neo-hookean")
+        assert "outlier" in {each.code for each in found.warnings}
+        assert not {each.code for each in found.warnings} & {"zero_offset", "rest_size"}
+
+
+def test_a_strip_that_carries_half_of_its_load_is_not_slack():
+    stretch = np.array([1.0, 1.1, 1.2, 1.0, 1.1, 1.2])
+    stress = 1e3 * np.array([0.0, 20.0, 42.0, 0.0, 20.4, 41.5])
+    found = fit_law(Tension(stretch, stress, ("axial",) * 6), "neo-hookean")
+    assert "slack" not in {each.code for each in found.warnings}

@@ -81,7 +81,9 @@ def test_every_factor_is_that_of_pint():
     [
         (length, "12px", "must be a length in m, cm, mm, um, nm, in or Fr"),
         (length, "4 pt", "must be a length in"),
-        (length, "4,2 mm", r"with a decimal point; write '4\.2 mm'"),
+        (length, "4,2 mm", r"with a decimal point; write '4\.2 mm'\.$"),
+        (length, "4,200um", r"write '4\.200um', or '4200um' if the comma separates thousands"),
+        (pressure, "0,200 MPa", r"write '0\.200 MPa'\.$"),
         (length, "4 MM", "did you mean mm"),
         (length, "1 ly", "must be a length in"),
         (pressure, "12 kpa", "did you mean kPa"),

@@ -100,6 +100,7 @@ _SHOWN = {
 }
 _TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµμ%°/][^\s]*)\s*")
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*[A-Za-zµμ][^\s]*\s*")
+_THOUSANDS_COMMA = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}\s*[A-Za-zµμ][^\s]*")
 LONGEST = 100  # characters of a number with its unit
 
 
@@ -214,8 +215,11 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
     if not isinstance(value, str):
         raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
     if len(value) <= LONGEST and _DECIMAL_COMMA.fullmatch(value):
-        point = value.strip().replace(",", ".")
-        raise BadInput(argument, value, f"{word} with a decimal point", f"write '{point}'")
+        text = value.strip()
+        remedy = f"write '{text.replace(',', '.')}'"
+        if _THOUSANDS_COMMA.fullmatch(text):
+            remedy += f", or '{text.replace(',', '')}' if the comma separates thousands"
+        raise BadInput(argument, value, f"{word} with a decimal point", remedy)
     match = _TEXT.fullmatch(value) if len(value) <= LONGEST else None
     if match is None:
         raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")

@@ -30,6 +30,7 @@ WRONG_SHARE_STRETCHED = 0.2
 # Data should begin near the state at rest. They are refused if the smallest stretch of the strips,
 # or the smallest diameter of the tube divided by that at rest, is at least this large.
 FARTHEST_START, FARTHEST_TUBE = 2.0, 1.7
+SAME_AS_REST = 0.02  # relative difference of two diameters that may both be measured at rest
 STRAINS = "a stretch is the length divided by that at rest: 1 + strain, or 1 + per cent/100"
 
 
@@ -173,7 +174,7 @@ def check_inflation(
     swapped = inner_ratio(columns[given], other, ureter, axial)
     at_rest = f"{1e3 * (rest or 0.0):.4g} mm ({option})"
     renamed = f"name the column {other} if they are {other[:5]} diameters"
-    radii = bool(np.all(doubled > 1.0))
+    radii = bool(np.all(doubled > 1.0 - SAME_AS_REST))
     remedy = "double the values if they are radii" if radii else f"check {option} and the unit"
     if np.all(swapped > 0.9):
         remedy = renamed

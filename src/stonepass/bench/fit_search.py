@@ -142,7 +142,17 @@ def _minimized(objective: Objective, parameters: Any) -> tuple[Any, Any]:
         return minimizer, minimizer.minimize(method="least_squares")
 
 
-def proportional_spread(level: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-    """Return errors proportional to the given stresses, at least 1 % of the largest error."""
+def proportional_spread(
+    level: Float[np.ndarray, " n"], smallest: float = SMALLEST_SHARE
+) -> Float[np.ndarray, " n"]:
+    """Return errors proportional to stresses, but at least a fraction of the largest error.
+
+    Parameters
+    ----------
+    level : array (n)
+        Stresses in any unit.
+    smallest : float
+        The fraction.
+    """
     size = np.abs(level)
-    return np.maximum(size, SMALLEST_SHARE * float(size.max()))
+    return np.maximum(size, smallest * float(size.max()))

@@ -43,6 +43,8 @@ SLACK = (1.01, 1.02, 1.03, 1.04, 1.05, 1.07, 1.1, 1.14, 1.2)
 # as zero; a larger one has no meaning, since the residuals are linearised.
 SIZE_CHANGE = (5e-5, 0.3)
 FEWEST_OF_TOE = 2  # smallest number of points on the slack part of the curve
+# A slack strip carries at most this part of the load that the law predicts for a taut one.
+LOADED_TOE = 0.5
 # A mistake is not tested if the part of its unit vector that is perpendicular to all known vectors
 # is shorter than this.
 INDISTINCT = 1e-3
@@ -221,8 +223,13 @@ def _slack(data: Data, law: Any, spread: Float[np.ndarray, " n"]) -> list[_Mista
     found, predicted = [], data.predicted(law)
     for stretch in SLACK:
         taut = data.taut_from(stretch)
-        if taut is None or np.sum(taut.abscissa == 1.0) < FEWEST_OF_TOE:
+        if taut is None:
             continue
+        slack = taut.abscissa == 1.0
+        toe = slack & (data.abscissa > 1.0)
+        loads = [float(np.abs(each[toe]).sum()) for each in (data.observed, predicted)]
+        if slack.sum() < FEWEST_OF_TOE or not toe.any() or loads[0] > LOADED_TOE * loads[1]:
+            continue  # too few points, or the strip carries a load there
         shift = (taut.predicted(law) - predicted) / spread
 
         def told(amounts: _Amounts, shift: _Shift, chance: float, x: float = stretch) -> Caution:

@@ -32,6 +32,9 @@ from stonepass.result import Result
 __all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
 
 FEWEST_OF_A_TREND = 8  # smallest number of points for the test of a trend
+# Smallest error of a point, as a fraction of the largest, in the test for lack of fit if residuals
+# grow with the values. Without it the points at rest, whose noise does not vanish, would decide.
+SHARE_OF_REST = 0.05
 UNLIKELY = 0.01  # significance level of the test of a trend
 # A load is a gross error if it exceeds the largest of the others this many times, and if the law
 # describes the others with at least this R².
@@ -286,13 +289,19 @@ def _doubts(
     *,
     proportional: bool,
 ) -> list[Caution]:
-    """Test for lack of fit with errors of constant size, or with `proportional` errors."""
-    spread = objective.spread
-    if proportional:
-        spread = proportional_spread(objective.predicted(values))
+    """Test for lack of fit with the errors of the fit.
+
+    If the residuals show that the errors are `proportional`, only those mistakes are told that are
+    found with both kinds of errors. A single outlier can make the residuals appear to grow.
+    """
+    slopes, off = objective.sensitivities(values, free), objective.off(values)
+    told = lack_of_fit(objective.data, law, off, slopes, objective.spread)
+    if not proportional:
+        return told
+    spread = proportional_spread(objective.predicted(values), SHARE_OF_REST)
     ratio = objective.spread / spread
-    slopes = objective.sensitivities(values, free) * ratio[:, None]
-    return lack_of_fit(objective.data, law, objective.off(values) * ratio, slopes, spread)
+    found = lack_of_fit(objective.data, law, off * ratio, slopes * ratio[:, None], spread)
+    return [each for each in found if each.code in {one.code for one in told}]
 
 
 def _unstable(material: Material, data: Data) -> tuple[str, list[Caution]]:

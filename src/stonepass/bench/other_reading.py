@@ -19,6 +19,7 @@ FEWEST = 4  # smallest number of rows for a comparison
 # The other reading is accepted if the reading as named misses the loads by more than this fraction
 # of the largest load (root mean square), and by more than this multiple of what the other misses.
 MISSED, TIMES = 0.01, 4.0
+SAME = 1e-6  # relative range of loads that are equal
 
 
 def explains_better(
@@ -39,6 +40,9 @@ def explains_better(
         of the coefficients of the other reading, by which stiffness is judged, has to be positive.
     """
     if len(load) < FEWEST or not (np.all(np.isfinite(named)) and np.all(np.isfinite(other))):
+        return False
+    # The same load, or the same size, in all rows is told by `fit_checks.check_enough`.
+    if np.ptp(load) <= SAME * np.abs(load).max() or not named.any(axis=0).all():
         return False
     missed, _ = _missed(load, named)
     left, stiffness = _missed(load, other)

@@ -18,6 +18,9 @@ _OTHER_MEASURES = (
     ("strain", "stretch", "a stretch is 1 + the strain"),
     ("radius", "diameter", "a diameter is twice the radius"),
 )
+PER_CENT = ", which is the value in per cent divided by 100"
+NEAR = 0.45  # smallest similarity of a name and the one that was probably meant
+_TIMES = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 _ANGLES = {"deg": 1.0, "rad": 57.29577951308232}
 
 
@@ -44,8 +47,10 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
     for word, meant, rule in _OTHER_MEASURES:
         near = [each for each in known if meant in each]
         if word in name.lower() and near:
+            other = get_close_matches(name.lower().replace(word, meant), near, n=1, cutoff=0.0)[0]
+            part = PER_CENT if meant == "stretch" and _in_per_cent(name) else ""
             raise BadInput(where, name, f"one of {', '.join(known)}",
-                           f"convert the values to '{near[0]}': {rule}")  # fmt: skip
+                           f"convert the values to '{other}': {rule}{part}")  # fmt: skip
     stem, unit = _split(name)
     stems = {_split(each)[0]: each for each in left}
     same = stems.get(stem) or next(
@@ -57,13 +62,17 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
     if same is not None and ratio not in (None, 1.0):
         raise BadInput(where, name, same, f"convert the values from {unit} to {wanted}: "
                        f"1 {unit} is {ratio:.6g} {wanted}")  # fmt: skip
-    for each in get_close_matches(name, left, n=3, cutoff=0.4):
+    for each in get_close_matches(name, left, n=3, cutoff=NEAR):
         its = _split(each)[1]
         if its == unit:
             raise BadInput(where, name, allowed, f"did you mean '{each}'")
         if not unit:
             raise BadInput(where, name, allowed, f"write '{each}' if its values are in {its}")
     raise BadInput(where, name, allowed)
+
+
+def _in_per_cent(name: str) -> bool:
+    return "%" in name or "percent" in name.lower().replace(" ", "").replace("_", "")
 
 
 def unit_of(name: str) -> str:
@@ -89,7 +98,7 @@ def _split(name: str) -> tuple[str, str]:
 
 def _ratio(unit: str, wanted: str) -> float | None:
     """Return how many `wanted` units one `unit` is; None if they measure different quantities."""
-    for table in (_FACTORS, _ANGLES):
+    for table in (_FACTORS, _ANGLES, _TIMES):
         if unit in table and wanted in table:
             return table[unit] / table[wanted]
     return unit_ratio(unit, wanted)

@@ -19,6 +19,8 @@ NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
 DELIMITERS = (",", ";", "\t")
 LONGEST_PREAMBLE = 200  # largest number of lines before the header
 NO_UNIT = ("", "-", "–", "1", "mm/mm", "m/m")  # cells in a row of units below dimensionless columns
+# Words in the names of columns that have no unit.
+DIMENSIONLESS = ("stretch", "ratio", "friction", "stiffness", "xi", "eta")
 _DECLARED = re.compile(r"sep=(.)\s*", re.IGNORECASE)  # first line of a file that Excel reads
 
 Row = tuple[int, list[str]]  # number of the line, and its cells
@@ -132,6 +134,8 @@ def _check_units(header: Sequence[str], units: Row, name: str) -> None:
         given, wanted = _bare(cell), unit_of(column)
         if given in NO_UNIT and (not wanted or not given):
             continue
+        if not wanted and not any(word in column for word in DIMENSIONLESS):
+            continue  # no column of ours; its name is refused later
         if not wanted or not same_unit(given, wanted):
             raise BadInput(
                 f"in {name}, row {line}, the unit of column '{column}'",

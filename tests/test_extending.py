@@ -15,6 +15,7 @@ import pytest
 import stonepass as sp
 import stonepass.cli
 from stonepass.cli import run
+from stonepass.export import inp_material
 from stonepass.inputs import material_file
 from stonepass.inputs.catalogue import all_inputs
 from stonepass.inputs.schema import case_schema
@@ -119,6 +120,19 @@ def test_a_law_is_read_checked_and_solved(gent, tmp_path, capsys):
     path.write_text(path.read_text().replace("9e3", "0.01"))
     with pytest.raises(sp.BadInput, match=r"Jm is 0\.01, but must be"):
         material_file.load_material(str(path))
+
+
+def test_a_law_is_exported_by_one_entry_in_the_table_of_a_program(gent, monkeypatch, tmp_path):
+    wall = sp.Material("rubber", gent.Gent(293e3, 9e3), "", "", "", (1.0, 1.5))
+    case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.5, material=wall))
+    path = tmp_path / "stone.inp"
+    with pytest.raises(sp.BadInput, match=r"law is gent, but must be .*neo-hookean"):
+        sp.export.write(case, path)
+    monkeypatch.setitem(inp_material.ABAQUS, gent.Gent, lambda law, D1: [f"** Gent {law.mu:g}"])
+    with pytest.raises(sp.BadInput, match="use flavour='abaqus'"):
+        sp.export.write(case, path)
+    found = sp.export.write(case, path, flavour="abaqus")
+    assert "** Gent 293000" in found.content
 
 
 def test_a_study_runs_its_jobs_anywhere():

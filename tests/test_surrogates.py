@@ -227,7 +227,7 @@ def shipped():
 def test_every_shipped_surrogate_is_checked_and_holds_its_errors():
     # Not all reach the 0.5 % that are aimed at, see docs/surrogates.md, "Limits".
     largest = {("ureter", "paper"): 0.005, ("ureter", "direct"): 0.009,
-               ("latex", "paper"): 0.01, ("latex", "direct"): 0.0075}  # fmt: skip
+               ("latex", "paper"): 0.005, ("latex", "direct"): 0.0075}  # fmt: skip
     assert set(shipped_surrogates()) == set(largest)
     for material, model in shipped_surrogates():
         measured = load_surrogate(material, model).about["check"]

@@ -119,10 +119,11 @@ def test_limits_name_only_options_and_choices_that_exist():
     checked = 0
     for writer in ALL:
         choices = {option.name: option.choices for option in writer.options}
+        assert set(writer.limits) <= set(KINDS)
         for limit in writer.limits.values():
-            assert limit.names
-            assert set(limit.needs) <= set(limit.names)
-            for name, value in (each for needs in limit.needs.values() for each in needs.items()):
+            allowed = limit.allowed
+            assert allowed
+            for name, value in (each for needs in allowed.values() for each in needs.items()):
                 assert value in choices[name]
                 checked += 1
     assert checked > 0
@@ -325,8 +326,8 @@ def test_a_law_is_written_if_and_only_if_it_is_declared(writer, law, answer, tmp
     counted = 0
     for chosen in map(dict, product(*choices)):
         limit = writer.limits.get("law", export.Limit(tuple(LAWS)))
-        needs = limit.needs.get(law, {})
-        declared = law in limit.names and all(chosen[key] == each for key, each in needs.items())
+        needs = limit.allowed.get(law)
+        declared = needs is not None and all(chosen[key] == each for key, each in needs.items())
         arguments = (case(law), tmp_path / f"x{writer.ending}")
         if declared:
             made = export.write(*arguments, solved=lambda: answer, writers=ALL, **chosen)

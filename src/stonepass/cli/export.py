@@ -124,7 +124,7 @@ def _ignored(writers: Sequence[Writer]) -> tuple[list[str], dict[str, str]]:
 def _takes_model(writers: Sequence[Writer], model: str) -> bool:
     """Return whether some format can express the results of a model."""
     limits = [writer.limits.get("model") for writer in writers]
-    return any(limit is None or model in limit.names for limit in limits)
+    return any(limit is None or model in limit.allowed for limit in limits)
 
 
 def _owners(writers: Sequence[Writer]) -> dict[str, tuple[Option, list[str]]]:

@@ -152,7 +152,7 @@ def check_case(
         for name in names if limit is not None else ():
             assert limit is not None
             if not _within(limit, name, options):
-                allowed = _listed([each for each in limit.names if _within(limit, each, options)])
+                allowed = _listed([each for each in limit.allowed if _within(limit, each, options)])
                 raise BadInput(
                     words(kind) if kind in WITH_OPTIONS else kind,
                     name,
@@ -184,22 +184,22 @@ def names_of(case: Case) -> dict[str, tuple[str, ...]]:
 
 
 def _within(limit: Limit, name: str, options: Mapping[str, Any]) -> bool:
-    needs = limit.needs.get(name, {})
-    return name in limit.names and all(options[key] == value for key, value in needs.items())
+    needs = limit.allowed.get(name)
+    return needs is not None and all(options[key] == value for key, value in needs.items())
 
 
 def _remedy(writers: Sequence[Writer], writer: Writer, kind: str, name: str, words: Words) -> str:
     """Return the reason of the limit, or the options or formats that can express the name."""
     own = writer.limits[kind]
-    if name not in own.names and own.reason:
+    if name not in own.allowed and own.reason:
         return own.reason
     ways = []
-    if name in own.names:
-        ways.append(" ".join(words(*each) for each in own.needs[name].items()))
+    if name in own.allowed:
+        ways.append(" ".join(words(*each) for each in own.allowed[name].items()))
     for other in writers:
         limit = other.limits.get(kind)
-        if other is not writer and limit is not None and name in limit.names:
-            needs = limit.needs.get(name, {}).items()
+        if other is not writer and limit is not None and name in limit.allowed:
+            needs = limit.allowed[name].items()
             ways.append(" ".join(words(*each) for each in (("format", other.name), *needs)))
     return f"use {' or '.join(ways)}" if ways else ""
 

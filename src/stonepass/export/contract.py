@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # these modules load NumPy and SciPy
 
 __all__ = ["KINDS", "Export", "Limit", "Option", "WriteFunction", "Writer"]
 
-KINDS = ("model", "law", "seating", "load", "shape")  # what a `Limit` may restrict
+KINDS = ("model", "law", "seating", "load", "shape")  # keys of the limits of a `Writer`
 
 
 @dataclass(frozen=True)
@@ -63,19 +63,31 @@ class Limit:
 
     Attributes
     ----------
-    names : tuple of str
+    listed : tuple of str
         Names of models, laws, seatings, loads (``prestretch``, ``dead``, ``hydrostatic``) or shapes
         (``sphere``, ``spheroid``, ``outline``).
     reason : str
         Why other names are refused, or what to do instead; a clause at the end of the message. If
         it is empty, the message names the formats that can express the case.
-    needs : mapping
-        Values that options must have for a name, e.g. ``{"fung": {"flavour": "abaqus"}}``.
+    table : callable, optional
+        Returns the names, each with the values that options must have for it, in the place of
+        `listed`, e.g. ``{"yeoh": {}, "fung": {"flavour": "abaqus"}}``. It is called when a case is
+        checked, because the tables of the laws load numerical libraries.
     """
 
-    names: tuple[str, ...]
+    listed: tuple[str, ...] = ()
     reason: str = ""
-    needs: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    table: Callable[[], Mapping[str, Mapping[str, str]]] | None = None
+
+    @property
+    def allowed(self) -> Mapping[str, Mapping[str, str]]:
+        """The names, each with the values that options must have for it."""
+        return {name: {} for name in self.listed} if self.table is None else self.table()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names that are allowed with some values of the options."""
+        return tuple(self.allowed)
 
 
 @dataclass(frozen=True)

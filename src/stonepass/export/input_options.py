@@ -9,6 +9,7 @@ from stonepass.export.contract import Limit, Option
 
 __all__ = [
     "ELEMENT", "FINE", "FLAVOUR", "FROM_CONTACT", "LENGTHS", "SEATED_IGNORES", "SEATED_LIMITS",
+    "WRITE_AS",
 ]  # fmt: skip
 
 LENGTHS = (0.002, 0.5)  # smallest and largest length of the elements in the contact, inner radii
@@ -30,6 +31,7 @@ FLAVOUR = Option(
 ELEMENT = Option(
     "element", "element type of the wall", str, default="CAX8", choices=("CAX8", "CAX8R")
 )
+WRITE_AS = "write its constants as one of these"
 SEATED_LIMITS = {
     "model": Limit(("paper",), "the file describes the seated state, which is the paper's model"),
     "seating": Limit(("pressed", "frictionless", "growing")),

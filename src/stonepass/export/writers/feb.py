@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from stonepass.export.contract import Export, Limit, Writer
-from stonepass.export.input_options import FINE, SEATED_IGNORES, SEATED_LIMITS
+from stonepass.export.input_options import FINE, SEATED_IGNORES, SEATED_LIMITS, WRITE_AS
 
 if TYPE_CHECKING:  # these modules load NumPy and SciPy
     from stonepass.model.answer import Answer
@@ -24,6 +24,14 @@ def _write(case: Case, options: Mapping[str, Any], solved: Callable[[], Answer])
     return Export(write_feb(model), model.summary, "run it with: febio4 -i {file}")
 
 
+def _laws() -> Mapping[str, Mapping[str, str]]:
+    """Return the laws of FEBio."""
+    from stonepass.export.feb_material import FEBIO
+    from stonepass.materials.known_laws import KNOWN_LAWS
+
+    return {name: {} for name, law in KNOWN_LAWS.items() if law in FEBIO}
+
+
 FEB = Writer(
     name="feb",
     ending=".feb",
@@ -32,10 +40,7 @@ FEB = Writer(
     options=(FINE,),
     limits={
         **SEATED_LIMITS,
-        "law": Limit(
-            ("neo-hookean", "mooney-rivlin", "yeoh", "ogden", "holzapfel-gasser-ogden", "fung"),
-            "write its constants as one of these",
-        ),
+        "law": Limit(reason=WRITE_AS, table=_laws),
     },
     ignores=SEATED_IGNORES,
 )

@@ -6,7 +6,14 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from stonepass.export.contract import Export, Limit, Writer
-from stonepass.export.input_options import ELEMENT, FINE, FLAVOUR, SEATED_IGNORES, SEATED_LIMITS
+from stonepass.export.input_options import (
+    ELEMENT,
+    FINE,
+    FLAVOUR,
+    SEATED_IGNORES,
+    SEATED_LIMITS,
+    WRITE_AS,
+)
 
 if TYPE_CHECKING:  # these modules load NumPy and SciPy
     from stonepass.model.answer import Answer
@@ -30,6 +37,17 @@ def _write(case: Case, options: Mapping[str, Any], solved: Callable[[], Answer])
     return Export(text, model.summary, NEXT_STEPS[flavour])
 
 
+def _laws() -> Mapping[str, Mapping[str, str]]:
+    """Return the laws of both programs; some need the flavour of Abaqus."""
+    from stonepass.export.inp_material import ABAQUS, CALCULIX
+    from stonepass.materials.known_laws import KNOWN_LAWS
+
+    needs = {FLAVOUR.name: "abaqus"}
+    return {
+        name: {} if law in CALCULIX else needs for name, law in KNOWN_LAWS.items() if law in ABAQUS
+    }
+
+
 INP = Writer(
     name="inp",
     ending=".inp",
@@ -38,14 +56,7 @@ INP = Writer(
     options=(FLAVOUR, ELEMENT, FINE),
     limits={
         **SEATED_LIMITS,
-        "law": Limit(
-            ("neo-hookean", "mooney-rivlin", "yeoh", "ogden", "holzapfel-gasser-ogden", "fung"),
-            "write its constants as one of these",
-            needs={
-                "holzapfel-gasser-ogden": {"flavour": "abaqus"},
-                "fung": {"flavour": "abaqus"},
-            },
-        ),
+        "law": Limit(reason=WRITE_AS, table=_laws),
     },
     ignores=SEATED_IGNORES,
 )

@@ -36,11 +36,20 @@ def _write(case: Case, options: Mapping[str, Any], solved: Callable[[], Answer])
     )
 
 
+def _models() -> Mapping[str, Mapping[str, str]]:
+    """Return the models that solve the wall."""
+    from stonepass.model.models.registry import MODELS
+
+    return {name: {} for name, model in MODELS.items() if model.NEEDS_ELEMENTS}
+
+
 VTU = Writer(
     name="vtu",
     ending=".vtu",
     description="solved wall with its stress, for ParaView",
     write=_write,
-    limits={"model": Limit(("paper", "direct"), "a beam has no solved wall")},
+    limits={
+        "model": Limit(reason="a model without finite elements has no wall to write", table=_models)
+    },
     ignores=FROM_CONTACT,
 )

@@ -146,7 +146,7 @@ def _least_certain(
         found: Float[np.ndarray, " m"] = physics.solve(case, there, fitted(there)).pressure
         return found
 
-    return least_certain_cases(domain, case, pressures, level.refined)
+    return least_certain_cases(domain, case, pressures, level.refined, level.candidates)
 
 
 def _corrected(

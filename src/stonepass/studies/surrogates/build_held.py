@@ -35,6 +35,7 @@ __all__ = ["build_held_stone"]
 # Largest load as a fraction of the load at which the tube buckles, if the fibres of the wall
 # microbuckle. Above it thin walls have several states, whose pressures differ by up to 1 %.
 WRINKLED = 0.4
+CANDIDATES = 512  # number of cases among which the refinement chooses
 NEARLY_NONE = 1e-4  # friction coefficient of the cases that stand for no friction
 GENTLER = 0.3  # factor on the friction of the second level
 MOST_LOST = 0.05  # largest fraction of cases without an answer
@@ -158,7 +159,7 @@ class _Build:
             return found
 
         count = self.count(self.sizes.refined)
-        more = least_certain_cases(self.domain, self.case, pressures, count)
+        more = least_certain_cases(self.domain, self.case, pressures, count, CANDIDATES)
         return held.joined(self.solved(more, leaks=0))
 
 

@@ -12,8 +12,8 @@ from stonepass.studies.surrogates.stable_loads import StableLoads
 __all__ = ["CANDIDATES", "POOL", "Domain"]
 
 # Candidates of the refinement, from the sequence of sampled cases after those of a check.
-POOL, CANDIDATES = 2048, 512
-AFTER = 4096  # first case of the sequence after all of these
+POOL, CANDIDATES = 2048, 2048
+AFTER = POOL + CANDIDATES  # first case of the sequence after all of these
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,9 @@ class Domain:
             return first
         return joined(first, self.box.sample(case, self.stable, count - HELD_OUT, AFTER))
 
-    def candidates(self, case: Case) -> Conditions:
-        """Return the conditions among which the refinement chooses."""
-        return self.box.sample(case, self.stable, CANDIDATES, POOL)
+    def candidates(self, case: Case, count: int) -> Conditions:
+        """Return conditions among which the refinement chooses, at most `CANDIDATES`."""
+        return self.box.sample(case, self.stable, min(count, CANDIDATES), POOL)
 
     def setting(self, case: Case, at: Conditions) -> Setting:
         """Return the coordinates of conditions in the box."""

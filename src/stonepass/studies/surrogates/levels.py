@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from stonepass.materials.relaxed_energy import Microbuckling
 from stonepass.model.case import Case
 from stonepass.model.models.seated_balance import SeatedBalance
 
@@ -32,6 +33,8 @@ class Level:
         Largest total degree of the polynomial.
     refined : int
         Number of further cases where the surrogate is least certain (see `refinement`).
+    candidates : int
+        Number of cases among which they are chosen.
     """
 
     case: Case
@@ -39,10 +42,15 @@ class Level:
     degrees: tuple[int, int, int, int]
     total: int
     refined: int = 0
+    candidates: int = 0
 
 
 def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
     """Return the levels for a surrogate of a case, the cheapest one first.
+
+    In the thin walls of a material that does not microbuckle, friction changes the contact so fast
+    close to the buckling load that the change by friction needs high degrees, and further cases
+    that are chosen among many.
 
     Parameters
     ----------
@@ -61,6 +69,9 @@ def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
     degrees = (20, 16, 0, 8 * last)
     if isinstance(case.model, SeatedBalance) and case.model.seating != "frictionless":
         smooth = replace(case.model, seating="frictionless", seating_friction=None)
-        pressed = Level(case, count(many), (8, 6, 6, 5 * last), 8, count(many // 2))
-        return [Level(replace(case, model=smooth), count(4 * many), degrees, 20), pressed]
+        base = Level(replace(case, model=smooth), count(4 * many), degrees, 20)
+        cases = count(many), count(many // 2)
+        if isinstance(case.ureter.material.law, Microbuckling):
+            return [base, Level(case, cases[0], (8, 6, 6, 5 * last), 8, cases[1], 512)]
+        return [base, Level(case, cases[0], (16, 12, 8, 6 * last), 16, cases[1], 2048)]
     return [Level(case, count(4 * many), degrees, 20)]

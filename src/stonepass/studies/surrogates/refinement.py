@@ -59,6 +59,7 @@ def least_certain_cases(
     case: Case,
     pressures: Callable[[slice, Setting], Float[np.ndarray, " m"]],
     count: int,
+    candidates: int,
 ) -> Conditions:
     """Return the candidates of a domain at which two surrogates differ most.
 
@@ -71,10 +72,12 @@ def least_certain_cases(
         Returns P_ucr in Pa at m conditions by a surrogate that is fitted to a part of the solved
         cases, see `least_certain`.
     count : int
-        Largest number of candidates.
+        Largest number of cases to return.
+    candidates : int
+        Number of candidates.
     """
-    candidates = domain.candidates(case)
-    there = domain.setting(case, candidates)
-    chosen = np.zeros(len(candidates.friction), dtype=bool)
+    tried = domain.candidates(case, candidates)
+    there = domain.setting(case, tried)
+    chosen = np.zeros(len(tried.friction), dtype=bool)
     chosen[least_certain(lambda half: pressures(half, there), there.unit, count)] = True
-    return candidates.where(chosen)
+    return tried.where(chosen)

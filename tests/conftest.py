@@ -37,18 +37,22 @@ DOORS = {
         ],
         "public questions refuse arguments in a wrong order with a sentence",
     ),
-    "stonepass.bench.test_data": "readers refuse a size without its unit with a sentence",
+    "stonepass.bench.test_files": "readers refuse a size without its unit with a sentence",
     "stonepass.materials.protocol": "the constructor of a material refuses a law with a sentence",
     "stonepass.materials.user_law": "a user's function may return anything; refused with a sentence",
 }
 
 
 def numerical_modules():
-    """Names of all modules of the numerical packages, the doors included."""
+    """Names of all modules of the numerical packages, and of others with arrays; doors included."""
     root = SOURCE / "stonepass"
-    files = sorted(path for name in NUMERICAL for path in (root / name).rglob("*.py"))
-    names = (".".join(path.relative_to(SOURCE).with_suffix("").parts) for path in files)
-    return [name for name in names if not name.endswith(".__init__")]
+    found = []
+    for path in sorted(root.rglob("*.py")):
+        name = path.relative_to(SOURCE).with_suffix("").parts
+        arrays = "stonepass.array_types" in path.read_text(encoding="utf-8")
+        if path.name != "__init__.py" and len(name) > 2 and (name[1] in NUMERICAL or arrays):
+            found.append(".".join(name))
+    return found
 
 
 first_call.install()

@@ -10,6 +10,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.request import Request, urlopen
@@ -172,6 +173,14 @@ def faults_of_access(page):
         for each in found["violations"]
         if each["impact"] != "minor"
     ]
+
+
+def until(page, holds):
+    """Wait until a condition holds, while the page goes on."""
+    last = time.monotonic() + SECONDS / 1000.0
+    while not holds():
+        assert time.monotonic() < last, "the condition does not hold"
+        page.wait_for_timeout(50)
 
 
 def settled(page):

@@ -6,7 +6,7 @@ import shlex
 import time
 
 import pytest
-from page_browser import ANSWERED, SECONDS, settled
+from page_browser import ANSWERED, SECONDS, settled, until
 
 from stonepass.cli import run
 
@@ -46,8 +46,8 @@ def test_first_answer_is_that_of_the_api(page, server):
     others = f"{kilopascals / 0.133322:.3g} mmHg · {kilopascals / 0.0980665:.3g} cmH₂O"
     assert others in page.locator(".reading").first.inner_text()
     assert "this stone does not move" in page.locator(".verdict").inner_text()
-    page.wait_for_timeout(900)  # the live region waits until the sliders rest
-    assert "does not move" in page.locator(".answer [aria-live=polite]").inner_text()
+    # The live region waits until the sliders rest.
+    page.locator(".answer [aria-live=polite]", has_text="does not move").wait_for()
 
 
 def test_sliders_change_the_answer_and_the_link_reproduces_it(open_page, server):
@@ -58,9 +58,8 @@ def test_sliders_change_the_answer_and_the_link_reproduces_it(open_page, server)
     found = server.post("instant", asked(diameter="3.9 mm", friction=0.3))["answer"]
     assert float(pressure(page)) == near(found["critical_pressure_kPa"])
     assert "this stone moves" in page.locator(".verdict").inner_text()
-    page.wait_for_timeout(500)
+    page.wait_for_url("**stone=3.9mm**")
     link = page.url.split("/", 3)[3]
-    assert "stone=3.9mm" in link
     again = open_page(link)
     assert again.get_by_label("Friction coefficient", exact=True).input_value() == "0.3"
     assert pressure(again) == pressure(page)
@@ -184,7 +183,7 @@ def test_the_direct_model_answers_at_once_too(open_page, server):
     assert pressure(page) != of_paper
     assert page.get_by_label("Model of the finite elements").input_value() == "direct"
     assert "no urine pressure" in page.locator("figure", has_text="Section through").inner_text()
-    page.wait_for_timeout(500)
+    page.wait_for_url("**direct**")
     again = open_page(page.url.split("/", 3)[3])
     assert pressure(again) == pressure(page)
 
@@ -243,13 +242,11 @@ def test_view_in_three_dimensions_loads_when_it_is_opened_and_turns(page, watche
     page.get_by_role("button", name="Turn it in 3-D").click()
     canvas = page.locator("canvas")
     canvas.wait_for()
-    page.wait_for_timeout(300)
-    assert any("revolved" in url for url in watched.sizes)
+    until(page, lambda: any("revolved" in url for url in watched.sizes))
     before = canvas.screenshot()
     canvas.focus()
     page.keyboard.press("ArrowRight")
-    page.wait_for_timeout(200)
-    assert canvas.screenshot() != before
+    until(page, lambda: canvas.screenshot() != before)
     page.get_by_role("button", name="Show the section").click()
     assert canvas.is_hidden()
 

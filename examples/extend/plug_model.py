@@ -16,6 +16,7 @@ from stonepass.declaration import Kind, check_inputs, declared
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer, Quantity
 from stonepass.model.far_field import far_field_law, urine_pressure
+from stonepass.model.models.shared_options import far_field_ground
 
 
 @dataclass(frozen=True)
@@ -34,13 +35,7 @@ class Plug:
         default=2.0,
         bounds=(0.1, 10.0),
     )
-    far_field_ground: bool = declared(
-        Kind.FLAG,
-        "--far-field-ground/--far-field-fibres",
-        "Include the ground matrix in the far field; otherwise only the fibres are included.",
-        default=False,
-        shown_default="fibres",
-    )
+    far_field_ground: bool = far_field_ground()
 
     def __post_init__(self):
         check_inputs(self)

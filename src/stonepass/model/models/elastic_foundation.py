@@ -21,6 +21,7 @@ from stonepass.materials.secant import STRETCH, secant_moduli
 from stonepass.model.answer import Answer, Quantity, unanswered
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law
+from stonepass.model.models.shared_options import far_field_ground
 from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
 from stonepass.model.roots import first_root
@@ -93,13 +94,7 @@ class ElasticFoundation:
         default=None,
         bounds=STRETCH,
     )
-    far_field_ground: bool = declared(
-        Kind.FLAG,
-        "--far-field-ground/--far-field-fibres",
-        "Include the ground matrix in the far field; otherwise only the fibres are included.",
-        default=False,
-        shown_default="fibres",
-    )
+    far_field_ground: bool = far_field_ground()
 
     __repr__ = described
 

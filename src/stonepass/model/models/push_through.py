@@ -15,6 +15,7 @@ from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import ErrorEstimate, Level
 from stonepass.model.answer import Answer, Quantity, unanswered
+from stonepass.model.models.shared_options import far_field_ground
 from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
 from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
@@ -58,13 +59,7 @@ class PushThrough:
         default=False,
         shown_default="dry",
     )
-    far_field_ground: bool = declared(
-        Kind.FLAG,
-        "--far-field-ground/--far-field-fibres",
-        "Include the ground matrix in the far field; otherwise only the fibres are included.",
-        default=False,
-        shown_default="fibres",
-    )
+    far_field_ground: bool = far_field_ground()
 
     __repr__ = described
 

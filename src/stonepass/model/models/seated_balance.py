@@ -22,6 +22,7 @@ from stonepass.model.closure import (
 )
 from stonepass.model.critical_state import CriticalState, critical_state
 from stonepass.model.far_field import far_field_law, lumen_ratio
+from stonepass.model.models.shared_options import far_field_ground
 from stonepass.model.numerics import Numerics
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.problem import Problem
@@ -132,13 +133,7 @@ class SeatedBalance:
         shown_default="computed loaded states",
         metavar="FILE.csv",
     )
-    far_field_ground: bool = declared(
-        Kind.FLAG,
-        "--far-field-ground/--far-field-fibres",
-        "Include the ground matrix in the far field; otherwise only the fibres are included.",
-        default=False,
-        shown_default="fibres",
-    )
+    far_field_ground: bool = far_field_ground()
 
     __repr__ = described
 

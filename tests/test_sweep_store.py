@@ -10,6 +10,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pyarrow.dataset
 import pytest
 from shown import check_shown
@@ -233,6 +234,32 @@ def test_a_damaged_shard_is_told_and_solved_again(tmp_path, whole, damage):
     damage(folder / read_ledger(folder).entries[2].shard)
     with pytest.raises(sp.StonepassError, match="missing or damaged"):
         sp.read_results(folder).table()
+    sp.sweep(LARGE, folder, resume=True, block_cases=8)
+    assert_equal_bit_for_bit(folder, whole)
+
+
+READS = (
+    lambda results, _: results.table(),
+    lambda results, _: list(results.batches()),
+    lambda results, _: results.to_xarray(),
+    lambda results, folder: results.save(folder / "t.csv"),
+)
+
+
+def test_a_changed_byte_is_told(tmp_path, whole):
+    """Anywhere in a shard: in a page, in its header, or in a name of a column."""
+    folder = tmp_path / "s"
+    stopped_after(folder, sp.read_sweep(LARGE), 3)
+    shard = folder / read_ledger(folder).entries[1].shard
+    content = shard.read_bytes()
+    for place in np.random.default_rng(4).integers(0, len(content), 40):
+        changed = bytearray(content)
+        changed[place] ^= 0x55
+        shard.write_bytes(changed)
+        for read in READS:
+            with pytest.raises(sp.StonepassError, match=r"missing or damaged .*have changed"):
+                read(sp.read_results(folder), tmp_path)
+        assert not list(tmp_path.glob("*t.csv*"))
     sp.sweep(LARGE, folder, resume=True, block_cases=8)
     assert_equal_bit_for_bit(folder, whole)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from stonepass.result import Result
 from stonepass.studies.sweeps.case_rows import COLUMNS
 from stonepass.studies.sweeps.ledger import Ledger, read_ledger
 from stonepass.studies.sweeps.points_file import EXTRA
-from stonepass.studies.sweeps.shards import READ, arrow_type
+from stonepass.studies.sweeps.shards import READ, arrow_type, digest_of
 from stonepass.studies.sweeps.tables import labelled, write_csv_table, write_parquet_table
 
 __all__ = ["TABLES", "SweepResults", "read_results"]
@@ -101,10 +102,9 @@ class SweepResults(Result):
         StonepassError
             A file of results is missing or damaged.
         """
-        self._check_files()
         pyarrow, datasets = (library(name, READ, EXTRA) for name in ("pyarrow", "pyarrow.dataset"))
         schema = pyarrow.schema([(n, arrow_type(kind)) for n, kind in self.columns.items()])
-        paths = [str(self.folder / each.shard) for each in self.ledger.entries]
+        paths = self._paths
         # An empty list of files would be taken for a folder.
         if not paths:
             return datasets.dataset(schema.empty_table())
@@ -209,14 +209,22 @@ class SweepResults(Result):
                 refuse_unknown("column", each, list(known))
         return asked
 
-    def _check_files(self) -> None:
+    @cached_property
+    def _paths(self) -> list[str]:
+        """Paths of all shards, whose digests are checked once, when rows are first read."""
+        found = []
         for each in self.ledger.entries:
+            path = self.folder / each.shard
             try:
-                size = (self.folder / each.shard).stat().st_size
+                content = path.read_bytes()
             except OSError:
-                raise self._damaged(f"'{each.shard}' is missing") from None
-            if size != each.size:
-                raise self._damaged(f"'{each.shard}' has {size} of {each.size} bytes")
+                raise self._damaged(f"'{each.shard}' cannot be read") from None
+            if len(content) != each.size:
+                raise self._damaged(f"'{each.shard}' has {len(content)} of {each.size} bytes")
+            if digest_of(content) != each.digest:
+                raise self._damaged(f"bytes of '{each.shard}' have changed")
+            found.append(str(path))
+        return found
 
     def _damaged(self, what: str) -> StonepassError:
         return StonepassError(

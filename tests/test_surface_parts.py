@@ -547,3 +547,28 @@ def test_the_margin_is_an_option_and_its_effect_is_told(tmp_path, capsys):
     assert "the least-squares plane is" in shown
     assert run([*command, "--margin", "3"]) == 2
     assert "margin is 3.0, but must be a number from 0 to 2" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "bar", [(slice(200, 213), slice(80, 230)), (slice(60, 160), slice(300, 308))]
+)
+@pytest.mark.parametrize("grey", [0, 255])
+def test_a_scale_bar_inside_a_picture_is_told(tmp_path, capsys, bar, grey):
+    """White or black, along or across, as PNG and as JPEG; a round saturated patch is none."""
+    values = surface().copy()
+    values[bar] = grey
+    rows, columns = bar
+    place = f"{columns.start}, {rows.start}, {columns.stop}, {rows.stop}"
+    for name in ("bar.png", "bar.jpg"):
+        Image.fromarray(values).save(tmp_path / name, quality=92)
+        picture = read_surface_image(tmp_path / name, Area(0, 0, COLUMNS, ROWS)).with_pixel(MICRO)
+        told = {each.code: each for each in surface_friction(picture, "2 um").warnings}
+        assert "drawn_bar" in told
+        if name == "bar.png":
+            assert dict(told["drawn_bar"].values)["place"] == place
+    plain = SurfaceImage(surface(), (MICRO, MICRO), 255, Area(0, 0, COLUMNS, ROWS))
+    assert "drawn_bar" not in {each.code for each in surface_friction(plain, "2 um").warnings}
+    y, x = np.mgrid[:ROWS, :COLUMNS]
+    patch = np.where(((x - 180) / 30) ** 2 + ((y - 120) / 8) ** 2 < 1.0, grey, surface())
+    round_one = replace(plain, values=patch.astype(np.uint8))
+    assert "drawn_bar" not in {each.code for each in surface_friction(round_one, "2 um").warnings}

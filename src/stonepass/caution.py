@@ -76,7 +76,9 @@ SENTENCES = {
     ),
     "smaller_than_lumen": (
         "the stone is smaller than the unloaded lumen, so the radius of the paper's closure would "
-        "decrease while the wall opens; the closure keeps the radius of the stone instead"
+        "decrease while the wall opens; the closure keeps the radius of the stone instead, so that "
+        "P_ucr is the pressure that opens the tube to the width of the stone, whatever the "
+        "friction is: a closure that starts at the lumen, or the model 'direct', includes it"
     ),
     "long_beam_contact": (
         "half the contact length is {decay_lengths:.2g} decay lengths of the beam, but the beam "
@@ -124,6 +126,11 @@ SENTENCES = {
     "plain_border": (
         "the outermost rows or columns have one single grey and end abruptly, so they are probably "
         "a border; exclude them with {option}"
+    ),
+    "drawn_bar": (
+        "the pixels left, top, right, bottom = {place} are a filled rectangle of the darkest or "
+        "brightest grey, like a scale bar that is drawn into the picture: leave it out with "
+        "--area, and choose paths that avoid it"
     ),
     # --- laboratory
     "not_bounded": (

@@ -13,8 +13,9 @@ from stonepass.caution import Caution, caution
 from stonepass.errors import require
 from stonepass.surface.border import without_border
 from stonepass.surface.data_bar import drawn_rows
+from stonepass.surface.drawn_bar import drawn_bar
 from stonepass.surface.levelling import Plane
-from stonepass.surface.surface_image import SurfaceImage
+from stonepass.surface.surface_image import Area, SurfaceImage
 
 __all__ = ["SCALINGS", "Greys", "check_surface", "grey_ranges", "to_heights"]
 
@@ -47,8 +48,8 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     Returns
     -------
     list of Caution
-        Warnings about saturated pixels, isolated grey levels, rows that look like a data bar, and
-        borders.
+        Warnings about saturated pixels, isolated grey levels, rows that look like a data bar,
+        borders, and a scale bar inside the picture.
 
     Raises
     ------
@@ -88,6 +89,11 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
         told.append(caution("plain_rows", fraction=drawn))
     if inner != picture.area:
         told.append(caution("plain_border", option=inner.option))
+    bar = drawn_bar(values, picture.full_scale)
+    if bar is not None:
+        left, top = picture.area.left, picture.area.top
+        place = Area(left + bar.left, top + bar.top, left + bar.right, top + bar.bottom)
+        told.append(caution("drawn_bar", place=str(place)))
     return told
 
 

@@ -16,7 +16,7 @@ from stonepass.errors import Outcome
 from stonepass.materials.catalogue import material
 from stonepass.materials.fung import Fung
 from stonepass.model.far_field import lumen_ratio
-from stonepass.model.states.stability import axisymmetric_buckling
+from stonepass.model.states.stability import axisymmetric_buckling, far_field_hint
 
 SEED, FAMILIES, SIZES = 20244, 200, 3
 TOP = {"latex": 0.6, "ureter": 0.35}  # largest ξ − 1
@@ -83,8 +83,9 @@ def section() -> Section:
             f"The run took {elapsed / 60.0:.0f} minutes, and a case "
             f"{seconds[len(seconds) // 2]:.1f} s in the median and {seconds[-1]:.0f} s at most, "
             "error estimate included. A confining pressure can make a tube unstable even without a "
-            "stone: waves along the tube then lower its energy, so that no stable seated state "
-            "exists. This is checked before the solve, and such cases are counted separately."
+            "stone: waves along the tube, or shear bands in its wall, then lower its energy, so "
+            "that no stable seated state exists. Cases without a solution whose tube alone is "
+            "unstable in one of these ways are counted separately."
         ),
         tables=tables,
         checks=checks(rows),
@@ -162,7 +163,7 @@ def run_case(number: int, case: sp.Case) -> Row:
         closure_end=answer.detail.closure_end_pressure if answer.detail else None,
         at_edge=any(each.code == "moves_at_contact_angle" for each in answer.warnings),
         cause=answer.message.partition(": ")[2] if no_solution else "",
-        unstable_tube=no_solution and bool(axisymmetric_buckling(case, case.numerics.half_length)),
+        unstable_tube=no_solution and unstable_without_stone(case),
         estimated=answer.error is not None,
         uncertain_edge=state is not None and state.contact_angle_uncertainty > 0.0,
         flaws=() if state is None else tuple(flaws(state)),
@@ -170,6 +171,12 @@ def run_case(number: int, case: sp.Case) -> Row:
         case=describe(case),
         seconds=seconds,
     )
+
+
+def unstable_without_stone(case: sp.Case) -> bool:
+    """Return whether the tube under its load buckles or loses its ellipticity without a stone."""
+    buckles = bool(axisymmetric_buckling(case, case.numerics.half_length))
+    return buckles or bool(far_field_hint(case))
 
 
 def flaws(state: sp.SeatedState) -> list[str]:

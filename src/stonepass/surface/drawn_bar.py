@@ -12,7 +12,7 @@ __all__ = ["drawn_bar"]
 FEWEST = 100  # smallest number of pixels of a bar
 THINNEST = 3  # smallest number of rows or columns of a bar
 OBLONG = 3.0  # smallest ratio of its sides
-FILLED = 0.97  # smallest part of its rectangle that has its grey; a saturated patch is rounder
+FILLED = 0.9  # smallest part of its rectangle that has its grey; a saturated patch is rounder
 ALIKE = 3  # largest difference from the extreme grey in levels of 255, as JPEG leaves it
 
 

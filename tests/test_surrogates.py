@@ -419,6 +419,20 @@ def test_models_and_options_without_a_surrogate_are_refused():
             build_surrogate(replace(case, model=model))
 
 
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        (["--eta", "5"], "The wall ratio is 5, but from 1.1 to 4."),
+        (["--eta", "1.3", "--friction", "1.5"], "The friction coefficient is 1.5, but from 0 to 1."),
+        (["--eta", "1.3", "--confining", "9kPa"],
+         "The confining pressure is 9 kPa, but at most 6.73"),
+    ],
+)  # fmt: skip
+def test_the_input_that_is_outside_is_named(capsys, options, reason):
+    assert main(["surrogate", "evaluate", "ureter", "--xi", "1.2", *options]) == 1
+    assert reason in " ".join(capsys.readouterr().out.split())
+
+
 def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
     assert main(["surrogate", "list"]) == 0
     assert "latex" in capsys.readouterr().out
@@ -439,6 +453,7 @@ def test_the_command_line_lists_shows_and_evaluates(capsys, tmp_path):
     told = " ".join(capsys.readouterr().out.split())
     assert "0.5 OUTSIDE" in told
     assert "OUTSIDE: the surrogate does not cover these inputs" in told
+    assert "Row 2: the size ratio is 1.7, but at most 1.6." in told
     before = table.read_text()
     assert main([*command[:-1], str(table)]) == 2
     assert "--out is" in capsys.readouterr().err

@@ -33,6 +33,7 @@ app = typer.Typer(
     **SETTINGS,
 )
 
+MOST_REASONS = 5  # conditions outside a surrogate whose reason is told
 DONE = "0 done; 2 the request was refused; 3 an error of the program"
 # The inputs that vary in the box of a surrogate.
 VARIED = ("stone.diameter", "stone.size_ratio", "stone.friction", "ureter.inner_diameter",
@@ -285,11 +286,21 @@ def evaluate(
     if json:
         print_json([each.to_dict() for each in surrogate_records(found)])
     else:
-        show(answers_table(found))
+        show(answers_table(found), *_reasons(surrogate, found))
     if out is not None:
         found.save(out)
     wrote(out)
     return 0 if found.answered.all() else 1
+
+
+def _reasons(surrogate: Any, found: Any) -> list[str]:
+    """Return why the first conditions that the surrogate does not cover are outside."""
+    from stonepass.studies.surrogates.outside import why_outside
+
+    rows = [int(row) for row in found.outside.nonzero()[0][:MOST_REASONS]]
+    named = "" if len(found.outside) == 1 else "Row {}: "
+    told = (f"{named.format(row + 1)}{why_outside(surrogate, found, row)}." for row in rows)
+    return [each[0].upper() + each[1:] for each in told]
 
 
 def _conditions(

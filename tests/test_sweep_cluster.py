@@ -171,6 +171,21 @@ def test_a_lost_scheduler_keeps_what_is_finished(dask, tmp_path):
     assert len(found) == 1024 > before > 0
 
 
+@pytest.mark.parametrize(
+    "address", ["foo", "tcp://127.0.0.1", "nohost.invalid:8786", "127.0.0.1:x"]
+)
+def test_what_is_no_address_is_refused_at_once_and_without_a_traceback(tmp_path, address):
+    """Dask would wait for it, and then fail once more when its client is collected."""
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "stonepass", "sweep", "study.toml", "--out", "s", "--scheduler", address],
+        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=PATIENCE,
+    )  # fmt: skip
+    assert done.returncode == 2
+    (told,) = done.stderr.strip().splitlines()
+    assert told.startswith(f"stonepass: --scheduler is {address}, but must be the address")
+
+
 def test_a_scheduler_that_does_not_answer_is_told(tmp_path, capsys):
     (tmp_path / "study.toml").write_text(STUDY)
     arguments = ["sweep", str(tmp_path / "study.toml"), "--out", str(tmp_path / "s")]

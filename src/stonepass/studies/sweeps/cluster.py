@@ -8,10 +8,12 @@ through an executor of their own, which passes on every end of a task.
 from __future__ import annotations
 
 import logging
+import socket
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
 from typing import Any
+from urllib.parse import urlsplit
 
 from stonepass.errors import BadInput, require
 from stonepass.io.optional_imports import library
@@ -21,6 +23,8 @@ __all__ = ["EXTRA", "ClusterExecutor", "client_of", "cluster"]
 EXTRA = "cluster"  # the extra of stonepass that installs Dask
 CLOSING = 2.0  # time in s in which the connection is closed
 PATIENCE = 10.0  # time in s in which the scheduler must answer
+ANSWERING = "the address of a scheduler that answers, e.g. tcp://10.0.0.1:8786"
+STARTED_BY = "start it with 'dask scheduler', which prints its address"
 
 
 class ClusterExecutor(Executor):
@@ -84,6 +88,16 @@ def _silence() -> None:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
+def _check_address(address: str) -> None:
+    """Refuse an address without a port, or with an unknown host, for which Dask would wait long."""
+    parts = urlsplit(address if "://" in address else f"tcp://{address}")
+    try:
+        known = parts.port is not None and bool(socket.getaddrinfo(parts.hostname, parts.port))
+    except (OSError, ValueError, UnicodeError):
+        known = False
+    require(known, "--scheduler", address, ANSWERING, STARTED_BY)
+
+
 @contextmanager
 def cluster(address: str) -> Iterator[ClusterExecutor]:
     """Yield an executor that runs calls on the workers of a Dask scheduler.
@@ -101,13 +115,12 @@ def cluster(address: str) -> Iterator[ClusterExecutor]:
         Dask is not installed, no scheduler answers at the address, or it has no workers.
     """
     distributed = library("distributed", "run on a cluster", EXTRA)
+    _check_address(address)
     _silence()
     try:
         client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as problem:
-        remedy = "start it with 'dask scheduler', which prints its address"
-        raise BadInput("--scheduler", address, "the address of a scheduler that answers",
-                       remedy) from problem  # fmt: skip
+        raise BadInput("--scheduler", address, ANSWERING, STARTED_BY) from problem
     try:
         executor = ClusterExecutor(client)
         require(executor.count > 0, "--scheduler", address, "a scheduler with workers",

@@ -1,5 +1,7 @@
 """Strong ellipticity against finite differences of the energy, and the solved state's margin."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,7 @@ from stonepass.model.far_field import lumen_ratio
 from stonepass.model.states.nondimensional import tube_of
 from stonepass.model.states.stability import axisymmetric_buckling
 from stonepass.model.validity import ring_buckling
-from stonepass.strain import INNER_WALL, CauchyGreen
+from stonepass.strain import INNER_WALL, CauchyGreen, Place
 
 REST = np.array([[1.0, 0.0, 0.0, 1.0, 1.0]])
 
@@ -75,6 +77,31 @@ def test_rubber_by_hand():
     found = weakest(NeoHookean(1.0), F, INNER_WALL)
     assert found.stiffness == pytest.approx(0.25, rel=1e-3)
     assert abs(found.normal[0]) == pytest.approx(1.0, abs=1e-2)
+
+
+@dataclass(frozen=True)
+class OneFamily:
+    """Rubber with fibres at an angle to the circumference, on one side only."""
+
+    angle: float
+
+    def energy(self, C, place, xp):
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        over = c * c * C.tt + s * s * C.zz + 2.0 * c * s * C.tz - 1.0
+        return 30e3 * (C.I1 - 3.0) + 20e3 * over**2 - 40e3 * over**3
+
+
+def test_mirror_images_have_the_same_margin():
+    """One family of fibres has no mirror plane along the tube, so that all directions count."""
+    t, z = np.meshgrid(np.linspace(1.0, 1.3, 4), np.linspace(0.95, 1.1, 4))
+    t, z = t.ravel(), z.ravel()
+    F = np.column_stack([1.0 / (t * z), 0.0 * t, 0.0 * t, z, t])
+    place = Place(np.full(len(t), 1.2))
+    found = [weakest(OneFamily(sign * np.radians(40.0)), F, place) for sign in (1.0, -1.0)]
+    assert found[0].stiffness < 0.0
+    assert found[1].stiffness == pytest.approx(found[0].stiffness, rel=1e-6)
+    mirrored = np.array(found[1].normal) * [1.0, 1.0, -1.0]
+    assert abs(mirrored @ found[0].normal) == pytest.approx(1.0, abs=1e-4)
 
 
 def test_axial_compression_of_the_fibres_loses_ellipticity_at_minus_g():

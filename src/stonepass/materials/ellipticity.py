@@ -149,9 +149,13 @@ def _right_cauchy_green(F: Float[np.ndarray, "points 5"]) -> CauchyGreen:
 
 
 def _scan() -> Float[np.ndarray, "ways 2"]:
-    """Return polar and azimuthal angles of directions n that cover a hemisphere."""
+    """Return polar and azimuthal angles of directions n that cover a hemisphere.
+
+    A law may have fibres on one side of the axis only, so that (n_r, n_t, n_z) and (n_r, n_t, −n_z)
+    differ.
+    """
     polar = np.linspace(0.0, np.pi / 2.0, COARSE)
-    around = np.linspace(0.0, np.pi, 2 * (COARSE - 1), endpoint=False)
+    around = np.linspace(0.0, 2.0 * np.pi, 4 * (COARSE - 1), endpoint=False)
     p, q = np.meshgrid(polar, around, indexing="ij")
     return np.column_stack([p.ravel(), q.ravel()])
 

@@ -12,6 +12,7 @@ import stonepass as sp
 from stonepass.cli import run
 from stonepass.declaration import Kind, inputs_of
 from stonepass.errors import BadInput, Misplaced
+from stonepass.inputs.build import build_case
 from stonepass.inputs.case_record import describe, fingerprint
 from stonepass.inputs.catalogue import all_inputs, models_with, option_of, sections
 from stonepass.inputs.schema import case_schema
@@ -223,3 +224,60 @@ def test_models_refuse_what_does_not_go_together():
         sp.Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.3), model=sp.PushThrough)
     assert NeoHookean(1.0).C10 == 1.0
     assert set(sections()) == {"stone", "ureter", "load", "method"}
+
+
+BASE = {
+    "stone.size_ratio": 1.2, "stone.friction": 0.3, "ureter.wall_ratio": 1.5,
+    "ureter.material": "latex", "load.confining_pressure": "2 kPa",
+}  # fmt: skip
+# One changed value of every declared input, and further values that this needs.
+CHANGED = {
+    "stone.diameter": {"stone.diameter": "4 mm", "stone.size_ratio": None,
+                       "ureter.inner_diameter": "3.5 mm"},
+    "stone.friction": {"stone.friction": 0.4},
+    "stone.size_ratio": {"stone.size_ratio": 1.3},
+    "stone.aspect": {"stone.aspect": 1.2},
+    "stone.shape": {"stone.shape": {"aspect": 1.3}},
+    "ureter.inner_diameter": {"ureter.inner_diameter": "3.5 mm"},
+    "ureter.outer_diameter": {"ureter.inner_diameter": "3.5 mm", "ureter.outer_diameter": "6 mm",
+                              "ureter.wall_ratio": None},
+    "ureter.material": {"ureter.material": "ureter"},
+    "ureter.wall_ratio": {"ureter.wall_ratio": 1.6},
+    "ureter.wall_thickness": {"ureter.inner_diameter": "3.5 mm", "ureter.wall_ratio": None,
+                              "ureter.wall_thickness": "0.5 mm"},
+    "load.confining_pressure": {"load.confining_pressure": "3 kPa"},
+    "load.confinement": {"load.confinement": "hydrostatic"},
+    "load.prestretch": {"load.prestretch": 1.1},
+    "method.model": {"method.model": "direct"},
+    "method.seating": {"method.seating": "growing"},
+    "method.seating_friction": {"method.seating_friction": 0.1},
+    "method.as_printed": {"method.as_printed": True},
+    "method.closure_start": {"method.closure_start": "lumen"},
+    "method.closure": {"method.closure": "series"},
+    "method.series_order": {"method.closure": "series", "method.series_order": 4},
+    "method.opening_curve": {"method.closure": "series", "method.series_order": 1,
+                             "method.opening_curve": {"alpha_deg": [80.0, 90.0],
+                                                      "radius_ratio": [1.0, 1.2]}},
+    "method.far_field_ground": {"method.far_field_ground": True},
+    "method.wetted": {"method.model": "direct", "method.wetted": True},
+    "method.circumferential_modulus": {"method.model": "beam",
+                                       "method.circumferential_modulus": "0.4 MPa",
+                                       "method.longitudinal_modulus": "0.02 MPa"},
+    "method.longitudinal_modulus": {"method.model": "beam",
+                                    "method.circumferential_modulus": "0.4 MPa",
+                                    "method.longitudinal_modulus": "0.03 MPa"},
+    "method.secant_stretch": {"method.model": "beam", "method.secant_stretch": 1.2},
+    "method.accuracy": {"method.accuracy": "fast"},
+    "method.half_length": {"method.half_length": 12.0},
+}  # fmt: skip
+
+
+def test_every_declared_input_is_in_the_canonical_record():
+    """An input that is added and not in the record would make two cases equal."""
+    assert set(CHANGED) == set(all_inputs())
+    prints = {}
+    for key, changed in ({"": {}} | CHANGED).items():
+        values = {name: value for name, value in (BASE | changed).items() if value is not None}
+        case = build_case(values)
+        prints[key] = fingerprint(case, case.model, case.numerics)
+    assert len(set(prints.values())) == len(prints), prints

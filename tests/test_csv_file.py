@@ -77,7 +77,7 @@ def test_a_file_that_is_missing_or_too_large(tmp_path):
         "read_tension",
         "read_patient",
         "read_surface_image",
-        "read_untrusted",
+        "read_in_sandbox",
     ],
 )
 def test_the_front_door_takes_a_path_as_text(name):

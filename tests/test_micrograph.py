@@ -33,15 +33,15 @@ from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.io import optional_imports
 from stonepass.report.friction_figure import friction_figure
-from stonepass.sandbox.sandbox import Limits, parse_in_child
+from stonepass.sandbox.sandbox import Limits, parse_in_sandbox
 from stonepass.surface import worker
 from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.friction import friction_of_slopes, surface_friction
 from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along, read_path
 from stonepass.surface.pixel_size import tescan_scan, zeiss_scan
 from stonepass.surface.readers import read_surface_image
+from stonepass.surface.sandboxed import read_in_sandbox
 from stonepass.surface.surface_image import Area, SurfaceImage
-from stonepass.surface.untrusted import read_untrusted
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
@@ -428,12 +428,12 @@ def test_without_the_extra_it_says_what_to_install(tmp_path, monkeypatch):
 
 def test_a_file_read_in_a_process_of_its_own_is_the_same(tmp_path):
     path = save_tiff(tmp_path / "a.tif", some_grey(bits=16), extratags=[(34682, 's', 0, FEI, True)])  # fmt: skip
-    here, there = read_surface_image(path), read_untrusted(path)
+    here, there = read_surface_image(path), read_in_sandbox(path)
     np.testing.assert_array_equal(here.values, there.values)
     assert here == replace(there, values=here.values)
     (tmp_path / "words.png").write_text("no picture")
     with pytest.raises(BadInput, match=r"image is words\.png, but must be a TIFF"):
-        read_untrusted(tmp_path / "words.png")
+        read_in_sandbox(tmp_path / "words.png")
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of data are Linux's")
@@ -441,8 +441,8 @@ def test_a_file_that_needs_more_memory_than_it_may_is_refused(tmp_path):
     path = tmp_path / "wide.png"
     Image.fromarray(np.zeros((4000, 6000), np.uint8)).save(path)
     with pytest.raises(BadInput, match=r"wide\.png, but must be readable"):
-        read_untrusted(path, memory=60_000_000)
-    assert read_untrusted(path).values.shape == (4000, 6000)
+        read_in_sandbox(path, memory=60_000_000)
+    assert read_in_sandbox(path).values.shape == (4000, 6000)
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the stand-in is a shell script")
@@ -478,7 +478,7 @@ def test_a_reader_is_believed_only_as_far_as_it_makes_sense(
     monkeypatch.setattr(sys, "executable", str(tmp_path / "reader"))
     monkeypatch.setattr("stonepass.sandbox.sandbox.PATIENCE", 1.0 if "sleep" in script else 60.0)
     with pytest.raises(BadInput, match=sentence):
-        read_untrusted(path, seconds=0.5)
+        read_in_sandbox(path, seconds=0.5)
 
 
 def test_other_bytes_first_and_planes_apart_are_the_same_numbers(tmp_path):
@@ -491,7 +491,7 @@ def test_other_bytes_first_and_planes_apart_are_the_same_numbers(tmp_path):
     planes = tmp_path / "planes.tif"
     save_tiff(planes, np.stack([values] * 3), photometric="rgb", planarconfig="separate")
     for path in (big, swapped, planes):
-        for read in (read_surface_image, read_untrusted):
+        for read in (read_surface_image, read_in_sandbox):
             found = read(path)
             np.testing.assert_array_equal(found.values, values)
             assert found.values.dtype.isnative
@@ -758,7 +758,7 @@ def largest_pictures(folder):
 @pytest.mark.parametrize("make", [largest_maps, largest_pictures])
 def test_what_is_as_large_as_documented_is_read(tmp_path, make):
     for name in make(tmp_path):
-        assert read_untrusted(tmp_path / name).values.size > 10_000_000, name
+        assert read_in_sandbox(tmp_path / name).values.size > 10_000_000, name
 
 
 def test_what_is_larger_is_refused_with_the_limit_and_the_way_out(tmp_path):
@@ -779,7 +779,7 @@ def test_the_limit_that_was_met_is_named(tmp_path):
     Image.fromarray(np.tile(some_grey(500, 600), (8, 9))).save(path, compress_level=1)
     sentence = "large.png, but must be readable within 80 MB; cut out the part that matters"
     with pytest.raises(BadInput, match=sentence):
-        read_untrusted(path, memory=80_000_000)
+        read_in_sandbox(path, memory=80_000_000)
     module = "from stonepass.sandbox.worker import serve\n"
     module += "def parse(request):\n    while True: pass\n"
     (tmp_path / "endless.py").write_text(module + "serve(lambda request: None, parse)\n")
@@ -790,4 +790,4 @@ def test_the_limit_that_was_met_is_named(tmp_path):
             BadInput,
             match=r"read within 0.2 s of processor time \(reading it took longer\); cut out",
         ):
-            parse_in_child("endless", {}, Limits(seconds=0.2), "image", "a.png")
+            parse_in_sandbox("endless", {}, Limits(seconds=0.2), "image", "a.png")

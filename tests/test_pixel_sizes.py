@@ -19,8 +19,8 @@ from stonepass.surface.friction import surface_friction
 from stonepass.surface.height_maps import HEIGHT_MAPS
 from stonepass.surface.pixel_size import imagej_scan, jeol_scan, ome_scan
 from stonepass.surface.readers import read_surface_image
+from stonepass.surface.sandboxed import read_in_sandbox
 from stonepass.surface.surface_image import Area
-from stonepass.surface.untrusted import read_untrusted
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
@@ -41,7 +41,7 @@ def test_the_scale_of_fiji(tmp_path, unit):
     path = tmp_path / "fiji.tif"
     tifffile.imwrite(path, some_grey(), imagej=True, resolution=(per_unit, per_unit / 2),
                      metadata={"unit": unit})  # fmt: skip
-    for read in (read_surface_image, read_untrusted):
+    for read in (read_surface_image, read_in_sandbox):
         found = read(path)
         assert found.pixel == pytest.approx((2.5e-7, 5e-7), rel=1e-5)
         assert found.pixel_source == "ImageJ description"
@@ -88,7 +88,7 @@ def test_the_text_file_of_jeol_or_hitachi(tmp_path, text, pixel, bottom, source,
     path = tmp_path / "sem.tif"
     save_tiff(path, some_grey())
     (tmp_path / "sem.txt").write_bytes(text.encode(encoding))
-    for read in (read_surface_image, read_untrusted):
+    for read in (read_surface_image, read_in_sandbox):
         found = read(path)
         assert found.pixel == pytest.approx((pixel, pixel))
         assert found.pixel_source == source
@@ -127,7 +127,7 @@ def resized(tmp_path, kind):
 def test_a_resized_picture_says_so_and_what_to_do(tmp_path, kind):
     path = resized(tmp_path, kind)
     with pytest.raises(BadInput) as refused:
-        surface_friction(read_untrusted(path), "1 um")
+        surface_friction(read_in_sandbox(path), "1 um")
     told = str(refused.value)
     size, double = ("0.248", "0.4961") if kind.startswith("Hitachi") else ("0.25", "0.5")
     assert "pixel size is missing, but must be given as --pixel; the" in told
@@ -190,7 +190,7 @@ def test_x3p_as_other_programs_write_it(tmp_path, variant):
     sizes = (40 * MICRO, 24 * MICRO)
     Topography(heights().T * MICRO, sizes, unit="m").to_x3p(str(source))
     path = moved_x3p(tmp_path / "other.x3p", source, **variant)
-    for read in (read_surface_image, *([] if variant else [read_untrusted])):
+    for read in (read_surface_image, *([] if variant else [read_in_sandbox])):
         np.testing.assert_array_equal(read(path).values, read_surface_image(source).values)
 
 
@@ -210,7 +210,7 @@ def test_compressed_digital_surf(tmp_path, streams, comment):
     raw = bytearray(packed.read_bytes())
     raw[334:336] = struct.pack("<H", len(comment))
     packed.write_bytes(raw[:512] + comment + raw[512:])
-    for read in (read_surface_image, *([] if comment or streams > 1 else [read_untrusted])):
+    for read in (read_surface_image, *([] if comment or streams > 1 else [read_in_sandbox])):
         found = read(packed)
         np.testing.assert_array_equal(found.values, read_surface_image(plain).values)
         assert found.pixel == pytest.approx((MICRO, MICRO))

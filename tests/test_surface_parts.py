@@ -23,8 +23,8 @@ from stonepass.surface.levelling import fit_plane
 from stonepass.surface.lost_points import lost_points, without_lost_points
 from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along
 from stonepass.surface.readers import read_surface_image
+from stonepass.surface.sandboxed import read_in_sandbox
 from stonepass.surface.surface_image import Area, SurfaceImage
-from stonepass.surface.untrusted import read_untrusted
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
@@ -203,7 +203,7 @@ def test_colour_outside_the_area_is_no_matter(tmp_path):
     image.save(tmp_path / names[3])
     area = Area(0, 0, COLUMNS, ROWS)
     for name in names:
-        for read in (read_surface_image, read_untrusted):
+        for read in (read_surface_image, read_in_sandbox):
             found = read(tmp_path / name, area=area)
             np.testing.assert_array_equal(found.surface, surface())
             with pytest.raises(BadInput, match="within 0, 0, 360, 240, the part without colours"):

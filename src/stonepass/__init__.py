@@ -112,8 +112,8 @@ if TYPE_CHECKING:
     from stonepass.surface.friction_result import SurfaceFriction
     from stonepass.surface.paths import StraightPath
     from stonepass.surface.readers import read_surface_image
+    from stonepass.surface.sandboxed import read_in_sandbox
     from stonepass.surface.surface_image import SurfaceImage
-    from stonepass.surface.untrusted import read_untrusted
     from stonepass.units import Length, Pressure, length, pressure
 
 __version__ = VERSION
@@ -229,6 +229,7 @@ _HOME = {
     "push_through": "model.case_states",
     "raise_pressure": "studies.rising",
     "read_case": "inputs.case_file",
+    "read_in_sandbox": "surface.sandboxed",
     "read_inflation": "bench.test_files",
     "read_opening_curve": "inputs.opening_curve_file",
     "read_patient": "clinic.patient",
@@ -239,7 +240,6 @@ _HOME = {
     "read_surface_image": "surface.readers",
     "read_sweep": "studies.sweeps.sweep_file",
     "read_tension": "bench.test_files",
-    "read_untrusted": "surface.untrusted",
     "rising_record": "records.rising",
     "run_study": "studies.study",
     "save_surrogate": "studies.surrogates.store",
@@ -389,6 +389,7 @@ __all__ = [
     "push_through",
     "raise_pressure",
     "read_case",
+    "read_in_sandbox",
     "read_inflation",
     "read_opening_curve",
     "read_patient",
@@ -399,7 +400,6 @@ __all__ = [
     "read_surface_image",
     "read_sweep",
     "read_tension",
-    "read_untrusted",
     "rising_record",
     "run_study",
     "save_surrogate",

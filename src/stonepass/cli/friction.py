@@ -97,14 +97,14 @@ def command(
     scale = _height_range(height_range, crystal)
     lines = _paths(paths, path)
     from stonepass.surface.friction import surface_friction
+    from stonepass.surface.sandboxed import read_in_sandbox
     from stonepass.surface.surface_image import read_area
-    from stonepass.surface.untrusted import read_untrusted
     from stonepass.units import length
 
     size = None if pixel is None else length(pixel, "--pixel")
     part = None if area is None else read_area(area, "--area")
     with working("reading the image"):
-        picture = read_untrusted(image, area=part)
+        picture = read_in_sandbox(image, area=part)
         if size is not None:
             picture = picture.with_pixel(size)
         found = surface_friction(

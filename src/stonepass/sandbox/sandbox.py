@@ -1,8 +1,8 @@
 """Parsing of a file of unknown origin in a child process with limited memory and time.
 
 A task is a module that calls `worker.serve`; the child process runs it with ``python -m``. To run a
-parser in the sandbox, write such a module and pass its name to `parse_in_child`. The sandbox itself
-does not depend on the kind of file.
+parser in the sandbox, write such a module and pass its name to `parse_in_sandbox`. The sandbox
+itself does not depend on the kind of file.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from stonepass.errors import BadInput
 from stonepass.sandbox.protocol import Refusal
 
-__all__ = ["MEMORY", "SECONDS", "Limits", "parse_in_child"]
+__all__ = ["MEMORY", "SECONDS", "Limits", "parse_in_sandbox"]
 
 SECONDS = 6.0  # default limit of the processor time in s
 MEMORY = 1_000_000_000  # default limit of the data of the process in bytes, with its libraries
@@ -68,7 +68,7 @@ class _Answer(BaseModel):
     header: dict[str, Any] | None = None
 
 
-def parse_in_child(
+def parse_in_sandbox(
     task: str, request: Mapping[str, Any], limits: Limits, what: str, name: str
 ) -> tuple[dict[str, Any], bytes]:
     """Run a task in a child process and return the header and the body that it sends.

@@ -23,7 +23,7 @@ Parsed = tuple[dict[str, Any], memoryview]
 def serve(
     load: Callable[[Mapping[str, Any]], None], parse: Callable[[Mapping[str, Any]], Parsed]
 ) -> int:
-    """Serve one request of `sandbox.parse_in_child` on standard input and output.
+    """Serve one request of `sandbox.parse_in_sandbox` on standard input and output.
 
     The request is a line of JSON. The result is a line of JSON, followed by plain numbers.
 

@@ -1,7 +1,7 @@
 """Reader of micrographs (TIFF, PNG, JPEG) and of height maps of surface instruments.
 
 Sizes are checked from the header before anything is decoded. Files of unknown origin should be read
-by `untrusted.read_untrusted`, which works in a separate process with limits of time and memory.
+by `sandboxed.read_in_sandbox`, which works in a separate process with limits of time and memory.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from time import monotonic
 from typing import Any
 
 from stonepass.sandbox.sandbox import Limits as SandboxLimits
-from stonepass.sandbox.sandbox import parse_in_child
+from stonepass.sandbox.sandbox import parse_in_sandbox
 from stonepass.surface.surface_image import Area
 from stonepass.web.api_words import FILE, UPLOAD
 from stonepass.web.settings import Limits
@@ -118,7 +118,7 @@ def read_upload(kind: str, ending: str, content: bytes, area: Area | None = None
     limits = SandboxLimits(body=PREVIEW)
     with as_file(ending, content) as path:
         request = {"kind": kind, "path": str(path), "area": None if area is None else astuple(area)}
-        summary, preview = parse_in_child(TASK, request, limits, WHAT[kind], UPLOAD)
+        summary, preview = parse_in_sandbox(TASK, request, limits, WHAT[kind], UPLOAD)
     return Upload(identity, kind, ending, content, summary, area, preview)
 
 

@@ -11,18 +11,18 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from stonepass.errors import BadInput
 from stonepass.sandbox.protocol import Text
-from stonepass.sandbox.sandbox import MEMORY, SECONDS, Limits, parse_in_child
+from stonepass.sandbox.sandbox import MEMORY, SECONDS, Limits, parse_in_sandbox
 from stonepass.surface.file_name import short_name
 from stonepass.surface.limits import BODY, SIDE, check_file
 from stonepass.surface.surface_image import Area, SurfaceImage
 
-__all__ = ["read_untrusted"]
+__all__ = ["read_in_sandbox"]
 
 TASK = "stonepass.surface.worker"
 TYPES = {"uint8": 1, "uint16": 2, "float64": 8}  # bytes per value
 
 
-def read_untrusted(
+def read_in_sandbox(
     path: str | Path,
     seconds: float = SECONDS,
     memory: int = MEMORY,
@@ -63,7 +63,7 @@ def read_untrusted(
     limits = Limits(seconds, memory, body=BODY)
     request = {"path": str(path.resolve()), "area": None if area is None else astuple(area)}
     name = short_name(path)
-    header, body = parse_in_child(TASK, request, limits, "image", name)
+    header, body = parse_in_sandbox(TASK, request, limits, "image", name)
     try:
         return _picture(header, body)
     except ValidationError as problem:

@@ -234,14 +234,14 @@ def _show_map(
 
 def _spreads(found: list[ClosureComparison]) -> list[str]:
     """Return a line for each closure with the range of its errors in the cases it answers."""
-    from stonepass.studies.closures import CLOSURES
+    from stonepass.studies.closures import APPROXIMATE, CLOSURES
 
     lines = []
-    for name, text in CLOSURES.items():
+    for name in APPROXIMATE:
         errors = [error for each in found if (error := each.error(name)) is not None]
-        if name != "direct" and errors:
+        if errors:
             spread = f"{min(errors):+.1%} to {max(errors):+.1%} from the direct model"
-            lines.append(f"{text}: {spread} ({len(errors)} cases)")
+            lines.append(f"{CLOSURES[name]}: {spread} ({len(errors)} cases)")
     return lines
 
 

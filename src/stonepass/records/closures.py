@@ -9,14 +9,14 @@ from pydantic import Field
 
 from stonepass.io.csv_file import write_csv
 from stonepass.records.base import CautionRecord, Record, kilo, warning_records
-from stonepass.studies.closures import CLOSURES, ClosureComparison
+from stonepass.studies.closures import APPROXIMATE, CLOSURES, ClosureComparison
 
 __all__ = ["ClosuresRecord", "closures_record", "write_map"]
 
 COLUMNS = (
     "size_ratio", "wall_ratio", "friction", "aspect", "material", "outcome",
     *(f"{name}_pressure_kPa" for name in CLOSURES),
-    *(f"{name}_error" for name in CLOSURES if name != "direct"),
+    *(f"{name}_error" for name in APPROXIMATE),
 )  # fmt: skip
 
 
@@ -67,7 +67,7 @@ def closures_record(found: ClosureComparison) -> ClosuresRecord:
     """Make the record of a comparison of closures."""
     case, series = found.case, found.series
     pressures = {f"{name}_pressure_kPa": kilo(each) for name, each in found.pressures.items()}
-    errors = {f"{name}_error": found.error(name) for name in CLOSURES if name != "direct"}
+    errors = {f"{name}_error": found.error(name) for name in APPROXIMATE}
     return ClosuresRecord.model_validate(
         {
             "outcome": found.outcome.name,

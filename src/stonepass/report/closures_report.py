@@ -23,7 +23,7 @@ from stonepass.report.style import (
     series,
     tidy,
 )
-from stonepass.studies.closures import CLOSURES, ClosureComparison
+from stonepass.studies.closures import APPROXIMATE, CLOSURES, EXACT, ClosureComparison
 
 __all__ = ["closures_figure", "closures_table", "map_figure"]
 
@@ -41,7 +41,7 @@ def closures_table(found: ClosureComparison) -> Table:
         table.add_column(name, justify="left" if name == "closure" else "right")
     for name, text in CLOSURES.items():
         pressure, error = found.pressures[name], found.error(name)
-        shown = "–" if error is None or name == "direct" else f"{error:+.1%}"
+        shown = "–" if error is None or name == EXACT else f"{error:+.1%}"
         table.add_row(text, "–" if pressure is None else f"{pressure / 1e3:.4g}", shown)
     return table
 
@@ -84,7 +84,7 @@ def closures_figure(found: ClosureComparison) -> Figure:
 def map_figure(found: Sequence[ClosureComparison]) -> Figure:
     """Draw the error of each closure over ξ: a panel for each η, a shade for each friction."""
     walls = sorted({each.case.wall_ratio for each in found})
-    names = [name for name in CLOSURES if name != "direct"]
+    names = list(APPROXIMATE)
     figure = new_figure(3.1 * len(walls) + 0.6, 2.2 * len(names) + 1.2)
     rows = figure.subfigures(len(names), 1, squeeze=False)[:, 0]
     for name, row in zip(names, rows, strict=True):

@@ -18,7 +18,7 @@ from stonepass.report.fit_figure import draw_fit
 from stonepass.report.friction_figure import draw_baseline
 from stonepass.report.sensitivity_figure import draw_tornado, explain_tornado
 from stonepass.report.style import COLOURS, tidy
-from stonepass.studies.closures import CLOSURES, ClosureComparison
+from stonepass.studies.closures import CLOSURES, EXACT, ClosureComparison
 from stonepass.studies.curve import CriticalCurve
 from stonepass.studies.rising import Rising
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
@@ -78,7 +78,7 @@ def plot_closures(found: ClosureComparison, axes: Axes) -> None:
         raise BadInput("plot", found.outcome.name, "asked for where a closure has a pressure")
     pressures = [(found.pressures[name] or 0.0) / 1e3 for name in names]
     axes.barh(names, pressures, color=COLOURS["blue"], height=0.6)
-    direct = found.pressures["direct"]
+    direct = found.pressures[EXACT]
     if direct is not None:
         axes.axvline(direct / 1e3, color=COLOURS["orange"], linestyle="--", label="direct model")
         axes.legend()

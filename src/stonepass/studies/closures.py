@@ -29,7 +29,9 @@ from stonepass.studies.jobs import Results, state_solver
 from stonepass.units import Pressure
 
 __all__ = [
+    "APPROXIMATE",
     "CLOSURES",
+    "EXACT",
     "ClosureComparison",
     "ClosureJob",
     "ClosureMap",
@@ -45,6 +47,8 @@ CLOSURES = {
     "energy": "energy: I(P) = D",
     "direct": "direct push-through",
 }
+EXACT = "direct"  # the others are compared with this one
+APPROXIMATE = tuple(name for name in CLOSURES if name != EXACT)
 SERIES_ORDER = 3  # default order of the fitted series
 # D is computed at two pressures, which differ from the direct answer by ± this fraction of it.
 NEAR = 0.03
@@ -103,7 +107,7 @@ class ClosureComparison(Result):
 
         It is None if one of both pressures does not exist.
         """
-        found, direct = self.pressures[name], self.pressures["direct"]
+        found, direct = self.pressures[name], self.pressures[EXACT]
         return None if found is None or not direct else found / direct - 1.0
 
 
@@ -150,7 +154,7 @@ def closures(
     paper = solve(replace(case, model=seated), resolution, states)
     direct = solve(replace(case, model=PushThrough(wetted)), resolution, states)
     pressures: dict[str, float | None] = dict.fromkeys(CLOSURES)
-    pressures |= {"derived": paper.pressure, "direct": direct.pressure}
+    pressures |= {"derived": paper.pressure, EXACT: direct.pressure}
     pressures["energy"] = _by_energy(direct, states, wetted=wetted)
     lost = caution("no_closed_answer", outcome=paper.outcome.name, message=paper.message)
     warnings = _once(

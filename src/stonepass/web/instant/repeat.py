@@ -12,6 +12,7 @@ from typing import Any
 import tomli_w
 
 from stonepass.inputs.case_file import values_of
+from stonepass.inputs.catalogue import MODEL, all_inputs
 from stonepass.inputs.command_options import command_options
 from stonepass.model.case import Case
 from stonepass.studies.surrogates.surrogate import Surrogate
@@ -20,6 +21,7 @@ from stonepass.web.instant.question import InstantQuestion
 __all__ = ["case_file_text", "repeat"]
 
 CASE_FILE = "case.toml"
+DEFAULT_MODEL = all_inputs()[MODEL].default
 TOKEN = "STONEPASS_TOKEN"  # variable of the environment from which curl takes the token
 
 
@@ -93,7 +95,7 @@ def _command(question: InstantQuestion, surrogate: Surrogate) -> str:
     }
     words = ["stonepass", "surrogate", "evaluate", surrogate.case.ureter.material.name]
     model = surrogate.case.model.NAME
-    if model != "paper":
+    if model != DEFAULT_MODEL:
         words += ["--model", model]
     for name, value in _arguments(question).items():
         text = f"{value:.12g}Pa" if name == "confining_pressure" else f"{value:.12g}"
@@ -103,7 +105,7 @@ def _command(question: InstantQuestion, surrogate: Surrogate) -> str:
 
 def _python(question: InstantQuestion, surrogate: Surrogate) -> str:
     name, model = surrogate.case.ureter.material.name, surrogate.case.model.NAME
-    loaded = f'"{name}"' if model == "paper" else f'"{name}", "{model}"'
+    loaded = f'"{name}"' if model == DEFAULT_MODEL else f'"{name}", "{model}"'
     given = ", ".join(f"{key}={value:.12g}" for key, value in _arguments(question).items())
     return (
         "import stonepass as sp\n\n"

@@ -13,7 +13,7 @@ import numpy as np
 from stonepass.array_types import Bool, Float, Num
 from stonepass.surface.surface_image import Area
 
-__all__ = ["BRIDGED", "bridge", "bridgeable", "gap_length", "known_area"]
+__all__ = ["BRIDGED", "MISSING", "bridge", "bridgeable", "gap_length", "known_area"]
 
 # Longest gap that is bridged, divided by the shortest wavelength of the second baseline.
 BRIDGED = 0.25

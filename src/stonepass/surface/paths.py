@@ -13,7 +13,7 @@ from stonepass.array_types import Bool, Float, Num
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
 from stonepass.surface.analysis import PATH_COUNT
-from stonepass.surface.gaps import bridge, bridgeable, gap_length, known_area
+from stonepass.surface.gaps import MISSING, bridge, bridgeable, gap_length, known_area
 from stonepass.surface.surface_image import Area, SurfaceImage
 
 __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path", "rows_moved"]
@@ -200,8 +200,8 @@ def _too_many_gaps(picture: SurfaceImage, count: int, longest_gap: float) -> Bad
     missing = float(np.mean(~np.isfinite(picture.surface)))
     width = picture.area.right - picture.area.left
     allowed = (
-        f"such that {count} rows have heights at both ends and gaps of at most "
-        f"{int(longest_gap * width)} pixels between"
+        f"such that {count} rows have heights at both ends, gaps of at most "
+        f"{int(longest_gap * width)} pixels between, and at most {MISSING:.0%} missing"
     )
     remedy = "give paths that avoid the gaps with --path"
     part = known_area(picture.values, picture.area)

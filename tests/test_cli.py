@@ -783,7 +783,11 @@ def test_headline(cli, tmp_path, monkeypatch):
     monkeypatch.setattr("stonepass.paper.headline.SIZE_RATIOS", (1.0, 1.2))
     monkeypatch.setattr(
         "stonepass.paper.headline.ureter_case",
-        lambda *given: replace(ureter_case(*given), numerics=stonepass.Numerics("fast")),
+        lambda *given: replace(
+            ureter_case(*given),
+            model=stonepass.SeatedBalance("frictionless"),
+            numerics=stonepass.Numerics("fast", 4.0),
+        ),
     )
     figure = tmp_path / "h.svg"
     code, out, err = cli("headline", "--figure", figure, "--workers", 1)

@@ -130,7 +130,8 @@ def test_closures_and_push_at_the_door(tmp_path, capsys):
     assert (tmp_path / "c.svg").read_text(encoding="utf-8").startswith("<?xml")
     rows, gif, csv_file = tmp_path / "m.csv", tmp_path / "p.gif", tmp_path / "p.csv"
     assert run(["closures", "--map", "1.1:1.1:0.1", "--map-eta", "1.5,2", "--map-friction", "0.3",
-                "--material", "latex", "--accuracy", "fast", "--out", str(rows),
+                "--material", "latex", "--accuracy", "fast", "--half-length", "4",
+                "--seating", "frictionless", "--out", str(rows),
                 "--figure", str(tmp_path / "m.png")]) == 0  # fmt: skip
     assert "energy: I(P) = D: " in capsys.readouterr().out
     with rows.open(encoding="utf-8") as file:
@@ -151,7 +152,7 @@ def test_closures_and_push_at_the_door(tmp_path, capsys):
     assert run(["closures", *stone, "--order", "9"]) == 2
     assert "order is 9, but must be 1 to 8" in capsys.readouterr().err
     assert run(["push", *stone, "--steps", "1"]) == 2
-    assert "steps is 1, but must be 2 to 200" in capsys.readouterr().err
+    assert "steps is 1, but must be a whole number from 2 to 200" in capsys.readouterr().err
     assert run(["push", *stone, "--to", "0kPa"]) == 2
     assert "highest pressure is 0 Pa, but must be above zero" in capsys.readouterr().err
 

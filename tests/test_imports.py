@@ -146,7 +146,7 @@ LATE_LIBRARIES = {
     "autograd.numpy": ("inputs.material_file", "materials.derivatives", "materials.secant"),
     "scipy.interpolate": ("fe.axisymmetric.slip",),
     "scipy.special": ("materials.fung",),
-    "scipy.ndimage": ("surface.grey_scale", "surface.lost_points"),
+    "scipy.ndimage": ("surface.drawn_bar", "surface.grey_scale", "surface.lost_points"),
     "scipy.stats": (
         "studies.surrogates.box",
         "studies.sweeps.sampling",
@@ -164,8 +164,8 @@ LATE_OWN = {
     "studies.solution_cache": ("studies.serialisation",),
     "export.api": ("model.critical",),
     "export.checks": ("materials.known_laws",),
-    "export.writers.inp": ("export.",),
-    "export.writers.feb": ("export.",),
+    "export.writers.inp": ("export.", "materials.known_laws"),
+    "export.writers.feb": ("export.", "materials.known_laws"),
     "export.writers.vtu": ("export.", "model.", "units"),
 }
 

@@ -522,6 +522,6 @@ def test_cases_of_a_check_are_never_used_to_build():
     assert len(used.size_ratio) == 3000
     reserved = domain.box.sample(case, domain.stable, 4096 - 1024, first=1024)
     assert not set(used.size_ratio) & set(reserved.size_ratio)
-    assert set(domain.candidates(case).size_ratio) <= set(reserved.size_ratio[1024:])
+    assert set(domain.candidates(case, 2048).size_ratio) <= set(reserved.size_ratio[1024:])
     checked = domain.box.sample(case, domain.stable, MOST, HELD_OUT)
-    assert not set(domain.candidates(case).size_ratio) & set(checked.size_ratio)
+    assert not set(domain.candidates(case, 2048).size_ratio) & set(checked.size_ratio)

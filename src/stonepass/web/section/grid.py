@@ -223,7 +223,7 @@ def _place(nodes: Float[np.ndarray, " n"], at: float) -> tuple[int, float]:
     return k, float(np.clip((at - nodes[k]) / (nodes[k + 1] - nodes[k]), 0.0, 1.0))
 
 
-def _interpolated(values: np.ndarray, places: tuple[tuple[int, float], ...]) -> np.ndarray:
+def _interpolated(values: Any, places: tuple[tuple[int, float], ...]) -> Any:
     """Interpolate linearly along the first axes; `places` are intervals and places in them."""
     for k, at in places:
         values = (1.0 - at) * values[k] + at * values[k + 1]

@@ -83,13 +83,7 @@ def balance_pressure(
 ) -> float | None:
     """Return the critical pressure P_ucr of a seated stone for a given closure.
 
-    Parameters
-    ----------
-    contact : Contact
-        The seated contact, pressures in Pa.
-    closure : Closure
-    as_printed : bool
-        True to use the sign of Eq. 5 as it is printed.
+    For the parameters see `critical_state`.
 
     Returns
     -------

@@ -2,7 +2,7 @@
 
 import json
 import math
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from stonepass.inputs.build import build_case
 from stonepass.inputs.case_record import describe, fingerprint
 from stonepass.inputs.catalogue import all_inputs, models_with, option_of, sections
 from stonepass.inputs.schema import case_schema
+from stonepass.materials.composition import Composed
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
 from stonepass.model.load import Load
@@ -281,3 +282,18 @@ def test_every_declared_input_is_in_the_canonical_record():
         case = build_case(values)
         prints[key] = fingerprint(case, case.model, case.numerics)
     assert len(set(prints.values())) == len(prints), prints
+
+
+def test_laws_inside_a_law_are_told_apart_by_the_record():
+    """Two laws with the same constants and different names, each beside the same fibres."""
+
+    @dataclass(frozen=True)
+    class Other(NeoHookean):
+        pass
+
+    prints = set()
+    for matrix in (NeoHookean(5e3), Other(5e3), NeoHookean(6e3)):
+        wall = sp.Material("m", Composed(NeoHookean(1e5), matrix), "", "", "", (1.0, 1.5))
+        case = sp.Case(Stone(size_ratio=1.2), Ureter(wall_ratio=1.5, material=wall))
+        prints.add(fingerprint(case, case.model, case.numerics))
+    assert len(prints) == 3

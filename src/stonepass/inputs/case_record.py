@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import asdict, is_dataclass
+from dataclasses import fields, is_dataclass
 from typing import Any
 
 from stonepass.declaration import inputs_of
@@ -74,13 +74,24 @@ def describe_material(material: Material) -> dict[str, Any]:
     A user's function is described by its name only.
     """
     law = material.law
-    constants: dict[str, Any] = asdict(law) if is_dataclass(law) else {}
+    constants: dict[str, Any] = _constants(law) if is_dataclass(law) else {}
     constants.pop("function", None)
     return {
         "name": material.name,
         "law": type(law).__name__,
         "constants": constants,
         "strain_range": list(material.strain_range),
+    }
+
+
+def _constants(law: Any) -> dict[str, Any]:
+    """Return the constants of a law; a law inside it is described by its type and constants."""
+    found = {each.name: getattr(law, each.name) for each in fields(law)}
+    return {
+        name: {"law": type(value).__name__, "constants": _constants(value)}
+        if is_dataclass(value)
+        else value
+        for name, value in found.items()
     }
 
 

@@ -10,7 +10,8 @@ import typer
 
 from stonepass.about import DISCLAIMER
 from stonepass.cli.help import OUTPUT, QUESTION, SOLVER, epilog
-from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
+from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder, option_for
+from stonepass.model.pressure_limit import PRESSURE_LIMIT
 
 if TYPE_CHECKING:
     from stonepass.clinic.patient import Patient
@@ -47,11 +48,10 @@ def command(
     ],
     limit: Annotated[
         str | None,
-        typer.Option(
-            "--limit",
-            metavar="PRESSURE",
-            help="Maximum tolerable urine pressure instead of that of the file, e.g. 6kPa.",
-            rich_help_panel=QUESTION,
+        option_for(
+            PRESSURE_LIMIT,
+            QUESTION,
+            meaning="Maximum tolerable urine pressure instead of that of the file, e.g. 6kPa.",
         ),
     ] = None,
     json: Json = False,

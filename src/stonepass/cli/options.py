@@ -276,7 +276,9 @@ def model_input(models: Collection[str]) -> DeclaredInput:
     return replace(each, declaration=replace(each.declaration, choices=names, meaning=meaning))
 
 
-def option_for(each: DeclaredInput, panel: str, *, default: str | None = None) -> OptionInfo:
+def option_for(
+    each: DeclaredInput, panel: str, *, meaning: str = "", default: str | None = None
+) -> OptionInfo:
     """Return the option of a declared input, for an annotation ``Annotated[type | None, …]``.
 
     Parameters
@@ -284,6 +286,8 @@ def option_for(each: DeclaredInput, panel: str, *, default: str | None = None) -
     each : DeclaredInput
     panel : str
         Panel of the help.
+    meaning : str
+        Help text of a command that needs another one than that of the declaration.
     default : str, optional
         The default in words, instead of that of the declaration; "" if there is none.
     """
@@ -296,9 +300,9 @@ def option_for(each: DeclaredInput, panel: str, *, default: str | None = None) -
         notes.insert(0, "{:g} to {:g}".format(*declaration.bounds))
     metavar = declaration.metavar or "|".join(declaration.choices)
     found: OptionInfo = typer.Option(
-        *declaration.option.split(" "),
+        declaration.option,
         metavar=metavar or _METAVARS.get(declaration.kind),
-        help=declaration.meaning + (f"  [{'; '.join(notes)}]" if notes else ""),
+        help=(meaning or declaration.meaning) + (f"  [{'; '.join(notes)}]" if notes else ""),
         rich_help_panel=panel,
         autocompletion=_completion(each),
         show_default=False,

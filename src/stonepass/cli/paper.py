@@ -9,7 +9,8 @@ import typer
 
 from stonepass.about import DISCLAIMER
 from stonepass.cli.help import OUTPUT, QUESTION, epilog
-from stonepass.cli.options import Cache, NoCache, Workers, cache_folder
+from stonepass.cli.options import Cache, NoCache, Workers, cache_folder, option_for
+from stonepass.model.pressure_limit import PRESSURE_LIMIT
 
 __all__ = ["EPILOG", "command"]
 
@@ -43,12 +44,7 @@ def command(
     ] = Path("paper"),
     limit: Annotated[
         str,
-        typer.Option(
-            "--limit",
-            metavar="PRESSURE",
-            help="Maximum tolerable urine pressure.",
-            rich_help_panel=QUESTION,
-        ),
+        option_for(PRESSURE_LIMIT, QUESTION, default="12kPa"),
     ] = "12kPa",
     points: Annotated[
         Path | None,

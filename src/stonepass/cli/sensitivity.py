@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stonepass.cli.help import OUTPUT, QUESTION, SOLVER, epilog
-from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder
+from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder, option_for
 from stonepass.errors import BadInput
+from stonepass.model.pressure_limit import PRESSURE_LIMIT
 
 if TYPE_CHECKING:
     from stonepass.studies.sensitivity.study import SensitivityStudy
@@ -55,11 +56,8 @@ def command(
     ] = None,
     limit: Annotated[
         str | None,
-        typer.Option(
-            "--limit",
-            metavar="PRESSURE",
-            help="Pressure limit, e.g. 12kPa; adds the critical size.",
-            rich_help_panel=QUESTION,
+        option_for(
+            PRESSURE_LIMIT, QUESTION, meaning="Pressure limit, e.g. 12kPa; adds the critical size."
         ),
     ] = None,
     samples: Annotated[

@@ -5,8 +5,6 @@ from __future__ import annotations
 import time
 from typing import Annotated
 
-import typer
-
 from stonepass.cli.help import QUESTION, epilog
 from stonepass.cli.options import (
     STONE_SIZE,
@@ -15,9 +13,11 @@ from stonepass.cli.options import (
     NoCache,
     Settings,
     cache_folder,
+    option_for,
     takes_settings,
 )
 from stonepass.errors import BadInput
+from stonepass.model.pressure_limit import PRESSURE_LIMIT
 
 __all__ = ["EPILOG", "command"]
 
@@ -40,12 +40,7 @@ def command(
     settings: Settings,
     limit: Annotated[
         str,
-        typer.Option(
-            "--limit",
-            metavar="PRESSURE",
-            help="Maximum tolerable urine pressure, e.g. 12kPa.",
-            rich_help_panel=QUESTION,
-        ),
+        option_for(PRESSURE_LIMIT, QUESTION),
     ],
     json: Json = False,
     cache: Cache = None,

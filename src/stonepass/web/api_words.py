@@ -32,6 +32,5 @@ def in_api_words(problem: BadInput) -> BadInput:
         value = UPLOAD
     elif isinstance(value, str):
         value = api_words(value)
-    words = (api_words(each) for each in (problem.argument, problem.allowed, problem.remedy))
-    argument, allowed, remedy = words
+    argument, allowed, remedy = map(api_words, (problem.argument, problem.allowed, problem.remedy))
     return type(problem)(argument, value, allowed, remedy)

@@ -17,7 +17,7 @@ help: ## list the commands
 run: $(VENV)/.run ## compute the paper's headline: table here, figure in headline.svg
 	$(BIN)/stonepass headline
 
-test: $(VENV)/.dev ## run the fast tests: every command, contract and identity, in four to five minutes on two cores
+test: $(VENV)/.dev ## run the fast tests: every command, contract and identity, in about five minutes on two cores
 	$(BIN)/pytest -n auto --dist worksteal -m "not slow"
 
 test-slow: $(VENV)/.dev ## run the tests that `make test` leaves out: fuzzing, other programs

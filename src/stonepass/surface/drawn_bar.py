@@ -35,14 +35,15 @@ def drawn_bar(values: Num[np.ndarray, "rows columns"], full_scale: int) -> Area 
 
     tolerance = ALIKE * (full_scale // 255)
     found: list[tuple[int, Area]] = []
-    for extreme in (int(values.min()), int(values.max())):
-        near = np.abs(values.astype(np.int32) - extreme) <= tolerance
+    darkest, brightest = int(values.min()) + tolerance, int(values.max()) - tolerance
+    for near in (values <= darkest, values >= brightest):
         marked, _ = label(near)
-        counts = np.bincount(marked.ravel())
-        for number, (rows, columns) in enumerate(find_objects(marked), start=1):
+        counts, places = np.bincount(marked.ravel()), find_objects(marked)
+        for number in np.flatnonzero(counts[1:] >= FEWEST) + 1:  # 0 is all that is not near
+            rows, columns = places[number - 1]
             tall, wide = rows.stop - rows.start, columns.stop - columns.start
             long, short = max(tall, wide), min(tall, wide)
-            filled = counts[number] >= max(FEWEST, FILLED * tall * wide)
+            filled = counts[number] >= FILLED * tall * wide
             # A bar from side to side is a data bar or a border, which are found elsewhere.
             inside = tall < len(values) and wide < values.shape[1]
             if filled and inside and short >= THINNEST and long >= OBLONG * short:

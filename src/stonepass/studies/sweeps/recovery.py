@@ -9,7 +9,7 @@ from pathlib import Path
 from stonepass.studies.sweeps.ledger import Entry, Ledger
 from stonepass.studies.sweeps.shards import FOLDER, digest_of
 
-__all__ = ["complete", "sound"]
+__all__ = ["complete", "flaw_of", "sound"]
 
 
 def sound(ledger: Ledger) -> tuple[Ledger, list[Entry]]:
@@ -35,7 +35,15 @@ def sound(ledger: Ledger) -> tuple[Ledger, list[Entry]]:
 
 def complete(folder: Path, entry: Entry) -> bool:
     """Return True if the shard of a block exists and has the digest that the ledger states."""
+    return not flaw_of(folder, entry)
+
+
+def flaw_of(folder: Path, entry: Entry) -> str:
+    """Return what is wrong with the shard of a block, as a clause; empty if it is complete."""
     try:
-        return digest_of((folder / entry.shard).read_bytes()) == entry.digest
+        content = (folder / entry.shard).read_bytes()
     except OSError:
-        return False
+        return f"'{entry.shard}' cannot be read"
+    if len(content) != entry.size:
+        return f"'{entry.shard}' has {len(content)} of {entry.size} bytes"
+    return "" if digest_of(content) == entry.digest else f"bytes of '{entry.shard}' have changed"

@@ -15,7 +15,8 @@ from stonepass.result import Result
 from stonepass.studies.sweeps.case_rows import COLUMNS
 from stonepass.studies.sweeps.ledger import Ledger, read_ledger
 from stonepass.studies.sweeps.points_file import EXTRA
-from stonepass.studies.sweeps.shards import READ, arrow_type, digest_of
+from stonepass.studies.sweeps.recovery import flaw_of
+from stonepass.studies.sweeps.shards import READ, arrow_type
 from stonepass.studies.sweeps.tables import labelled, write_csv_table, write_parquet_table
 
 __all__ = ["TABLES", "SweepResults", "read_results"]
@@ -212,19 +213,11 @@ class SweepResults(Result):
     @cached_property
     def _paths(self) -> list[str]:
         """Paths of all shards, whose digests are checked once, when rows are first read."""
-        found = []
         for each in self.ledger.entries:
-            path = self.folder / each.shard
-            try:
-                content = path.read_bytes()
-            except OSError:
-                raise self._damaged(f"'{each.shard}' cannot be read") from None
-            if len(content) != each.size:
-                raise self._damaged(f"'{each.shard}' has {len(content)} of {each.size} bytes")
-            if digest_of(content) != each.digest:
-                raise self._damaged(f"bytes of '{each.shard}' have changed")
-            found.append(str(path))
-        return found
+            flaw = flaw_of(self.folder, each)
+            if flaw:
+                raise self._damaged(flaw)
+        return [str(self.folder / each.shard) for each in self.ledger.entries]
 
     def _damaged(self, what: str) -> StonepassError:
         return StonepassError(

@@ -7,7 +7,6 @@ import base64
 import json
 from collections import OrderedDict, deque
 from contextlib import ExitStack, suppress
-from dataclasses import astuple
 from typing import Any
 
 from stonepass.web.answers import problem_document
@@ -165,9 +164,7 @@ class JobBook:
             with ExitStack() as files:
                 if job.upload is not None:  # the file exists only while it is read
                     file = files.enter_context(as_file(job.upload.ending, job.upload.content))
-                    area = job.upload.area
-                    request["file"] = str(file)
-                    request["area"] = None if area is None else astuple(area)
+                    request |= {"file": str(file), "area": job.upload.area}
                 async with asyncio.timeout(limits.job_seconds):
                     message = await process.run(request, lambda told: job.change(progress=told))
         except TimeoutError:

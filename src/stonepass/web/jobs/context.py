@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-from stonepass.surface.surface_image import Area
 
 __all__ = ["Context", "Done"]
 
@@ -26,8 +24,8 @@ class Context:
         Folder of the solution cache.
     file : Path or None
         The uploaded file, under a name of the server.
-    area : Area or None
-        Part of the uploaded image that was chosen when it was uploaded.
+    area : sequence of 4 int, or None
+        Part of the uploaded image that was chosen when it was uploaded, see `Area`.
     format : str
         Format of the report to print, ``html`` or ``pdf``; empty for no report.
     """
@@ -35,7 +33,7 @@ class Context:
     tell: Tell
     cache_folder: Path | None = None
     file: Path | None = None
-    area: Area | None = None
+    area: Sequence[int] | None = None
     format: str = ""
 
 

@@ -24,7 +24,6 @@ from pydantic import ValidationError
 from stonepass.errors import BadInput, lacks_memory
 from stonepass.inputs.build import in_words
 from stonepass.sandbox.worker import lift_memory_limit, limit_memory
-from stonepass.surface.surface_image import Area
 from stonepass.web.api_words import in_api_words
 from stonepass.web.jobs.context import Context, Done
 from stonepass.web.problem_fields import field_of
@@ -68,12 +67,11 @@ def _answer(request: Mapping[str, Any], writing: IO[bytes]) -> dict[str, Any]:
     folder, file = (
         None if request[key] is None else Path(request[key]) for key in ("cache_folder", "file")
     )
-    area = None if request["area"] is None else Area(*request["area"])
     limit_memory(request["memory"])
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # an answer has warnings of its own
-            done = _run(request, Context(tell, folder, file, area, request["format"]))
+            done = _run(request, Context(tell, folder, file, request["area"], request["format"]))
             return {"result": done.result, "report": _report(done.page, request["format"])}
     except BadInput as problem:
         return {"refused": _refusal(problem)}

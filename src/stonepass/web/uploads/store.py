@@ -40,7 +40,7 @@ class Upload:
     content : bytes
     summary : dict
         Description of the content of the file.
-    area : Area or None
+    area : tuple of 4 int, or None
         Part of the picture that belongs to the surface, as the client gave it.
     preview : bytes
         The picture as PNG; empty for a table.
@@ -53,7 +53,7 @@ class Upload:
     ending: str
     content: bytes = field(repr=False)
     summary: dict[str, Any]
-    area: Area | None = None
+    area: tuple[int, ...] | None = None
     preview: bytes = field(default=b"", repr=False)
     used: float = field(default_factory=monotonic)
 
@@ -115,11 +115,12 @@ def read_upload(kind: str, ending: str, content: bytes, area: Area | None = None
     """
     about = (kind.encode(), ending.encode(), str(area or "").encode(), content)
     identity = hashlib.sha256(b"\0".join(about)).hexdigest()
+    numbers = None if area is None else astuple(area)
     limits = SandboxLimits(body=PREVIEW)
     with as_file(ending, content) as path:
-        request = {"kind": kind, "path": str(path), "area": None if area is None else astuple(area)}
+        request = {"kind": kind, "path": str(path), "area": numbers}
         summary, preview = parse_in_sandbox(TASK, request, limits, WHAT[kind], UPLOAD)
-    return Upload(identity, kind, ending, content, summary, area, preview)
+    return Upload(identity, kind, ending, content, summary, numbers, preview)
 
 
 @contextmanager

@@ -74,7 +74,8 @@ def _friction(request: Mapping[str, Any], context: Context) -> Done:
     body = FrictionJob.model_validate(request)
     assert context.file is not None
     context.tell(0, 0, "Reading the picture.")
-    area = context.area if body.area is None else Area(*body.area)
+    numbers = context.area if body.area is None else body.area
+    area = None if numbers is None else Area(*numbers)
     picture = read_in_sandbox(context.file, area=area)
     if body.pixel is not None:
         picture = picture.with_pixel(length(body.pixel, "pixel"))

@@ -24,6 +24,7 @@ __all__ = [
     "check_inputs",
     "declared",
     "described",
+    "free_input",
     "inputs_of",
     "read_declared",
     "set_inputs",
@@ -138,6 +139,25 @@ def declared(kind: Kind, option: str, meaning: str, *, default: Any = MISSING, *
     return field(metadata=metadata) if default is MISSING else field(
         default=default, metadata=metadata
     )  # fmt: skip
+
+
+def free_input(
+    name: str, kind: Kind, option: str, meaning: str, *, default: Any = None, **more: Any
+) -> DeclaredInput:
+    """Declare an input that belongs to no section of a case file.
+
+    Parameters
+    ----------
+    name : str
+        Key of the input.
+    kind, option, meaning
+        See `Input`.
+    default : object
+        Default value.
+    **more
+        Further attributes of `Input`.
+    """
+    return DeclaredInput("", name, default, Input(kind, option, meaning, **more))
 
 
 def inputs_of(owner: type) -> dict[str, DeclaredInput]:

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from stonepass.declaration import DeclaredInput, Input, Kind, read_declared
+from stonepass.declaration import Kind, free_input, read_declared
 from stonepass.units import Pressure, Quantity
 
 __all__ = ["PRESSURE_LIMIT", "read_limit"]
 
-PRESSURE_LIMIT = DeclaredInput(
-    "",
+PRESSURE_LIMIT = free_input(
     "limit",
-    None,
-    Input(
-        Kind.PRESSURE,
-        "--limit",
-        "Maximum tolerable urine pressure, e.g. 12kPa.",
-        bounds=(1.0, 1e6),
-        metavar="PRESSURE",
-    ),
+    Kind.PRESSURE,
+    "--limit",
+    "Maximum tolerable urine pressure, e.g. 12kPa.",
+    bounds=(1.0, 1e6),
+    metavar="PRESSURE",
 )
 
 

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from stonepass.declaration import DeclaredInput, Input, Kind
+from stonepass.declaration import Kind, free_input
 
 __all__ = ["HIGHEST", "STEPS"]
 
-STEPS = DeclaredInput(
-    "",
+STEPS = free_input(
     "steps",
-    13,
-    Input(Kind.WHOLE, "--steps", "Number of urine pressures, including 0.", bounds=(2, 200)),
+    Kind.WHOLE,
+    "--steps",
+    "Number of urine pressures, including 0.",
+    default=13,
+    bounds=(2, 200),
 )
-HIGHEST = DeclaredInput(
-    "",
+HIGHEST = free_input(
     "to",
-    None,
-    Input(
-        Kind.PRESSURE,
-        "--to",
-        "Highest urine pressure.",
-        shown_default="the critical pressure",
-        metavar="PRESSURE",
-    ),
+    Kind.PRESSURE,
+    "--to",
+    "Highest urine pressure.",
+    shown_default="the critical pressure",
+    metavar="PRESSURE",
 )

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from stonepass.declaration import DeclaredInput, Input, Kind
+from stonepass.declaration import Kind, free_input
 
 __all__ = ["STIFFNESS", "STIFFNESS_BOUNDS"]
 
 STIFFNESS_BOUNDS = (0.05, 20.0)
-STIFFNESS = DeclaredInput(
-    "",
+STIFFNESS = free_input(
     "stiffness",
-    1.0,
-    Input(
-        Kind.NUMBER,
-        "--stiffness",
-        "Factor on all moduli of the material.",
-        title="stiffness",
-        bounds=STIFFNESS_BOUNDS,
-    ),
+    Kind.NUMBER,
+    "--stiffness",
+    "Factor on all moduli of the material.",
+    default=1.0,
+    title="stiffness",
+    bounds=STIFFNESS_BOUNDS,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from stonepass.declaration import DeclaredInput, Input, Kind, check_inputs, declared
+from stonepass.declaration import Kind, check_inputs, declared, free_input
 from stonepass.errors import require
 
 __all__ = [
@@ -24,53 +24,37 @@ PATH_COUNT = (1, 100)  # smallest and largest number of paths
 MARGIN = 0.5
 ORDER = (1, 200)  # smallest and largest order of a baseline
 RICHER = 2  # default ratio of the orders of the second and the first baseline
-PIXEL_SIZE = DeclaredInput(
-    "",
+PIXEL_SIZE = free_input(
     "pixel",
-    None,
-    Input(
-        Kind.LENGTH,
-        "--pixel",
-        "Size of a pixel of a picture, instead of that in the file, e.g. 0.5um.",
-        metavar="LENGTH",
-    ),
+    Kind.LENGTH,
+    "--pixel",
+    "Size of a pixel of a picture, instead of that in the file, e.g. 0.5um.",
+    metavar="LENGTH",
 )
-HEIGHT_RANGE = DeclaredInput(
-    "",
+HEIGHT_RANGE = free_input(
     "height_range",
-    None,
-    Input(
-        Kind.LENGTH,
-        "--height-range",
-        "Difference in height from black to white, e.g. 35um.",
-        title="height range",
-        bounds=(1e-9, 1e-2),
-        metavar="LENGTH",
-    ),
+    Kind.LENGTH,
+    "--height-range",
+    "Difference in height from black to white, e.g. 35um.",
+    title="height range",
+    bounds=(1e-9, 1e-2),
+    metavar="LENGTH",
 )
-CRYSTAL = DeclaredInput(
-    "",
+CRYSTAL = free_input(
     "crystal",
-    None,
-    Input(
-        Kind.LENGTH,
-        "--crystal",
-        "Edge of the cubic crystals on the surface; the height range is then sqrt(3) times the "
-        "edge.",
-        bounds=(1e-9, 5e-3),
-        metavar="LENGTH",
-    ),
+    Kind.LENGTH,
+    "--crystal",
+    "Edge of the cubic crystals on the surface; the height range is then sqrt(3) times the edge.",
+    bounds=(1e-9, 5e-3),
+    metavar="LENGTH",
 )
-PATHS = DeclaredInput(
-    "",
+PATHS = free_input(
     "paths",
-    6,
-    Input(
-        Kind.WHOLE,
-        "--paths",
-        "Number of horizontal profiles, evenly spaced.",
-        bounds=PATH_COUNT,
-    ),
+    Kind.WHOLE,
+    "--paths",
+    "Number of horizontal profiles, evenly spaced.",
+    default=6,
+    bounds=PATH_COUNT,
 )
 
 

@@ -43,6 +43,21 @@ def test_products_are_those_of_cosines():
     assert np.allclose(chebyshev_products(u, degrees), expected, atol=1e-13)
 
 
+@pytest.mark.parametrize("terms", [1, 3, 40, 200])
+@pytest.mark.parametrize("functions", [1, 4, 14])
+def test_the_planned_sum_is_that_of_all_terms(terms, functions):
+    rng = np.random.default_rng(terms)
+    # Few terms have a high degree, so that all matrices differ; some degrees do not occur.
+    degrees = np.unique(rng.integers(0, [12, 9, 3, 7]) * rng.integers(0, 2, (terms, 4)), axis=0)
+    degrees = np.unique(np.floor(degrees * rng.random(degrees.shape)).astype(int), axis=0)
+    coefficients = rng.normal(size=(len(degrees), functions))
+    coefficients[rng.random(coefficients.shape) < 0.3] = 0.0
+    u = rng.random((7, 4))
+    expected = chebyshev_products(u, degrees).T @ coefficients
+    assert np.allclose(SparsePolynomial(degrees, coefficients)(u), expected, rtol=0, atol=1e-11)
+    assert not SparsePolynomial(degrees, 0.0 * coefficients)(u).any()
+
+
 def test_a_polynomial_is_recovered_with_its_terms():
     u = points(64, 3)
     degrees = np.array([[0, 0, 0], [2, 0, 1], [0, 3, 0]])

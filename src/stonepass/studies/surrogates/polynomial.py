@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 
 import numpy as np
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float, Int
+from stonepass.studies.surrogates.summation import Summation
 
 __all__ = ["SparsePolynomial", "chebyshev_products"]
 
-BLOCK = 8192  # number of points whose terms are computed at a time, so that they stay in the cache
+BLOCK = 4096  # number of points whose terms are computed at a time, so that they stay in the cache
 
 
 @array_dataclass
@@ -52,23 +54,17 @@ class SparsePolynomial:
         return values.T
 
     def _values(self, points: Float[np.ndarray, "n d"]) -> Float[np.ndarray, "functions n"]:
-        column, degrees, coefficients = self._by_last
-        count = self.coefficients.shape[1]
-        series = coefficients @ chebyshev_products(points, degrees)
-        series = series.reshape(-1, count, len(points))
-        powers = _chebyshev(2.0 * points[:, column] - 1.0, len(series) - 1)
-        return np.einsum("kfn,kn->fn", series, powers)
+        plan = self._summation
+        highest = int(self.degrees[:, plan.column].max(initial=0))
+        powers = _chebyshev(2.0 * points[:, plan.column] - 1.0, highest)
+        return plan(chebyshev_products(points, plan.degrees), powers)
 
     @cached_property
-    def _by_last(self) -> tuple[int, Int[np.ndarray, "terms d"], Float[np.ndarray, "k terms"]]:
-        """The last coordinate that matters, the terms in the others, and their coefficients.
-
-        Terms that differ in the last coordinate only are computed once. The coefficients have one
-        row for each degree in this coordinate and each function.
-        """
-        column = int(np.flatnonzero(self.degrees.any(axis=0)).max(initial=0))
-        degrees, spread = self.by_degree(column)
-        return column, degrees, spread.reshape(-1, len(degrees))
+    def _summation(self) -> Summation:
+        """The summation of the functions that takes the least work."""
+        columns = range(self.degrees.shape[1])
+        plans = [Summation.planned(column, *self.by_degree(column)) for column in columns]
+        return min(plans, key=attrgetter("work"))
 
     def by_degree(
         self, column: int
@@ -126,12 +122,19 @@ def chebyshev_products(
     degrees : array (terms, d) of int
         Degree of each term in each coordinate.
     """
-    found = np.ones((len(degrees), len(points)))
-    for column, degree in zip(points.T, degrees.T, strict=True):
-        powers = _chebyshev(2.0 * column - 1.0, int(degree.max(initial=0)))
-        for k, row in zip(degree, found, strict=True):
-            if k:
-                row *= powers[k]
+    powers = [
+        _chebyshev(2.0 * column - 1.0, int(degree.max(initial=0)))
+        for column, degree in zip(points.T, degrees.T, strict=True)
+    ]
+    found = np.empty((len(degrees), len(points)))
+    for row, term in zip(found, degrees.tolist(), strict=True):
+        factors = [power[k] for power, k in zip(powers, term, strict=True) if k]
+        if len(factors) < 2:
+            row[:] = factors[0] if factors else 1.0
+            continue
+        np.multiply(factors[0], factors[1], out=row)
+        for factor in factors[2:]:
+            row *= factor
     return found
 
 

@@ -232,7 +232,7 @@ def _draw_served(command, out):
                 )
                 page = browser.new_context(viewport=WINDOW).new_page()
                 page.goto(address, wait_until="networkidle")
-                page.wait_for_selector("html[data-answered]", state="attached")
+                page.wait_for_selector("html[data-answered]:not([data-waiting])", state="attached")
                 page.screenshot(path=out)
                 browser.close()
         finally:

@@ -24,7 +24,7 @@ ARGUMENTS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
     "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
 )  # fmt: skip
-ANSWERED = "html[data-answered]"
+ANSWERED = "html[data-answered]:not([data-waiting])"
 SECONDS = 60_000  # ms that a test waits for finite elements on a busy machine
 
 
@@ -135,16 +135,21 @@ def watched():
 
 @pytest.fixture
 def open_page(browser, server, watched):
-    """Open the page with the options of a browser context, and wait for the first answer."""
+    """Open the page with the options of a browser context, and wait for the first answer.
+
+    `prepare` is called with the page before it is opened.
+    """
     contexts = []
 
-    def opened(place="", **options):
+    def opened(place="", prepare=None, **options):
         options = {"viewport": {"width": 1280, "height": 900}} | options
         context = browser.new_context(**options)
         contexts.append(context)
         context.set_default_timeout(20_000)
         page = context.new_page()
         watched.watch(page, server.address)
+        if prepare:
+            prepare(page)
         page.goto(f"{server.address}/{place}")
         page.wait_for_selector(ANSWERED, state="attached")
         return page

@@ -261,20 +261,33 @@ def test_definition_on_demand(page, server):
     assert told.is_hidden()
 
 
+# The sum of all shifts of the layout so far.
+SHIFT = """() => new Promise((resolve) => {
+  let sum = 0;
+  new PerformanceObserver((list) => {
+    for (const each of list.getEntries()) sum += each.value;
+  }).observe({type: "layout-shift", buffered: true});
+  setTimeout(() => resolve(sum), 300);
+})"""
+
+
 def test_nothing_moves_while_loading_and_sliding(page):
-    shift = """() => new Promise((resolve) => {
-      let sum = 0;
-      new PerformanceObserver((list) => {
-        for (const each of list.getEntries()) sum += each.value;
-      }).observe({type: "layout-shift", buffered: true});
-      setTimeout(() => resolve(sum), 300);
-    })"""
-    assert page.evaluate(shift) < 0.01
+    assert page.evaluate(SHIFT) < 0.01
     slider = page.get_by_label("Diameter across the ureter, slider")
     for size in ("3.2", "3.6", "4.4", "5", "5.6", "6.4", "4.2"):
         slider.fill(size)
         settled(page)
-    assert page.evaluate(shift) < 0.02
+    assert page.evaluate(SHIFT) < 0.02
+
+
+@pytest.mark.parametrize("late", ["**/inter.woff2", "**/js/pictures/*.js", "**/api/v1/**"])
+def test_nothing_moves_when_a_part_of_the_page_arrives_late(open_page, late):
+    def delay(route):
+        time.sleep(0.7)
+        route.continue_()
+
+    page = open_page(prepare=lambda page: page.route(late, delay))
+    assert page.evaluate(SHIFT) < 0.01
 
 
 def test_first_answer_needs_few_bytes(page, watched):

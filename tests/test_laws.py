@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 import stonepass as sp
+from stonepass.cli import run
+from stonepass.errors import BadInput
 from stonepass.fe.axisymmetric.contact import Arc
 from stonepass.fe.axisymmetric.discretisation import discretise, free_unknowns, wall_form
 from stonepass.fe.axisymmetric.mesh import Layout
@@ -156,11 +158,80 @@ def test_a_law_is_a_value_and_a_law(law):
     assert law == replace(law)
 
 
+def written_and_read(law, path):
+    write_law(Material("mine", law, "a source", "a test", "v", (1.0, 1.4)), path)
+    return load_material(str(path))
+
+
+def test_law_files_give_a_composed_law_back(tmp_path):
+    inner = Composed(NeoHookean(5e3), MooneyRivlin(1e3, 2e3))
+    law = Composed(Fung(0.4e6, 0.7, 0.9, 0.2), inner)
+    assert written_and_read(law, tmp_path / "law.toml").law == law
+
+
+COMPOSED_FILE = """
+law = "composed"
+source = "two parts"
+strain_range = [1.0, 1.3]
+[fibres]
+law = "fung"
+C = "0.4 MPa"
+a1111 = 0.7
+a2222 = 0.9
+a1122 = 0.2
+[matrix]
+law = "neo-hookean"
+C10 = "6 kPa"
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            'C10 = "6 kPa"',
+            'G = "6 kPa"',
+            r"matrix, 'G' is given, but must be left out for law 'neo",
+        ),
+        ("[matrix]", "[matrx]", "did you mean 'matrix'"),
+        ("a1111 = 0.7", 'a1111 = "x"', "fibres, 'a1111' is x, but must be a number"),
+        ("a2222 = 0.9", "", "fibres, 'a2222' is missing, but must be given for law 'fung'"),
+        ('law = "fung"', 'law = "fang"', "fibres, law is fang, .* did you mean 'fung'"),
+        ('law = "composed"', 'law = "yeoh"', "'fibres' is given, but must be left out for law 'ye"),
+        (
+            '"neo-hookean"',
+            '"composed"',
+            "matrix, 'C10' is given, but must be left out for law 'com",
+        ),
+        (
+            '[matrix]\nlaw = "neo-hookean"\nC10 = "6 kPa"\n',
+            "",
+            "'matrix' is missing, but must be a",
+        ),
+    ],
+)
+def test_a_wrong_part_of_a_composed_law_is_named(old, new, message, tmp_path):
+    path = tmp_path / "law.toml"
+    path.write_text(COMPOSED_FILE)
+    assert load_material(str(path)).law == LAWS["composed"]
+    assert old in COMPOSED_FILE
+    path.write_text(COMPOSED_FILE.replace(old, new))
+    with pytest.raises(BadInput, match=message):
+        load_material(str(path))
+
+
+def test_a_composed_law_is_shown_with_its_parts(tmp_path, capsys):
+    path = tmp_path / "law.toml"
+    path.write_text(COMPOSED_FILE)
+    assert run(["material", "show", str(path)]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    for part in ("fibres.law Fung", "fibres.C 0.4 MPa", "matrix.law NeoHookean", "matrix.C10 "):
+        assert part in shown
+
+
 @every_registered_law
 def test_law_files_give_the_law_back(law, tmp_path):
-    path = tmp_path / "law.toml"
-    write_law(Material("mine", law, "a source", "a test", "v", (1.0, 1.4)), path)
-    back = load_material(str(path))
+    back = written_and_read(law, tmp_path / "law.toml")
     for each in constants_of(law):
         assert getattr(back.law, each.name) == pytest.approx(getattr(law, each.name), rel=1e-11)
     assert type(back.law) is type(law)

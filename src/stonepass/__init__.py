@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from stonepass.inputs.schema import case_schema
     from stonepass.inputs.shape_file import read_shape
     from stonepass.materials.catalogue import CATALOGUE, material
+    from stonepass.materials.composition import Composed
     from stonepass.materials.demiray import Demiray
     from stonepass.materials.fung import Fung
     from stonepass.materials.holzapfel import HolzapfelGasserOgden
@@ -129,6 +130,7 @@ _HOME = {
     "CATALOGUE": "materials.catalogue",
     "CacheWarning": "errors",
     "Case": "model.case",
+    "Composed": "materials.composition",
     "Caution": "caution",
     "ClosureComparison": "studies.closures",
     "ClosuresRecord": "records.closures",
@@ -292,6 +294,7 @@ __all__ = [
     "ClosureComparison",
     "ClosuresRecord",
     "CompareRecord",
+    "Composed",
     "CriticalCurve",
     "Curve",
     "CurvePointRecord",

@@ -15,7 +15,16 @@ from numbers import Real
 from typing import Any
 
 from stonepass.errors import BadInput, refuse_unknown, require
-from stonepass.units import Length, Pressure, format_length, format_pressure, length, pressure
+from stonepass.units import (
+    Length,
+    Pressure,
+    exact_length,
+    exact_pressure,
+    format_length,
+    format_pressure,
+    length,
+    pressure,
+)
 
 __all__ = [
     "DeclaredInput",
@@ -268,9 +277,9 @@ wall_ratio=1.5))
 
 def _written(kind: Kind, value: Any) -> str:
     if kind is Kind.LENGTH:
-        return repr(format_length(value))
+        return repr(exact_length(value))
     if kind is Kind.PRESSURE:
-        return repr(format_pressure(value))
+        return repr(exact_pressure(value))
     if kind is Kind.MATERIAL and value.reference:
         return repr(value.reference)
     return repr(value)

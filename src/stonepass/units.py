@@ -23,6 +23,8 @@ __all__ = [
     "Quantity",
     "Values",
     "area",
+    "exact_length",
+    "exact_pressure",
     "format_length",
     "format_pressure",
     "length",
@@ -183,6 +185,29 @@ def format_pressure(value: float) -> str:
     return f"{value / PASCAL_PER['kPa']:.12g} kPa"
 
 
+def exact_length(value: float) -> str:
+    """Write metres so that `length` reads the same number: in mm if this is exact, otherwise in m.
+
+    >>> exact_length(0.0042), exact_length(0.0014 / 3.0)
+    ('4.2 mm', '0.00046666666666666666 m')
+    """
+    return _exact(format_length(value), value, "m", Length)
+
+
+def exact_pressure(value: float) -> str:
+    """Write pascals so that `pressure` reads the same number: in kPa if exact, otherwise in Pa.
+
+    >>> exact_pressure(12000.0), exact_pressure(1e4 / 3.0)
+    ('12 kPa', '3333.3333333333335 Pa')
+    """
+    return _exact(format_pressure(value), value, "Pa", Pressure)
+
+
+def _exact(text: str, value: float, unit: str, kind: type[Q]) -> str:
+    """Return a text if it is read as the same value, otherwise the value in the SI unit."""
+    return text if float(_read(text, "value", kind)) == value else f"{float(value)!r} {unit}"
+
+
 def text_pattern(kind: type[Length] | type[Pressure]) -> str:
     """Return a regular expression that the text of a length or of a pressure matches.
 
@@ -223,11 +248,12 @@ def _read(value: Any, argument: str, kind: type[Q]) -> Q:
     match = _TEXT.fullmatch(value) if len(value) <= LONGEST else None
     if match is None:
         raise BadInput(argument, value, f"{word} with its unit", f"write it like {example}")
-    si = float(match[1]) * _factor(match[2], argument, value, kind)
+    factor = _factor(match[2], argument, value, kind)
+    si = float(match[1]) * factor
     if not math.isfinite(si):
         raise BadInput(argument, value, f"a finite {word.split()[-1]}")
-    # 15 digits: 4.2 mm is 0.0042 m, not 0.004200000000000001 m.
-    return kind(f"{si:.15g}")
+    # 15 digits: 4.2 mm is 0.0042 m, not 0.004200000000000001 m. SI units need no product.
+    return kind(si if factor == 1.0 else f"{si:.15g}")
 
 
 def _of_quantity(value: Quantity, argument: str, kind: type[Q]) -> Q:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stonepass.cli.app import SETTINGS
 from stonepass.cli.help import QUESTION, PanelCommand, PanelGroup, epilog
 from stonepass.cli.options import complete_material
+
+if TYPE_CHECKING:
+    from stonepass.materials.protocol import Law
 
 __all__ = ["app"]
 
@@ -77,7 +80,7 @@ def list_laws() -> int:
 
     from stonepass.cli.terminal import show
     from stonepass.materials.constants import constants_of
-    from stonepass.materials.known_laws import KNOWN_LAWS
+    from stonepass.materials.known_laws import COMPOSED, KNOWN_LAWS
 
     table = Table(box=box.SIMPLE_HEAD)
     for column in ("law", "constant", "unit", "must be", "meaning"):
@@ -87,6 +90,8 @@ def list_laws() -> int:
             unit = {"1": "–", "rad": "deg or rad"}.get(each.unit, each.unit)
             shown = each.name if each.default is None else f"{each.name} (may be left out)"
             table.add_row("" if k else name, shown, unit, each.allowed, each.meaning)
+    table.add_row(COMPOSED, "fibres", "–", "a table", "a law with its constants")
+    table.add_row("", "matrix", "–", "a table", "a law with its constants, whose energy is added")
     show(table)
     return 0
 
@@ -100,14 +105,11 @@ def show_material(name: Name) -> int:
     """Show the constants of a material and the source that they come from."""
     from stonepass.cli.terminal import show
     from stonepass.inputs.material_file import find_material
-    from stonepass.materials.constants import constants_of, shown_constant
 
     entry = find_material(name)
-    law = entry.law
     low, high = entry.strain_range
     rows = {
-        "law": type(law).__name__,
-        **{each.name: shown_constant(getattr(law, each.name), each) for each in constants_of(law)},
+        **_rows_of(entry.law),
         "stretches": f"{low:g} to {high:g} (circumferential)",
         "source": entry.source,
         "test": entry.test,
@@ -187,6 +189,23 @@ def check_material(name: Name) -> int:
         *(f"  {what:<26}   {value}" for what, value in rows.items()),
     )
     return 0
+
+
+def _rows_of(law: Law, part: str = "") -> dict[str, str]:
+    """Return the name and the constants of a law, and those of the laws inside a composed one."""
+    from stonepass.materials.composition import Composed
+    from stonepass.materials.constants import constants_of, shown_constant
+
+    rows = {f"{part}law": type(law).__name__}
+    if isinstance(law, Composed):
+        return (
+            rows | _rows_of(law.fibres, f"{part}fibres.") | _rows_of(law.matrix, f"{part}matrix.")
+        )
+    constants = {
+        f"{part}{each.name}": shown_constant(getattr(law, each.name), each)
+        for each in constants_of(law)
+    }
+    return rows | constants
 
 
 def _modulus(tension: float, compression: float) -> str:

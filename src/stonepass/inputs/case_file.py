@@ -22,7 +22,7 @@ from stonepass.materials.protocol import Material, names_a_file
 from stonepass.model.case import Case
 from stonepass.model.opening_curve import OpeningCurve
 from stonepass.model.shape import Shape
-from stonepass.units import Length, Pressure, format_length, format_pressure
+from stonepass.units import Length, Pressure, exact_length, exact_pressure
 
 __all__ = [
     "WORDS",
@@ -201,9 +201,9 @@ def held_values(case: Case) -> dict[str, Any]:
 
 def _raw(value: Any, folder: Path) -> Any:
     if isinstance(value, Length):
-        return format_length(value)
+        return exact_length(value)
     if isinstance(value, Pressure):
-        return format_pressure(value)
+        return exact_pressure(value)
     if isinstance(value, Material):
         name = value.reference
         if not name:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import runpy
 import sys
+from collections.abc import Container, Iterable
 from contextlib import redirect_stdout
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import tomli_w
@@ -16,6 +17,7 @@ from stonepass.errors import BadInput, StonepassError, refuse_unknown
 from stonepass.io.text_file import existing, write_file
 from stonepass.io.toml_file import parse_table, read_toml
 from stonepass.materials.catalogue import material as catalogued
+from stonepass.materials.composition import Composed
 from stonepass.materials.constants import (
     ConstantDeclaration,
     constants_of,
@@ -23,19 +25,35 @@ from stonepass.materials.constants import (
     read_constant,
 )
 from stonepass.materials.derivatives import energy_derivatives
-from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, known_law, name_of_law
+from stonepass.materials.known_laws import (
+    COMPOSED,
+    KNOWN_LAWS,
+    ONES_OWN,
+    constants_by_name,
+    name_of_law,
+)
 from stonepass.materials.protocol import Law, Material, names_a_file
 from stonepass.materials.user_law import UserLaw
 from stonepass.strain import CauchyGreen, Place
 
 __all__ = ["find_material", "load_material", "material_table", "write_law"]
 
+_PARTS = ("fibres", "matrix")  # tables of a composed law
+Table = TypeVar("Table", bound="_LawTable")
 
-class _LawFile(BaseModel):
-    """The keys that all law files have in common; `_law_file` adds the constants of all laws."""
+
+class _LawTable(BaseModel):
+    """The name of a law, and the laws inside a composed one; `_with_constants` adds constants."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
     law: str
+    fibres: dict[str, Any] | None = None
+    matrix: dict[str, Any] | None = None
+
+
+class _LawFile(_LawTable):
+    """The keys that all law files have in common."""
+
     source: str = Field(min_length=1)
     strain_range: tuple[float, float] = Field(strict=False)
     name: str | None = None
@@ -61,7 +79,7 @@ def find_material(value: Any, folder: Path | None = None) -> Material:
     if isinstance(value, Material):
         return value
     if isinstance(value, dict):
-        return _of_table(parse_table(value, _law_file(), "material, "))
+        return _of_table(parse_table(value, _with_constants(_LawFile), "material, "))
     if not isinstance(value, str):
         raise BadInput("material", value, "a name, a file, a table or a Material")
     return load_material(value, folder) if names_a_file(value) else catalogued(value)
@@ -184,7 +202,7 @@ def _try_out(law: UserLaw, low: float, high: float) -> None:
 
 
 def _from_toml(path: Path, text: str) -> Material:
-    constants = read_toml(path, _law_file())
+    constants = read_toml(path, _with_constants(_LawFile))
     try:
         return _of_table(constants, text)
     except BadInput as problem:
@@ -194,7 +212,7 @@ def _from_toml(path: Path, text: str) -> Material:
 def _of_table(constants: _LawFile, reference: str = "") -> Material:
     return Material(
         name=constants.name or reference or constants.law,
-        law=_known_law(constants),
+        law=_law(constants),
         source=constants.source,
         test=constants.test,
         verified="a user's constants: not verified",
@@ -207,8 +225,8 @@ def _all_constants() -> dict[str, ConstantDeclaration]:
     return {each.name: each for law in KNOWN_LAWS.values() for each in constants_of(law)}
 
 
-def _law_file() -> type[_LawFile]:
-    """Return the pydantic model of a law file.
+def _with_constants(table: type[Table]) -> type[Table]:
+    """Return the pydantic model of a table with the constants of a law.
 
     It has the constants of all laws, so that an error can suggest the nearest one.
     """
@@ -216,49 +234,79 @@ def _law_file() -> type[_LawFile]:
         name: (float | None if each.unit == "1" else str | None, None)
         for name, each in _all_constants().items()
     }
-    return create_model("_Constants", __base__=_LawFile, **keys)
+    return create_model("_Constants", __base__=table, **keys)
 
 
-def _known_law(constants: _LawFile) -> Law:
-    law = known_law(constants.law)
-    declared = constants_by_name(constants.law)
-    given = {name: getattr(constants, name) for name in _all_constants()}
+def _law(table: _LawTable, path: str = "") -> Law:
+    """Return the law of a table; `path` names the part of a composed law in messages."""
+    if table.law not in (*KNOWN_LAWS, COMPOSED):
+        refuse_unknown(f"{path}law", table.law, [*KNOWN_LAWS, COMPOSED], ONES_OWN)
+    given = {
+        name: value
+        for name in (*_all_constants(), *_PARTS)
+        if (value := getattr(table, name)) is not None
+    }
+    if table.law == COMPOSED:
+        _refuse_others(given, _PARTS, table.law, path)
+        parts = {name: _part(name, given.get(name), f"{path}{name}, ") for name in _PARTS}
+        return Composed(**parts)
+    declared = constants_by_name(table.law)
+    _refuse_others(given, declared, table.law, path)
     values: dict[str, float] = {}
     for name, each in declared.items():
-        if given[name] is not None:
+        if name in given:
             values[name] = read_constant(given[name], each)
         elif each.default is None:
-            raise BadInput(f"'{name}'", "missing", f"given for law '{constants.law}'")
-    for name, value in given.items():
-        if value is not None and name not in declared:
-            raise BadInput(f"'{name}'", "given", f"left out for law '{constants.law}'")
-    made: Law = law(**values)
+            raise BadInput(f"{path}'{name}'", "missing", f"given for law '{table.law}'")
+    made: Law = KNOWN_LAWS[table.law](**values)
     return made
 
 
+def _part(name: str, given: dict[str, Any] | None, path: str) -> Law:
+    """Return a law inside a composed law."""
+    if given is None:
+        raise BadInput(f"'{name}'", "missing", f"a table with a law for law '{COMPOSED}'")
+    return _law(parse_table(given, _with_constants(_LawTable), path), path)
+
+
+def _refuse_others(given: Iterable[str], known: Container[str], law: str, path: str) -> None:
+    for name in given:
+        if name not in known:
+            raise BadInput(f"{path}'{name}'", "given", f"left out for law '{law}'")
+
+
 def material_table(material: Material) -> dict[str, Any]:
-    """Return the table that describes a material of a known law; `find_material` reads it.
+    """Return the table that describes a material of known laws; `find_material` reads it.
 
     Raises
     ------
     BadInput
-        The law is not one of the known laws, e.g. because it is a user's function.
+        The law is not one of the known laws or composed of them, e.g. because it is a user's
+        function.
     """
-    name_of = name_of_law(material.law)
-    if not name_of:
-        raise BadInput("law of the material", material.name,
-                       "one of " + ", ".join(KNOWN_LAWS) + " to be written")  # fmt: skip
     return {
-        "law": name_of,
-        **{
-            name: format_constant(getattr(material.law, name), each)
-            for name, each in constants_by_name(name_of).items()
-        },
+        **_law_table(material.law, material.name),
         "name": material.name,
         "source": material.source or "not stated",
         "test": material.test or "not stated",
         "strain_range": list(material.strain_range),
     }
+
+
+def _law_table(law: Law, material: str) -> dict[str, Any]:
+    """Return the table of a law; `material` is the name of its material for the message."""
+    if isinstance(law, Composed):
+        parts = {name: _law_table(getattr(law, name), material) for name in _PARTS}
+        return {"law": COMPOSED, **parts}
+    name_of = name_of_law(law)
+    if not name_of:
+        known = ", ".join(KNOWN_LAWS)
+        raise BadInput(
+            "law of the material", material, f"one of {known} or composed of them to be written"
+        )
+    declared = constants_by_name(name_of)
+    constants = {name: format_constant(getattr(law, name), each) for name, each in declared.items()}
+    return {"law": name_of, **constants}
 
 
 def write_law(material: Material, path: Path) -> None:
@@ -267,14 +315,14 @@ def write_law(material: Material, path: Path) -> None:
     Parameters
     ----------
     material : Material
-        A material of a known law.
+        A material of a known law, or of a law composed of known ones.
     path : Path
         The law file.
 
     Raises
     ------
     BadInput
-        The law is not one of the known laws, or the file cannot be written.
+        The law is not one of these, or the file cannot be written.
     """
     document = material_table(material)
     write_file(path, tomli_w.dumps(document), "law file")

@@ -15,6 +15,7 @@ __all__ = ["find_opening_curve", "opening_curve_table", "read_opening_curve"]
 
 
 BOUNDS = {"alpha_deg": (1e-3, 90.0), "radius_ratio": RADIUS}
+RADIANS = "alpha_rad"  # key of a table whose angles are not exact in degrees
 
 
 def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
@@ -23,8 +24,8 @@ def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
     Parameters
     ----------
     value : OpeningCurve, str, Path or dict
-        The name of a CSV file, a table with the lists ``alpha_deg`` and ``radius_ratio``, or an
-        opening curve.
+        The name of a CSV file, a table with the lists ``alpha_deg`` (or ``alpha_rad``) and
+        ``radius_ratio``, or an opening curve.
     folder : Path, optional
         Folder in which a relative path starts; by default the current one.
 
@@ -37,11 +38,18 @@ def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
         return value
     if isinstance(value, dict):
         for key in value:
-            if key not in BOUNDS:
+            if key not in (*BOUNDS, RADIANS):
                 refuse_unknown("key of the opening curve", key, list(BOUNDS))
+        if RADIANS in value and "alpha_deg" in value:
+            both = "alpha_deg and alpha_rad"
+            raise BadInput("keys of the opening curve", both, "one of alpha_deg and alpha_rad")
         try:
-            alpha, radius = (np.array(value[name], dtype=float) for name in BOUNDS)
-            return OpeningCurve(tuple(np.radians(alpha).tolist()), tuple(radius.tolist()))
+            radius = np.array(value["radius_ratio"], dtype=float)
+            if RADIANS in value:
+                alpha = np.array(value[RADIANS], dtype=float)
+            else:
+                alpha = np.radians(np.array(value["alpha_deg"], dtype=float))
+            return OpeningCurve(tuple(alpha.tolist()), tuple(radius.tolist()))
         except BadInput:  # the check of the curve itself gives a better message
             raise
         except (KeyError, TypeError, ValueError, OverflowError) as problem:
@@ -53,9 +61,15 @@ def find_opening_curve(value: Any, folder: Path | None = None) -> OpeningCurve:
 
 
 def opening_curve_table(curve: OpeningCurve) -> dict[str, Any]:
-    """Return the table of a case file that describes an opening curve."""
+    """Return the table of a case file that describes an opening curve.
+
+    The angles are in degrees if the same angles are read from them, otherwise in radians.
+    """
     alpha, radius = curve.arrays
-    return {"alpha_deg": np.degrees(alpha).tolist(), "radius_ratio": radius.tolist()}
+    degrees = np.degrees(alpha)
+    exact = bool((np.radians(degrees) == alpha).all())
+    angles = {"alpha_deg": degrees.tolist()} if exact else {RADIANS: alpha.tolist()}
+    return angles | {"radius_ratio": radius.tolist()}
 
 
 def read_opening_curve(path: str | Path) -> OpeningCurve:

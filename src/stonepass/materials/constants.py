@@ -12,7 +12,7 @@ from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, Literal
 
 from stonepass.errors import BadInput, require
-from stonepass.units import format_pressure, pressure
+from stonepass.units import exact_pressure, pressure
 
 __all__ = [
     "ConstantDeclaration",
@@ -223,7 +223,7 @@ def fixed_constant(text: str | float, declared: ConstantDeclaration, argument: s
 
 
 def format_constant(value: float, declared: ConstantDeclaration) -> str | float:
-    """Convert a stored number into text or a number that `read_constant` accepts.
+    """Convert a stored number into a text or a number that `read_constant` reads as the same.
 
     Parameters
     ----------
@@ -237,8 +237,11 @@ def format_constant(value: float, declared: ConstantDeclaration) -> str | float:
         For example "12 kPa", "40 deg" or 0.7.
     """
     if declared.unit == "Pa":
-        return format_pressure(value)
-    return f"{math.degrees(value):.12g} deg" if declared.unit == "rad" else value
+        return exact_pressure(value)
+    if declared.unit == "rad":
+        text = f"{math.degrees(value):.12g} deg"
+        return text if read_constant(text, declared) == value else f"{value!r} rad"
+    return value
 
 
 def shown_constant(value: float, declared: ConstantDeclaration) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from stonepass.errors import refuse_unknown
+from stonepass.materials.composition import Composed
 from stonepass.materials.constants import ConstantDeclaration, constants_of
 from stonepass.materials.demiray import Demiray
 from stonepass.materials.fung import Fung
@@ -15,7 +16,9 @@ from stonepass.materials.ogden import Ogden
 from stonepass.materials.protocol import Law
 from stonepass.materials.yeoh import Yeoh
 
-__all__ = ["KNOWN_LAWS", "ONES_OWN", "constants_by_name", "known_law", "name_of_law"]
+__all__ = ["COMPOSED", "KNOWN_LAWS", "ONES_OWN", "constants_by_name", "known_law", "name_of_law"]
+
+COMPOSED = "composed"  # name of a law whose parts, fibres and matrix, are laws themselves
 
 ONES_OWN = "another law is a Python function, FILE.py:energy, as docs/laws.md shows"
 
@@ -57,5 +60,7 @@ def constants_by_name(law: str) -> dict[str, ConstantDeclaration]:
 
 
 def name_of_law(law: Law) -> str:
-    """Return the name of a known law; an empty string for any other law."""
+    """Return the name of a known or composed law; an empty string for any other law."""
+    if isinstance(law, Composed):
+        return COMPOSED
     return next((name for name, known in KNOWN_LAWS.items() if type(law) is known), "")

@@ -636,7 +636,10 @@ def test_extension_and_force_are_stretch_and_stress(tmp_path, capsys):
         (["--gauge-length", "20mm"], "section of the strip is missing"),
         (["--gauge-length", "20mm", "--section", "12"], "--section is 12, but must be an area"),
         (["--gauge-length", "20mm", "--section", "12mm2", "--width", "1mm"], "is given twice"),
-        (["--gauge-length", "2um", "--section", "12mm2"], "such that 1 + extension/length is 0.1"),
+        (
+            ["--gauge-length", "0.02mm", "--section", "12mm2"],
+            "such that 1 + extension/length is 0.1",
+        ),
     ):
         code, _, told = fitted(capsys, "tensile", path, *law, *more)
         assert code == 2
@@ -646,28 +649,30 @@ def test_extension_and_force_are_stretch_and_stress(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("sizes", "sentence"),
     [
-        (["--width", "-10mm", "--thickness", "-1mm"], "--width is -10mm, but must be above 0"),
-        (["--width", "10mm", "--thickness", "0mm"], "--thickness is 0mm, but must be above 0"),
-        (["--section", "-12mm2"], "--section is -12mm2, but must be above 0"),
+        (["--width", "-10mm", "--thickness", "-1mm"], "--width is -10mm, but must be 0.01 mm to 1000 mm"),
+        (["--width", "10mm", "--thickness", "0mm"], "--thickness is 0mm, but must be 0.01 mm to 1000 mm"),
+        (["--width", "10m", "--thickness", "1mm"],
+         "--width is 10m, but must be 0.01 mm to 1000 mm"),
+        (["--section", "-12mm2"], "--section is -12mm2, but must be 0.0001 mm2 to 10000 mm2"),
         (["--section", "12mm2", "--gauge-length", "-2cm"],
-         "--gauge-length is -2cm, but must be above 0"),
+         "--gauge-length is -2cm, but must be 0.01 mm to 1000 mm"),
     ],
 )  # fmt: skip
-def test_every_size_at_rest_is_positive(tmp_path, capsys, sizes, sentence):
+def test_every_size_at_rest_is_within_its_bounds(tmp_path, capsys, sizes, sentence):
     path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)], "stretch,force_N")
     code, _, told = fitted(capsys, "tensile", path, "--law", "neo-hookean", *sizes)
     assert code == 2
     assert sentence in told
 
 
-def test_sizes_at_rest_are_positive_from_python_and_over_http(tmp_path):
+def test_sizes_at_rest_are_bounded_from_python_and_over_http(tmp_path):
     path = table(tmp_path, [(1.1, 2), (1.2, 3.6), (1.3, 5)], "stretch,force_N")
-    with pytest.raises(BadInput, match="width is -10 mm, but must be above 0"):
+    with pytest.raises(BadInput, match=r"width is -10 mm, but must be 0.01 mm to 1000 mm"):
         read_tension(path, length("-10 mm"), length("-1 mm"))
-    with pytest.raises(BadInput, match="section is -12 mm2, but must be above 0"):
+    with pytest.raises(BadInput, match=r"section is -12 mm2, but must be 0.0001 mm2 to 10000 mm2"):
         read_tension(path, section=area("-12 mm2"))
     job = FitJob(kind="fit", upload="0" * 64, test="tensile", law="yeoh", thickness="-1 mm")
-    with pytest.raises(BadInput, match="thickness is -1 mm, but must be above 0"):
+    with pytest.raises(BadInput, match=r"thickness is -1 mm, but must be 0.01 mm to 1000 mm"):
         job.question()
 
 

@@ -16,8 +16,10 @@ from typing import Any
 
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.units import (
+    Area,
     Length,
     Pressure,
+    area,
     exact_length,
     exact_pressure,
     format_length,
@@ -45,6 +47,7 @@ class Kind(enum.Enum):
 
     LENGTH = "length"
     PRESSURE = "pressure"
+    AREA = "area"
     NUMBER = "number"
     WHOLE = "whole number"
     FLAG = "flag"
@@ -52,6 +55,13 @@ class Kind(enum.Enum):
     MATERIAL = "material"
     SHAPE = "shape"
     OPENING_CURVE = "opening curve"
+
+
+_QUANTITIES: dict[Kind, Any] = {
+    Kind.LENGTH: Length,
+    Kind.PRESSURE: Pressure,
+    Kind.AREA: Area,
+}
 
 
 @dataclass(frozen=True)
@@ -74,7 +84,7 @@ class Input:
     shown_default : str
         Default in words, for inputs whose default value does not explain itself.
     metavar : str
-        Placeholder of the value in the help text.
+        Placeholder of the value in the help text, if that of the kind does not fit.
     """
 
     kind: Kind
@@ -92,7 +102,7 @@ class Input:
         if self.bounds is None:
             return {Kind.FLAG: "true or false"}.get(self.kind, f"a {self.kind.value}")
         low, high = (_shown(self.kind, bound) for bound in self.bounds)
-        if self.kind in (Kind.LENGTH, Kind.PRESSURE):
+        if self.kind in _QUANTITIES:
             return f"{low} to {high}"
         return f"a {self.kind.value} from {low} to {high}"
 
@@ -210,18 +220,17 @@ def read_declared(declaration: Input, name: str, value: Any, *, si: bool = False
     name : str
         Name of the input in messages.
     value : object
-        The value; a length or a pressure is text with a unit.
+        The value; a length, a pressure or an area is text with a unit.
     si : bool
-        True if a length or a pressure is given as a number in m or Pa.
+        True if a length, a pressure or an area is given as a number in SI units.
 
     Raises
     ------
     BadInput
         The value is of the wrong kind, is out of bounds, or is not one of the choices.
     """
-    kinds = {Kind.LENGTH: Length, Kind.PRESSURE: Pressure}
-    if si and declaration.kind in kinds:
-        value = kinds[declaration.kind](value)
+    if si and declaration.kind in _QUANTITIES:
+        value = _QUANTITIES[declaration.kind](value)
     return _read(replace(declaration, title=name), name, value)
 
 
@@ -294,6 +303,7 @@ def _read(declaration: Input, name: str, value: Any) -> Any:
     readers: Mapping[Kind, Any] = {
         Kind.LENGTH: lambda: _bounded(declaration, title, length(value, title), value),
         Kind.PRESSURE: lambda: _bounded(declaration, title, pressure(value, title), value),
+        Kind.AREA: lambda: _bounded(declaration, title, area(value, title), value),
         Kind.NUMBER: lambda: _number(declaration, title, value),
         Kind.WHOLE: lambda: _whole(declaration, title, value),
         Kind.FLAG: lambda: _flag(declaration, title, value),
@@ -305,7 +315,9 @@ def _read(declaration: Input, name: str, value: Any) -> Any:
 def _bounded(declaration: Input, title: str, read: Any, value: Any) -> Any:
     if declaration.bounds is not None:
         low, high = declaration.bounds
-        require(low <= read <= high, title, value, declaration.allowed)
+        bare = declaration.kind in _QUANTITIES and not isinstance(value, str)
+        shown = _shown(declaration.kind, read) if bare else value
+        require(low <= read <= high, title, shown, declaration.allowed)
     return read
 
 
@@ -338,7 +350,9 @@ def _choice(declaration: Input, title: str, value: Any) -> str:
 
 def _shown(kind: Kind, bound: float) -> str:
     if kind is Kind.LENGTH:
-        return f"{bound * 1e9:g} nm" if bound < 1e-6 else format_length(bound)
+        return f"{bound * 1e9:g} nm" if 0.0 < bound < 1e-6 else format_length(bound)
+    if kind is Kind.AREA:
+        return f"{bound * 1e6:.12g} mm2"
     if kind is not Kind.PRESSURE:
-        return f"{bound:g}"
+        return f"{bound:.12g}"
     return f"{bound / 1e9:g} GPa" if bound >= 1e9 else format_pressure(bound)

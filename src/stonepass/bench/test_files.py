@@ -4,44 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
 
 import numpy as np
 
 from stonepass.bench.data_checks import check_inflation, check_tension, inner_ratio
+from stonepass.bench.specimen_inputs import read_sizes
 from stonepass.bench.test_data import Inflation, Tension
-from stonepass.errors import BadInput, require
+from stonepass.errors import BadInput
 from stonepass.io.csv_file import Columns, read_columns
 from stonepass.materials.uniaxial import AXES
 from stonepass.model.ureter import Ureter
-from stonepass.units import Area, Length, Quantity, area, format_length, length
+from stonepass.units import Area, Length, Quantity
 
-__all__ = ["read_inflation", "read_tension", "size_at_rest", "table_of_test"]
-
-S = TypeVar("S", Length, Area)
-
-
-def size_at_rest(value: Any, argument: str, read: Callable[[Any, str], S]) -> S:
-    """Read a length or an area of a specimen at rest, which must be above 0.
-
-    Parameters
-    ----------
-    value : str, Length, Area or pint.Quantity
-        The size with its unit.
-    argument : str
-        Name of the size in messages.
-    read : callable
-        `stonepass.units.length` or `stonepass.units.area`.
-
-    Raises
-    ------
-    BadInput
-        The unit is missing or wrong, or the size is not above 0.
-    """
-    found = read(value, argument)
-    given = format_length(found) if isinstance(found, Length) else f"{1e6 * found:.12g} mm2"
-    require(found > 0.0, argument, value if isinstance(value, str) else given, "above 0")
-    return found
+__all__ = ["read_inflation", "read_tension", "table_of_test"]
 
 
 def read_tension(
@@ -82,13 +57,7 @@ def read_tension(
     docs/bench.md, "The data".
     """
     path = Path(path)
-    width, thickness, gauge_length = (
-        None if each is None else size_at_rest(each, name, length)
-        for name, each in (
-            ("width", width), ("thickness", thickness), ("gauge_length", gauge_length),
-        )
-    )  # fmt: skip
-    section = None if section is None else size_at_rest(section, "section", area)
+    rest = read_sizes(width=width, thickness=thickness, gauge_length=gauge_length, section=section)
     along = "stretch" if gauge_length is None else "extension_mm"
     try:
         columns = _read_strips(path, along)
@@ -104,9 +73,11 @@ def read_tension(
     across = _one_of(path, columns, "the column of stresses", ("nominal_stress_kPa", "force_N"))
     stretch = columns[along]
     if gauge_length is not None:
-        stretch = 1.0 + 1e-3 * stretch / gauge_length
+        stretch = 1.0 + 1e-3 * stretch / rest["gauge_length"]
     if across == "force_N":
-        stress = columns["force_N"] / _section(path, width, thickness, section)
+        stress = columns["force_N"] / _section(
+            path, rest["width"], rest["thickness"], rest["section"]
+        )
     else:
         if any(each is not None for each in (width, thickness, section)):
             raise BadInput("section of the strip", "given", "left out",

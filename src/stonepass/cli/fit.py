@@ -8,9 +8,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stonepass.about import DISCLAIMER
+from stonepass.bench.specimen_inputs import (
+    GAUGE_LENGTH,
+    RELATIVE,
+    SECTION,
+    SIZES,
+    THICKNESS,
+    WIDTH,
+    read_sizes,
+)
 from stonepass.cli.app import SETTINGS
 from stonepass.cli.help import OUTPUT, QUESTION, PanelCommand, PanelGroup, epilog
-from stonepass.cli.options import Json
+from stonepass.cli.options import Json, option_for
+from stonepass.declaration import inputs_of
+from stonepass.model.ureter import Ureter
 
 if TYPE_CHECKING:
     from stonepass.bench.law_fit import Data
@@ -23,6 +34,8 @@ app = typer.Typer(
     epilog="'stonepass fit COMMAND --help' shows the options of a test, with examples.",
     **SETTINGS,
 )
+TUBE = inputs_of(Ureter)
+INNER, OUTER = "Inner diameter of the tube at rest.", "Outer diameter of the tube at rest."
 EXIT_CODES = (
     "0 fitted; 1 the fitted constants describe no stable solid; 2 the request was refused; 3 an "
     "error of the program"
@@ -78,15 +91,7 @@ Drawn = Annotated[
         rich_help_panel=OUTPUT,
     ),
 ]
-Relative = Annotated[
-    bool,
-    typer.Option(
-        "--relative/--absolute",
-        help="Errors of measurement are proportional to the measured values (relative), or of "
-        "equal size (absolute).",
-        rich_help_panel=QUESTION,
-    ),
-]
+Relative = Annotated[bool, option_for(RELATIVE, QUESTION)]
 
 
 @app.command(
@@ -111,42 +116,10 @@ Relative = Annotated[
 def tensile(
     data: File,
     law: Law,
-    width: Annotated[
-        str | None,
-        typer.Option(
-            "--width",
-            metavar="LENGTH",
-            help="Width of the strip at rest; needed with forces.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
-    thickness: Annotated[
-        str | None,
-        typer.Option(
-            "--thickness",
-            metavar="LENGTH",
-            help="Thickness of the strip at rest; needed with forces.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
-    section: Annotated[
-        str | None,
-        typer.Option(
-            "--section",
-            metavar="AREA",
-            help="Cross-section of the strip at rest, e.g. 12mm2; replaces width and thickness.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
-    gauge_length: Annotated[
-        str | None,
-        typer.Option(
-            "--gauge-length",
-            metavar="LENGTH",
-            help="Length at rest over which the extension was measured; needed with extensions.",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
+    width: Annotated[str | None, option_for(WIDTH, QUESTION)] = None,
+    thickness: Annotated[str | None, option_for(THICKNESS, QUESTION)] = None,
+    section: Annotated[str | None, option_for(SECTION, QUESTION)] = None,
+    gauge_length: Annotated[str | None, option_for(GAUGE_LENGTH, QUESTION)] = None,
     fix: Fix = None,
     free: Free = None,
     relative: Relative = False,
@@ -159,21 +132,19 @@ def tensile(
     The columns of the data are stretch or extension_mm, then nominal_stress_kPa or force_N, and
     axis (circumferential or axial) if strips were cut along both directions.
     """
-    from stonepass.bench.test_files import read_tension, size_at_rest
-    from stonepass.units import area, length
+    from stonepass.bench.test_files import read_tension
 
-    sizes = {
-        key: None if text is None else size_at_rest(text, option, length)
-        for key, option, text in (
-            ("width", "--width", width),
-            ("thickness", "--thickness", thickness),
-            ("gauge_length", "--gauge-length", gauge_length),
-        )
+    words = {name: each.declaration.option for name, each in SIZES.items()}
+    sizes = read_sizes(
+        words, width=width, thickness=thickness, section=section, gauge_length=gauge_length
+    )
+    lengths = ("width", "thickness", "gauge_length")
+    inputs = {
+        "file": data.name,
+        **{f"{name}_m": sizes[name] for name in lengths},
+        "section_m2": sizes["section"],
     }
-    across = None if section is None else size_at_rest(section, "--section", area)
-    asked = {"file": data.name, **{f"{key}_m": size for key, size in sizes.items()}}
-    inputs = {**asked, "section_m2": across}
-    read = read_tension(data, **sizes, section=across)
+    read = read_tension(data, **sizes)
     return _fit(read, law, fix, free, relative, out, figure, json, inputs)
 
 
@@ -194,24 +165,8 @@ def tensile(
 def inflation(
     data: File,
     law: Law,
-    inner: Annotated[
-        str,
-        typer.Option(
-            "--inner",
-            metavar="LENGTH",
-            help="Inner diameter of the tube at rest.",
-            rich_help_panel=QUESTION,
-        ),
-    ],
-    outer: Annotated[
-        str,
-        typer.Option(
-            "--outer",
-            metavar="LENGTH",
-            help="Outer diameter of the tube at rest.",
-            rich_help_panel=QUESTION,
-        ),
-    ],
+    inner: Annotated[str, option_for(TUBE["inner_diameter"], QUESTION, meaning=INNER)],
+    outer: Annotated[str, option_for(TUBE["outer_diameter"], QUESTION, meaning=OUTER)],
     fix: Fix = None,
     free: Free = None,
     relative: Relative = False,
@@ -225,7 +180,6 @@ def inflation(
     axial_stretch if the tube was stretched along its axis.
     """
     from stonepass.bench.test_files import read_inflation
-    from stonepass.model.ureter import Ureter
 
     tube = Ureter(inner, outer)
     inputs = {

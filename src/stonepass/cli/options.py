@@ -69,7 +69,13 @@ Json = Annotated[
 
 STONE_SIZE = ("stone.diameter", "stone.size_ratio")  # inputs that a search over sizes replaces
 _TYPES = {Kind.NUMBER: float, Kind.WHOLE: int, Kind.FLAG: bool}
-_METAVARS = {Kind.NUMBER: "NUMBER", Kind.WHOLE: "INTEGER"}
+_METAVARS = {
+    Kind.NUMBER: "NUMBER",
+    Kind.WHOLE: "INTEGER",
+    Kind.LENGTH: "LENGTH",
+    Kind.PRESSURE: "PRESSURE",
+    Kind.AREA: "AREA",
+}
 _PANELS = {"stone": STONE, "ureter": URETER, "load": URETER}
 _CASE_FILE = Annotated[
     Path | None,
@@ -296,8 +302,8 @@ def option_for(
         plain = each.default is None or each.default is MISSING or declaration.kind is Kind.FLAG
         default = declaration.shown_default or ("" if plain else _shown(each.default))
     notes = [f"default: {default}"] if default else []
-    if declaration.kind in _METAVARS and declaration.bounds is not None:
-        notes.insert(0, "{:g} to {:g}".format(*declaration.bounds))
+    if declaration.kind in (Kind.NUMBER, Kind.WHOLE) and declaration.bounds is not None:
+        notes.insert(0, "{:.12g} to {:.12g}".format(*declaration.bounds))
     metavar = declaration.metavar or "|".join(declaration.choices)
     found: OptionInfo = typer.Option(
         declaration.option,

@@ -12,6 +12,7 @@ from stonepass.cli.help import OUTPUT, QUESTION, SOLVER, epilog
 from stonepass.cli.options import Cache, Json, NoCache, Workers, cache_folder, option_for
 from stonepass.errors import BadInput
 from stonepass.model.pressure_limit import PRESSURE_LIMIT
+from stonepass.studies.seed import SEED
 
 if TYPE_CHECKING:
     from stonepass.studies.sensitivity.study import SensitivityStudy
@@ -69,15 +70,7 @@ def command(
             rich_help_panel=QUESTION,
         ),
     ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option(
-            "--seed",
-            metavar="INTEGER",
-            help="Seed of the samples.  [default: 1]",
-            rich_help_panel=QUESTION,
-        ),
-    ] = None,
+    seed: Annotated[int | None, option_for(SEED, QUESTION)] = None,
     surrogate: Annotated[
         str | None,
         typer.Option(

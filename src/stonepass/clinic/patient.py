@@ -28,7 +28,7 @@ from stonepass.model.pressure_limit import read_limit
 from stonepass.model.shape import ASPECT, Shape
 from stonepass.model.stone import DIAMETER, FRICTION, SIZE_RATIO, Stone
 from stonepass.model.ureter import Ureter
-from stonepass.studies.seed import check_seed
+from stonepass.studies.seed import SEED, check_seed
 from stonepass.studies.stiffness_input import STIFFNESS_BOUNDS
 from stonepass.studies.uncertain_quantity import UncertainQuantity, measured_length, measured_number
 from stonepass.units import Length, Pressure, Quantity
@@ -107,7 +107,7 @@ class Patient:
     model: Model = field(default_factory=SeatedBalance)
     numerics: Numerics = field(default_factory=Numerics)
     samples: int = 4096
-    seed: int = 1
+    seed: int = SEED.default
     assumed: tuple[Caution, ...] = ()
     title: str = ""
 
@@ -161,7 +161,7 @@ class _Assessment(FileSection):
     limit: str
     title: str = ""
     samples: int = 4096
-    seed: int = 1
+    seed: int = SEED.default
 
 
 class _OwnSections(FileSection):

@@ -46,7 +46,6 @@ class Load:
         default=Pressure(0.0),
         title="confining pressure",
         bounds=CONFINING,
-        metavar="PRESSURE",
     )
     confinement: str = declared(
         Kind.CHOICE,

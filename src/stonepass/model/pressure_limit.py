@@ -13,7 +13,6 @@ PRESSURE_LIMIT = free_input(
     "--limit",
     "Maximum tolerable urine pressure, e.g. 12kPa.",
     bounds=(1.0, 1e6),
-    metavar="PRESSURE",
 )
 
 

@@ -54,7 +54,6 @@ class Stone:
         default=None,
         title="stone diameter",
         bounds=DIAMETER,
-        metavar="LENGTH",
     )
     friction: float = declared(
         Kind.NUMBER,

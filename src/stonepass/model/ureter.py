@@ -71,7 +71,6 @@ class Ureter:
         default=None,
         title="inner diameter",
         bounds=DIAMETER,
-        metavar="LENGTH",
     )
     outer_diameter: Length | None = declared(
         Kind.LENGTH,
@@ -80,7 +79,6 @@ class Ureter:
         default=None,
         title="outer diameter",
         bounds=DIAMETER,
-        metavar="LENGTH",
     )
     material: Material = declared(
         Kind.MATERIAL,
@@ -104,7 +102,6 @@ class Ureter:
         default=None,
         title="wall thickness",
         bounds=DIAMETER,
-        metavar="LENGTH",
     )
 
     def __init__(

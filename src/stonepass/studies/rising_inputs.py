@@ -20,5 +20,4 @@ HIGHEST = free_input(
     "--to",
     "Highest urine pressure.",
     shown_default="the critical pressure",
-    metavar="PRESSURE",
 )

@@ -1,12 +1,15 @@
-"""Seeds of random numbers."""
+"""Seeds of random numbers, declared once for all doors."""
 
 from __future__ import annotations
 
-from stonepass.errors import require
+from stonepass.declaration import Kind, free_input, read_declared
 
-__all__ = ["check_seed"]
+__all__ = ["SEED", "check_seed"]
 
 LARGEST_SEED = 2**32 - 2  # a sensitivity study needs the next seed too; both have 32 bits
+SEED = free_input(
+    "seed", Kind.WHOLE, "--seed", "Seed of the samples.", default=1, bounds=(0, LARGEST_SEED)
+)
 
 
 def check_seed(seed: object, name: str = "seed") -> None:
@@ -18,5 +21,4 @@ def check_seed(seed: object, name: str = "seed") -> None:
     name : str
         Name of the input in messages.
     """
-    whole = isinstance(seed, int) and not isinstance(seed, bool) and 0 <= seed <= LARGEST_SEED
-    require(whole, name, seed, f"a whole number from 0 to {LARGEST_SEED}")
+    read_declared(SEED.declaration, name, seed)

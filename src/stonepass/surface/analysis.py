@@ -29,7 +29,6 @@ PIXEL_SIZE = free_input(
     Kind.LENGTH,
     "--pixel",
     "Size of a pixel of a picture, instead of that in the file, e.g. 0.5um.",
-    metavar="LENGTH",
 )
 HEIGHT_RANGE = free_input(
     "height_range",
@@ -38,7 +37,6 @@ HEIGHT_RANGE = free_input(
     "Difference in height from black to white, e.g. 35um.",
     title="height range",
     bounds=(1e-9, 1e-2),
-    metavar="LENGTH",
 )
 CRYSTAL = free_input(
     "crystal",
@@ -46,7 +44,6 @@ CRYSTAL = free_input(
     "--crystal",
     "Edge of the cubic crystals on the surface; the height range is then sqrt(3) times the edge.",
     bounds=(1e-9, 5e-3),
-    metavar="LENGTH",
 )
 PATHS = free_input(
     "paths",

@@ -77,7 +77,6 @@ class ElasticFoundation:
         "Young's modulus of the wall around the tube.",
         default=None,
         bounds=MODULUS,
-        metavar="PRESSURE",
     )
     longitudinal_modulus: Pressure | str | None = declared(
         Kind.PRESSURE,
@@ -85,7 +84,6 @@ class ElasticFoundation:
         "Young's modulus of the wall along the tube.",
         default=None,
         bounds=MODULUS,
-        metavar="PRESSURE",
     )
     secant_stretch: float | None = declared(
         Kind.NUMBER,

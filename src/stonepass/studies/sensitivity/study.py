@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from stonepass.errors import Misplaced, refuse_unknown, require
 from stonepass.model.pressure_limit import read_limit
 from stonepass.model.problem import require_kind
-from stonepass.studies.seed import check_seed
+from stonepass.studies.seed import SEED, check_seed
 from stonepass.studies.sensitivity.uncertain_case import UncertainCase
 from stonepass.units import Pressure, Quantity
 
@@ -60,7 +60,7 @@ class SensitivityStudy:
     method: str | None = None
     limit: str | Pressure | Quantity | None = None
     samples: int | None = None
-    seed: int = 1
+    seed: int = SEED.default
     surrogate: str | None = None
     sweep: str | None = None
 

@@ -18,6 +18,7 @@ from stonepass.inputs.overlay import refuse_pairs
 from stonepass.inputs.sections import FileSection
 from stonepass.io.toml_document import read_document
 from stonepass.io.toml_file import merged, parse_table
+from stonepass.studies.seed import SEED
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.uncertain_case import uncertain_values
 
@@ -30,7 +31,7 @@ class _Settings(FileSection):
     method: str | None = None
     limit: str | None = None
     samples: int | None = None
-    seed: int = 1
+    seed: int = SEED.default
     surrogate: str | None = None
     sweep: str | None = None
 

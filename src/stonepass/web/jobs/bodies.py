@@ -6,7 +6,15 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from stonepass.bench.test_files import size_at_rest
+from stonepass.bench.specimen_inputs import (
+    GAUGE_LENGTH,
+    RELATIVE,
+    SECTION,
+    SIZES,
+    THICKNESS,
+    WIDTH,
+    read_sizes,
+)
 from stonepass.clinic.patient import PatientFile, patient_of
 from stonepass.declaration import inputs_of, read_declared
 from stonepass.errors import BadInput, require
@@ -17,6 +25,7 @@ from stonepass.materials.constants import fixed_constant
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name
 from stonepass.model.case import Case
 from stonepass.model.pressure_limit import read_limit
+from stonepass.model.ureter import Ureter
 from stonepass.studies.rising_inputs import HIGHEST, STEPS
 from stonepass.studies.stiffness_input import STIFFNESS
 from stonepass.surface.analysis import (
@@ -27,7 +36,7 @@ from stonepass.surface.analysis import (
     PIXEL_SIZE,
     Analysis,
 )
-from stonepass.units import area, length, pressure
+from stonepass.units import pressure
 from stonepass.web.case_body import NO_FILES, CaseBody, case_of, refuse_files
 from stonepass.web.declared_field import declared_field
 from stonepass.web.stiffness import stiffened
@@ -49,6 +58,7 @@ Text = Annotated[str, Field(max_length=200)]
 Upload = Annotated[str, Field(pattern="^[0-9a-f]{64}$", description="id of an uploaded file")]
 CASE = "the sections of a case file"
 CHOICES = inputs_of(Analysis)
+TUBE = inputs_of(Ureter)
 
 
 def solved_case(body: Any) -> Case:
@@ -158,19 +168,19 @@ class FitJob(StrictBody):
     upload: Upload
     test: Literal["tensile", "inflation"]
     law: Text = Field(description="name of the law", examples=["neo-hookean"])
-    width: Text | None = Field(None, description="width of the strip at rest")
-    thickness: Text | None = Field(None, description="thickness of the strip at rest")
-    section: Text | None = Field(None, description="cross-section of the strip, e.g. '12 mm2'")
-    gauge_length: Text | None = Field(None, description="gauge length of the strip at rest")
-    inner: Text | None = Field(None, description="inner diameter of the tube at rest")
-    outer: Text | None = Field(None, description="outer diameter of the tube at rest")
+    width: Text | None = declared_field(WIDTH)
+    thickness: Text | None = declared_field(THICKNESS)
+    section: Text | None = declared_field(SECTION)
+    gauge_length: Text | None = declared_field(GAUGE_LENGTH)
+    inner: Text | None = declared_field(TUBE["inner_diameter"], "Inner diameter at rest.")
+    outer: Text | None = declared_field(TUBE["outer_diameter"], "Outer diameter at rest.")
     fix: dict[Text, Text | float] = Field(
         default_factory=dict, max_length=20, description="constants that are known, by name"
     )
     free: list[Text] = Field(
         default_factory=list, max_length=20, description="constants with a default to be fitted"
     )
-    relative: bool = Field(False, description="errors are proportional to the measured values")
+    relative: bool = declared_field(RELATIVE)
 
     def question(self) -> dict[str, Any]:
         """Return everything that the answer depends on, with all values checked."""
@@ -181,19 +191,18 @@ class FitJob(StrictBody):
                 raise BadInput("constant", name, "one of " + ", ".join(known))
         for name, value in self.fix.items():
             fixed_constant(value, known[name], name)
-        tube, strip = ("inner", "outer"), ("width", "thickness", "section", "gauge_length")
+        tube, strip = ("inner", "outer"), tuple(SIZES)
         needed, other = (tube, strip) if self.test == "inflation" else ((), tube)
         for name in needed:
             require(getattr(self, name) is not None, name, "missing", "given for an inflation test")
         for name in other:
             require(getattr(self, name) is None, name, getattr(self, name),
                     f"left out for the test '{self.test}'")  # fmt: skip
-        for name in (*tube, *strip):
-            text = getattr(self, name)
-            if text is not None and name == "section":
-                size_at_rest(text, name, area)
-            elif text is not None:
-                size_at_rest(text, name, length)
+        read_sizes(**{name: getattr(self, name) for name in strip})
+        for name in tube:
+            size = TUBE[f"{name}_diameter"].declaration
+            if getattr(self, name) is not None:
+                read_declared(size, name, getattr(self, name))
         return self.model_dump(mode="json")
 
 

@@ -359,7 +359,7 @@ def test_line_ends_and_a_byte_order_mark_are_read(tmp_path, kind, ends):
         ("case", '"soft.toml"', '"none.py:energy"', ("a file that exists",)),
         ("case", '"pairs.csv"', r'"a\u0000.csv"', ("a file that exists",)),
         ("patient", '"spheroid.csv"', '"pairs.csv"', ("in pairs.csv, column is alpha_deg", "one of z, rho")),
-        ("patient", '"soft.toml"', '"patient.toml"', ("key is stone", "one of law, source")),
+        ("patient", '"soft.toml"', '"patient.toml"', ("key is stone", "one of law, fibres, matrix, source")),
     ],
 )  # fmt: skip
 def test_a_key_or_a_value_that_is_wrong(tmp_path, kind, old, new, parts):

@@ -9,10 +9,11 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from strips import nominal_stress
 
 import stonepass as sp
 from stonepass.bench.law_fit import fit_law
-from stonepass.bench.test_data import Tension
+from stonepass.bench.test_data import AXES, Tension
 from stonepass.cli import run
 from stonepass.export.feb_material import add_wall_material
 from stonepass.export.inp import write_inp
@@ -31,7 +32,6 @@ from stonepass.materials.ogden import Ogden
 from stonepass.materials.principal_stretches import power_sum
 from stonepass.materials.protocol import Material
 from stonepass.materials.stability import check
-from stonepass.materials.uniaxial import AXES, nominal_stress
 from stonepass.materials.user_law import UserLaw
 from stonepass.strain import INNER_WALL, CauchyGreen
 

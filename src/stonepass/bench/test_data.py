@@ -11,9 +11,10 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Bool, Float
 from stonepass.bench.bench_stress import strip_stress, tube_pressure
 from stonepass.materials.protocol import Law
-from stonepass.materials.uniaxial import AXES
 
-__all__ = ["Inflation", "Tension"]
+__all__ = ["AXES", "Inflation", "Tension"]
+
+AXES = ("circumferential", "axial")  # directions of the wall along which a strip is cut
 
 
 @array_dataclass

@@ -9,10 +9,9 @@ import numpy as np
 
 from stonepass.bench.data_checks import check_inflation, check_tension, inner_ratio
 from stonepass.bench.specimen_inputs import read_sizes
-from stonepass.bench.test_data import Inflation, Tension
+from stonepass.bench.test_data import AXES, Inflation, Tension
 from stonepass.errors import BadInput
 from stonepass.io.csv_file import Columns, read_columns
-from stonepass.materials.uniaxial import AXES
 from stonepass.model.ureter import Ureter
 from stonepass.units import Area, Length, Quantity
 

@@ -23,7 +23,7 @@ from stonepass.export.element_strip import element_strip
 from stonepass.export.grid import grid
 from stonepass.export.inp import write_inp
 from stonepass.export.results import read_contact
-from stonepass.export.seating import Seating, seating, seating_of
+from stonepass.export.seating import DeckSeating, seating, seating_of
 from stonepass.model.states.nondimensional import profile_of
 from stonepass.model.states.seated_state import Contact
 
@@ -89,7 +89,7 @@ def all_settings() -> list[Settings]:
     return [Settings(*point) for point in itertools.product(*SETTINGS.values())]  # type: ignore[arg-type]
 
 
-def tuned(asked: sp.Case, settings: Settings) -> Seating:
+def tuned(asked: sp.Case, settings: Settings) -> DeckSeating:
     """Return the exported seating with the mesh and the contact of the settings."""
     plain = seating(asked, settings.fine)
     guess = settings.fine * plain.facing.stop / FACING_REACH  # position of the contact edge

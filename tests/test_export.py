@@ -16,7 +16,7 @@ from options import asking
 import stonepass as sp
 from stonepass.cli import run
 from stonepass.errors import BadInput
-from stonepass.export.comparison import Comparison, compare
+from stonepass.export.comparison import DeckComparison, compare
 from stonepass.export.element_strip import CLEARANCE
 from stonepass.export.grid import grid
 from stonepass.export.inp import write_inp
@@ -518,7 +518,7 @@ def test_calculix_agrees_without_friction(tmp_path, capsys, monkeypatch):
         **asking(seating="frictionless"),
     )
     found = compare(case, read_contact(seating(case), Path("job.dat")))
-    assert isinstance(found, Comparison)
+    assert isinstance(found, DeckComparison)
     half = (np.pi / 2 - found.seated.contact_angle) / 2
     inner = np.linspace(np.pi / 2 - half, np.pi / 2 + half, 41)
     off = found.contact.pressure_at(inner) / found.seated.pressure_at(inner) - 1.0
@@ -537,7 +537,7 @@ def test_calculix_agrees_pressed_under_load(tmp_path):
     (tmp_path / "job.inp").write_text(write_inp(s, "CAX8R"), encoding="utf-8")
     run_ccx(tmp_path)
     found = compare(case, read_contact(s, tmp_path / "job.dat"))
-    assert isinstance(found, Comparison)
+    assert isinstance(found, DeckComparison)
     assert found.pressure == pytest.approx(found.answer.pressure, rel=0.04)
     # Far from the stone the wall is as wide as a uniform tube under that load: 1 without, and a
     # little narrower beside the stone, since the ends keep their place (0.2 % without load).

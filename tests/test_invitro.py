@@ -10,7 +10,7 @@ from options import asking
 from shown import check_shown
 
 from stonepass.bench.agreement import disagreement
-from stonepass.bench.comparison import Setting, compare, point_curves, size_curves
+from stonepass.bench.comparison import SeriesSetting, compare, point_curves, size_curves
 from stonepass.bench.invitro import fit_friction
 from stonepass.bench.least_squares import profile_level
 from stonepass.cli import run
@@ -26,7 +26,7 @@ from stonepass.studies.case_solver import JobSolver
 from stonepass.units import Pressure
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
-QUICK = Setting(material("latex"), **asking(seating="frictionless", accuracy="fast"))
+QUICK = SeriesSetting(material("latex"), **asking(seating="frictionless", accuracy="fast"))
 DRY = [(1.5, 1.1, 0.0), (1.5, 1.25, 0.0), (2.0, 1.1, 0.0), (2.0, 1.3, 0.0)]
 WET = [(1.5, 1.15, 5e3), (2.0, 1.2, 5e3)]
 

@@ -41,7 +41,7 @@ from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along,
 from stonepass.surface.pixel_size import tescan_scan, zeiss_scan
 from stonepass.surface.readers import read_surface_image
 from stonepass.surface.sandboxed import read_in_sandbox
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
@@ -67,7 +67,9 @@ def picture_of(heights, pixel=0.5, bits=16, rows=40):
     full = 2**bits - 1
     grey = np.round(full * (heights - heights.min()) / np.ptp(heights))
     values = np.tile(grey, (rows, 1)).astype(np.uint8 if bits == 8 else np.uint16)
-    return SurfaceImage(values, (pixel * MICRO, pixel * MICRO), full, Area(0, 0, len(grey), rows))
+    return SurfaceImage(
+        values, (pixel * MICRO, pixel * MICRO), full, PixelArea(0, 0, len(grey), rows)
+    )
 
 
 def height_range(heights):
@@ -99,7 +101,7 @@ def test_known_slopes_are_recovered(profile, bits, tolerance):
 def test_known_slopes_as_heights(profile):
     """A height map needs no scaling: exact but for the sampling."""
     values = np.tile(profile * MICRO, (40, 1))
-    heights = SurfaceImage(values, (0.5 * MICRO, 0.5 * MICRO), 0, Area(0, 0, 1001, 40))
+    heights = SurfaceImage(values, (0.5 * MICRO, 0.5 * MICRO), 0, PixelArea(0, 0, 1001, 40))
     found = surface_friction(heights)
     assert found.k0 == pytest.approx(K0, rel=1e-4)
     assert found.k1 == pytest.approx(K1, rel=1e-4)
@@ -111,7 +113,9 @@ def test_known_slopes_as_heights(profile):
 def test_a_pixel_that_is_not_square(profile):
     """The same surface stretched: along y the rows are twice as far apart."""
     grey = picture_of(profile)
-    tall = SurfaceImage(grey.values.T.copy(), (2 * MICRO, 0.5 * MICRO), 65535, Area(0, 0, 40, 1001))
+    tall = SurfaceImage(
+        grey.values.T.copy(), (2 * MICRO, 0.5 * MICRO), 65535, PixelArea(0, 0, 40, 1001)
+    )
     found = surface_friction(tall, height_range(profile), [StraightPath(20, 0, 20, 1000)])
     assert found.friction == pytest.approx(0.5239, rel=3e-3)
     assert found.distance[-1] == pytest.approx(500 * MICRO)
@@ -154,7 +158,7 @@ def test_roughness_of_a_wave():
     x = 0.25 * np.arange(4001)
     wave = 3.0 * np.cos(2.0 * np.pi * x / 50.0)
     values = np.tile(wave * MICRO, (20, 1))
-    heights = SurfaceImage(values, (0.25 * MICRO, 0.25 * MICRO), 0, Area(0, 0, 4001, 20))
+    heights = SurfaceImage(values, (0.25 * MICRO, 0.25 * MICRO), 0, PixelArea(0, 0, 4001, 20))
     found = surface_friction(heights, baseline_order=40, deviation_order=60)
     assert found.roughness.Ra == pytest.approx(6.0 / np.pi * MICRO, rel=0.01)
     assert found.roughness.Rq == pytest.approx(3.0 / np.sqrt(2.0) * MICRO, rel=0.01)
@@ -167,7 +171,7 @@ def test_the_spread_puts_its_parts_together():
     x = np.arange(801) * MICRO
     tilts = np.array([0.1, 0.2, 0.3, 0.4])
     values = np.vstack([np.outer(tilts, x), np.zeros((16, 801))])
-    heights = SurfaceImage(values, (MICRO, MICRO), 0, Area(0, 0, 801, 20))
+    heights = SurfaceImage(values, (MICRO, MICRO), 0, PixelArea(0, 0, 801, 20))
     paths = [StraightPath(0, k, 800, k) for k in range(4)]
     found = surface_friction(heights, paths=paths)
     assert found.friction == pytest.approx(0.25, rel=1e-9)
@@ -192,7 +196,7 @@ def test_paths_evenly_spaced_over_the_area(profile):
 
 def test_profiles_are_bilinear_and_of_one_length():
     values = np.add.outer(3.0 * np.arange(40), 2.0 * np.arange(50)) * MICRO
-    heights = SurfaceImage(values, (MICRO, MICRO), 0, Area(0, 0, 50, 40))
+    heights = SurfaceImage(values, (MICRO, MICRO), 0, PixelArea(0, 0, 50, 40))
     paths = [StraightPath(1, 1, 31, 21), StraightPath(0, 0, 45, 30)]
     found = profiles_along(heights, paths)
     length = np.hypot(30.0, 20.0)
@@ -219,7 +223,7 @@ def test_paths_that_are_none(text, sentence):
 def test_paths_that_leave_the_picture_or_cross_a_gap():
     values = np.zeros((30, 40))
     values[10, 10] = np.nan
-    heights = SurfaceImage(values, (MICRO, MICRO), 0, Area(0, 0, 40, 30))
+    heights = SurfaceImage(values, (MICRO, MICRO), 0, PixelArea(0, 0, 40, 30))
     for path, sentence in (
         (
             StraightPath(0, 0, 40, 0),
@@ -268,7 +272,7 @@ def test_grey_of_every_kind_is_read_as_it_is(tmp_path, kind, bits):
     np.testing.assert_array_equal(found.values, values)
     assert found.full_scale == 2**bits - 1
     assert found.pixel is None
-    assert found.area == Area(0, 0, 80, 60)
+    assert found.area == PixelArea(0, 0, 80, 60)
 
 
 @pytest.mark.parametrize(
@@ -314,7 +318,7 @@ def test_pixel_size_and_data_bar_of_the_microscopes(tmp_path, tag, pixel, bottom
     path = save_tiff(tmp_path / "sem.tif", some_grey(), photometric="minisblack", extratags=[tag])
     found = read_surface_image(path)
     assert found.pixel == pytest.approx(pixel)
-    assert found.area == Area(0, 0, 80, bottom)
+    assert found.area == PixelArea(0, 0, 80, bottom)
     assert found.pixel_source == note
     assert found.with_pixel(1e-6).pixel_source == "as given"
 
@@ -394,7 +398,9 @@ def test_every_hostile_file_is_refused_in_one_sentence(tmp_path):
     ],
 )
 def test_pictures_without_an_answer(values, sentence):
-    full = SurfaceImage(values, (MICRO, MICRO), 255, Area(0, 0, values.shape[1], values.shape[0]))
+    full = SurfaceImage(
+        values, (MICRO, MICRO), 255, PixelArea(0, 0, values.shape[1], values.shape[0])
+    )
     with pytest.raises(BadInput) as refused:
         surface_friction(full, "1 mm", baseline_order=8 if "order" in sentence else 3)
     assert sentence in str(refused.value)
@@ -546,7 +552,7 @@ def test_an_impossible_pixel_is_not_taken_and_may_be_given(tmp_path):
         assert note.endswith("which is outside the accepted range")
         assert found.with_pixel(1e-6).pixel == (1e-6, 1e-6)
     with pytest.raises(BadInput, match="pixel size is 1e-06 m × 1e-08 m"):
-        SurfaceImage(some_grey(), (1e-6, 1e-8), 255, Area(0, 0, 80, 60))
+        SurfaceImage(some_grey(), (1e-6, 1e-8), 255, PixelArea(0, 0, 80, 60))
 
 
 def test_what_is_no_surface_is_told_of(profile):
@@ -559,7 +565,7 @@ def test_what_is_no_surface_is_told_of(profile):
     ).warnings
     assert any("a scale bar or a label" in str(told) for told in warned)
     strip = np.vstack([values, np.full((10, values.shape[1]), values.min(), np.uint8)])
-    area = Area(0, 0, strip.shape[1], len(strip))
+    area = PixelArea(0, 0, strip.shape[1], len(strip))
     warned = surface_friction(
         SurfaceImage(strip, grey.pixel, 255, area), height_range(profile)
     ).warnings
@@ -573,7 +579,7 @@ def test_what_is_no_surface_is_told_of(profile):
 def test_steepest_at_the_edge_of_where_it_is_looked_at():
     x = np.linspace(0.0, 500.0, 501)
     heights = np.tile(x**2 / 1000.0 * MICRO, (20, 1))
-    found = surface_friction(SurfaceImage(heights, (MICRO, MICRO), 0, Area(0, 0, 501, 20)))
+    found = surface_friction(SurfaceImage(heights, (MICRO, MICRO), 0, PixelArea(0, 0, 501, 20)))
     assert found.k0 == pytest.approx(1.0 * (1.0 - 1.0 / 8.0), rel=1e-3)
     assert any("may be steeper beyond it" in str(told) for told in found.warnings)
 

@@ -20,7 +20,7 @@ from stonepass.surface.height_maps import HEIGHT_MAPS
 from stonepass.surface.pixel_size import imagej_scan, jeol_scan, ome_scan
 from stonepass.surface.readers import read_surface_image
 from stonepass.surface.sandboxed import read_in_sandbox
-from stonepass.surface.surface_image import Area
+from stonepass.surface.surface_image import PixelArea
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
@@ -92,7 +92,7 @@ def test_the_text_file_of_jeol_or_hitachi(tmp_path, text, pixel, bottom, source,
         found = read(path)
         assert found.pixel == pytest.approx((pixel, pixel))
         assert found.pixel_source == source
-        assert found.area == Area(0, 0, 80, bottom)  # JEOL says how high the picture is
+        assert found.area == PixelArea(0, 0, 80, bottom)  # JEOL says how high the picture is
     (tmp_path / "sem.txt").write_text("notes of an afternoon\nPixelSize=3\n")
     assert read_surface_image(path).pixel is None
 

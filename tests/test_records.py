@@ -12,7 +12,7 @@ import stonepass as sp
 from stonepass.caution import SENTENCES, caution
 from stonepass.cli import run
 from stonepass.cli.app import COMMANDS, app
-from stonepass.export.comparison import Comparison
+from stonepass.export.comparison import DeckComparison
 from stonepass.records.base import CautionRecord, Record, warning_records
 from stonepass.records.compare import CompareRecord, compare_record
 from stonepass.records.reference import LISTS, RECORDS, parts, reference
@@ -131,7 +131,7 @@ def test_every_code_of_a_warning_is_used_and_in_the_reference():
 def test_a_comparison_adds_what_the_other_contact_gives():
     case = sp.Case(sp.Stone(size_ratio=1.2), sp.Ureter(wall_ratio=1.3), **asking(accuracy="fast"))
     answer = sp.solve(case)
-    record = compare_record(Comparison(answer, answer.contact, answer.contact, answer.pressure))
+    record = compare_record(DeckComparison(answer, answer.contact, answer.contact, answer.pressure))
     assert record.calculix.critical_pressure_kPa == record.critical_pressure_kPa
     assert record.calculix.contact_angle_deg == record.contact_angle_deg
     assert CompareRecord.model_validate(json.loads(json.dumps(record.to_dict()))) == record

@@ -24,7 +24,7 @@ from stonepass.studies.sensitivity.morris import morris_design, morris_sensitivi
 from stonepass.studies.sensitivity.responses import ANSWERED, responses
 from stonepass.studies.sensitivity.sensitivity import sensitivity
 from stonepass.studies.sensitivity.sobol import saltelli_design, sobol_sensitivities
-from stonepass.studies.sensitivity.solved_cases import SolvedCases
+from stonepass.studies.sensitivity.solved_cases import CaseEvaluator
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.study_file import read_sensitivity
 from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
@@ -486,7 +486,7 @@ def interpolated(uncertain, count=256):
     unit = sobol_points(len(uncertain), int(np.log2(count)), 3)
     points = {key: low + (high - low) * unit[:, k] for k, (key, low, high) in enumerate(
         (each.key, each.quantity.low, each.quantity.high) for each in case.inputs)}  # fmt: skip
-    return InterpolatedCases(case, points, SolvedCases(case)(points), "sweep 'study'")
+    return InterpolatedCases(case, points, CaseEvaluator(case)(points), "sweep 'study'")
 
 
 def test_solved_cases_answer_a_study():
@@ -773,7 +773,7 @@ def test_an_unstable_law_is_a_refused_case():
         sp.Stone(size_ratio=1.1), sp.Ureter(wall_ratio=1.3), numerics=sp.Numerics("fast")
     )
     uncertain = uncertain_case(case, {"ureter.material.a1122": "-30 to 30"})
-    found = SolvedCases(uncertain)({"ureter.material.a1122": np.array([30.0])})
+    found = CaseEvaluator(uncertain)({"ureter.material.a1122": np.array([30.0])})
     assert found.outcome.tolist() == [BAD_INPUT]
     assert found.reason
     assert found.value.mask.all()

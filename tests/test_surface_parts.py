@@ -24,7 +24,7 @@ from stonepass.surface.lost_points import lost_points, without_lost_points
 from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along
 from stonepass.surface.readers import read_surface_image
 from stonepass.surface.sandboxed import read_in_sandbox
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 MICRO = 1e-6
@@ -53,7 +53,7 @@ def bar(height=30, background=255, ink=0, frame=True):
 def heights_of(z):
     """A height map of heights in µm, 1 µm apart."""
     rows, columns = z.shape
-    return SurfaceImage(z * MICRO, (MICRO, MICRO), 0, Area(0, 0, columns, rows))
+    return SurfaceImage(z * MICRO, (MICRO, MICRO), 0, PixelArea(0, 0, columns, rows))
 
 
 # Data bars
@@ -74,7 +74,7 @@ def test_a_data_bar_is_found_and_left_out(tmp_path, where, background, ink, fram
     assert abs(found.area.top - top) <= near
     assert abs(found.area.bottom - bottom) <= near
     assert "look like a data bar" in found.notes[0]
-    whole = read_surface_image(path, Area(0, 0, COLUMNS, ROWS + 30))
+    whole = read_surface_image(path, PixelArea(0, 0, COLUMNS, ROWS + 30))
     warned = surface_friction(whole.with_pixel(MICRO), "2 um").warnings
     assert "plain_rows" in {each.code for each in warned}
 
@@ -103,7 +103,7 @@ def test_the_margins_of_a_figure_cut_from_a_page_are_left_out(tmp_path):
     page[10 : 10 + ROWS, 20 : 20 + COLUMNS] = surface()
     Image.fromarray(page).save(tmp_path / "figure.png")
     found = read_surface_image(tmp_path / "figure.png")
-    assert found.area == Area(20, 10, 20 + COLUMNS, 10 + ROWS)
+    assert found.area == PixelArea(20, 10, 20 + COLUMNS, 10 + ROWS)
     np.testing.assert_array_equal(found.surface, surface())
     assert "the last 25 columns look like a data bar or a margin" in found.notes[-1]
 
@@ -120,11 +120,11 @@ def test_a_border_of_one_grey_is_left_out_and_told(tmp_path, sides, width, grey)
     padded = np.pad(surface(), (down, across), constant_values=grey)
     Image.fromarray(padded).save(tmp_path / "a.png")
     found = read_surface_image(tmp_path / "a.png")
-    inner = Area(across[0], down[0], across[0] + COLUMNS, down[0] + ROWS)
+    inner = PixelArea(across[0], down[0], across[0] + COLUMNS, down[0] + ROWS)
     assert found.area == inner
     assert len(found.notes) == (across[0] > 0) + (across[1] > 0) + (down[0] > 0) + (down[1] > 0)
     rows, columns = padded.shape
-    whole = read_surface_image(tmp_path / "a.png", Area(0, 0, columns, rows)).with_pixel(MICRO)
+    whole = read_surface_image(tmp_path / "a.png", PixelArea(0, 0, columns, rows)).with_pixel(MICRO)
     try:
         told = " ".join(map(str, surface_friction(whole, "2 um").warnings))
     except BadInput as refused:
@@ -159,7 +159,7 @@ def test_a_smooth_surface_has_no_border():
     for profile in (waves, ramp, 255.0 * (x // 30 % 2)):
         grey = np.tile(np.round(profile), (ROWS, 1)).astype(np.uint8)
         for each in (grey, np.ascontiguousarray(grey.T)):
-            area = Area(0, 0, each.shape[1], each.shape[0])
+            area = PixelArea(0, 0, each.shape[1], each.shape[0])
             assert without_border(each, area) == area
 
 
@@ -170,7 +170,7 @@ def test_a_border_beside_a_declared_bar_is_left_out(tmp_path):
     grey = np.vstack([np.pad(surface()[:50, :80], 5), np.zeros((10, 90), np.uint8)])
     path = save_tiff(tmp_path / "sem.tif", grey, extratags=[(34682, "s", 0, fei, True)])
     found = read_surface_image(path)
-    assert found.area == Area(5, 5, 85, 55)
+    assert found.area == PixelArea(5, 5, 85, 55)
     assert any("the lowest 15 rows look like" in each for each in found.notes)
 
 
@@ -180,7 +180,7 @@ def test_a_bar_of_an_fei_file_without_a_pixel_size(tmp_path):
     path = save_tiff(tmp_path / "sem.tif", grey, extratags=[(34682, "s", 0, fei, True)])
     found = read_surface_image(path)
     assert found.pixel is None
-    assert found.area == Area(0, 0, 80, 50)
+    assert found.area == PixelArea(0, 0, 80, 50)
 
 
 def test_colour_outside_the_area_is_no_matter(tmp_path):
@@ -201,7 +201,7 @@ def test_colour_outside_the_area_is_no_matter(tmp_path):
     image = Image.fromarray(index, "P")
     image.putpalette(greys.tobytes())
     image.save(tmp_path / names[3])
-    area = Area(0, 0, COLUMNS, ROWS)
+    area = PixelArea(0, 0, COLUMNS, ROWS)
     for name in names:
         for read in (read_surface_image, read_in_sandbox):
             found = read(tmp_path / name, area=area)
@@ -214,21 +214,21 @@ def test_colour_outside_the_area_is_no_matter(tmp_path):
             "select --area 0,0,360,260."
         )
         with pytest.raises(BadInput, match=sentence):
-            read_surface_image(tmp_path / name, Area(0, 0, COLUMNS, ROWS + 30))
+            read_surface_image(tmp_path / name, PixelArea(0, 0, COLUMNS, ROWS + 30))
         with pytest.raises(BadInput, match="left, top, right, bottom within 0, 0, 360, 270"):
-            read_surface_image(tmp_path / name, Area(0, 0, COLUMNS, ROWS + 31))
+            read_surface_image(tmp_path / name, PixelArea(0, 0, COLUMNS, ROWS + 31))
 
 
 def test_the_largest_grey_part_is_proposed():
     """A run of rows or of columns, whichever is larger; none if colours are everywhere."""
     rgb = np.repeat(np.full((700, 100, 1), 90, np.uint8), 3, axis=2)
-    whole = Area(0, 0, 100, 700)
+    whole = PixelArea(0, 0, 100, 700)
     assert Decoded(rgb).grey_part(whole) == whole
     rgb[550, 80] = (255, 0, 0)
-    assert Decoded(rgb).grey_part(whole) == Area(0, 0, 80, 700)
-    assert Decoded(rgb).grey_part(Area(60, 100, 100, 700)) == Area(60, 100, 100, 550)
+    assert Decoded(rgb).grey_part(whole) == PixelArea(0, 0, 80, 700)
+    assert Decoded(rgb).grey_part(PixelArea(60, 100, 100, 700)) == PixelArea(60, 100, 100, 550)
     rgb[600, 40] = (255, 0, 0)
-    assert Decoded(rgb).grey_part(whole) == Area(0, 0, 100, 550)
+    assert Decoded(rgb).grey_part(whole) == PixelArea(0, 0, 100, 550)
     rgb[::100, ::10] = (0, 255, 0)
     assert Decoded(rgb).grey_part(whole) is None
     assert Decoded(rgb[..., 0]).grey_part(whole) == whole
@@ -330,7 +330,7 @@ def test_a_border_without_heights_is_named_with_the_area_that_helps():
     z[:, :12] = z[:, -7:] = np.nan
     z[:5] = z[-9:] = np.nan
     z[np.random.default_rng(3).random(z.shape) < 0.03] = np.nan
-    assert known_area(z, Area(0, 0, 400, 120)) == Area(12, 5, 393, 111)
+    assert known_area(z, PixelArea(0, 0, 400, 120)) == PixelArea(12, 5, 393, 111)
     sentence = "leave out the border, where heights are missing, with --area 12,5,393,111"
     with pytest.raises(BadInput, match=sentence):
         surface_friction(heights_of(z))
@@ -490,7 +490,7 @@ def test_a_plane_is_found_exactly():
     y, x = np.mgrid[:50, :1100]
     z = 3.0 + 0.25 * x - 0.125 * y
     z[:, 7] = np.nan
-    picture = replace(heights_of(z), values=z, area=Area(2, 3, 1000, 40))
+    picture = replace(heights_of(z), values=z, area=PixelArea(2, 3, 1000, 40))
     plane = fit_plane(picture)
     assert (plane.across, plane.down) == pytest.approx((0.25, -0.125), rel=1e-9)
     np.testing.assert_allclose(plane.at(x, y), 3.0 + 0.25 * x - 0.125 * y, atol=1e-9)
@@ -505,7 +505,7 @@ def test_a_grey_picture_that_drifts_is_levelled():
 
     def picture(z):
         grey = np.round(60000 * (z - z.min()) / np.ptp(z)).astype(np.uint16)
-        return SurfaceImage(grey, (MICRO, MICRO), 65535, Area(0, 0, 1001, 40))
+        return SurfaceImage(grey, (MICRO, MICRO), 65535, PixelArea(0, 0, 1001, 40))
 
     plain = surface_friction(picture(np.tile(profile, (40, 1))), "8 um", level=True)
     levelled = surface_friction(picture(drift), "8 um", level=True)
@@ -561,12 +561,14 @@ def test_a_scale_bar_inside_a_picture_is_told(tmp_path, capsys, bar, grey):
     place = f"{columns.start}, {rows.start}, {columns.stop}, {rows.stop}"
     for name in ("bar.png", "bar.jpg"):
         Image.fromarray(values).save(tmp_path / name, quality=92)
-        picture = read_surface_image(tmp_path / name, Area(0, 0, COLUMNS, ROWS)).with_pixel(MICRO)
+        picture = read_surface_image(tmp_path / name, PixelArea(0, 0, COLUMNS, ROWS)).with_pixel(
+            MICRO
+        )
         told = {each.code: each for each in surface_friction(picture, "2 um").warnings}
         assert "drawn_bar" in told
         if name == "bar.png":
             assert dict(told["drawn_bar"].values)["place"] == place
-    plain = SurfaceImage(surface(), (MICRO, MICRO), 255, Area(0, 0, COLUMNS, ROWS))
+    plain = SurfaceImage(surface(), (MICRO, MICRO), 255, PixelArea(0, 0, COLUMNS, ROWS))
     assert "drawn_bar" not in {each.code for each in surface_friction(plain, "2 um").warnings}
     y, x = np.mgrid[:ROWS, :COLUMNS]
     patch = np.where(((x - 180) / 30) ** 2 + ((y - 120) / 8) ** 2 < 1.0, grey, surface())

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from web_server import CASE, LONG, QUICK, Limits, client, ended, running
+from web_server import CASE, LONG, QUICK, ServerLimits, client, ended, running
 
 from stonepass.errors import BadInput
 from stonepass.inputs.build import build_case
@@ -218,7 +218,7 @@ def test_a_killed_worker_is_told_and_the_next_job_runs(asking):
 
 
 def test_a_full_queue_says_when_to_ask_again(asking):
-    limits = Limits(waiting=1)
+    limits = ServerLimits(waiting=1)
     with client(workers=1, limits=limits) as crowded:
         first = ask(crowded, LONG)["id"]
         running(crowded, first)
@@ -230,7 +230,7 @@ def test_a_full_queue_says_when_to_ask_again(asking):
 
 
 def test_a_job_that_takes_too_long_is_ended():
-    with client(workers=1, limits=Limits(job_seconds=2.0)) as hurried:
+    with client(workers=1, limits=ServerLimits(job_seconds=2.0)) as hurried:
         found = ended(hurried, ask(hurried, LONG)["id"])
         assert (
             found["problem"]["detail"] == "The job took longer than the 2 s that the server allows."
@@ -239,7 +239,7 @@ def test_a_job_that_takes_too_long_is_ended():
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="the limit of memory is one of Linux")
 def test_a_job_that_needs_too_much_memory_is_ended():
-    with client(workers=1, limits=Limits(job_memory=150_000_000)) as small:
+    with client(workers=1, limits=ServerLimits(job_memory=150_000_000)) as small:
         found = ended(small, ask(small, PRESSURE)["id"])
         assert found["status"] == "failed"
         detail = found["problem"]["detail"]
@@ -247,7 +247,7 @@ def test_a_job_that_needs_too_much_memory_is_ended():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("limits", [Limits(finished=1), Limits(results=1)])
+@pytest.mark.parametrize("limits", [ServerLimits(finished=1), ServerLimits(results=1)])
 def test_the_oldest_results_are_forgotten(limits):
     with client(workers=1, limits=limits) as forgetful:
         first = ask(forgetful, LOOSE)["id"]
@@ -259,7 +259,7 @@ def test_the_oldest_results_are_forgotten(limits):
 
 @pytest.mark.slow
 def test_an_idle_worker_process_is_ended_and_a_new_one_is_started():
-    with client(workers=1, limits=Limits(idle_seconds=0.2)) as resting:
+    with client(workers=1, limits=ServerLimits(idle_seconds=0.2)) as resting:
         process = resting.app.app.state.server.book.processes[0]
         ended(resting, ask(resting, LOOSE)["id"])
         last = time.monotonic() + 10.0
@@ -404,7 +404,7 @@ def test_the_oldest_uploads_are_dropped_when_there_are_too_many_bytes():
     table = b"stretch,nominal_stress_kPa\n" + b"".join(
         b"%g,%d\n" % (1 + k / 100, k) for k in range(99)
     )
-    with client(limits=Limits(uploads=2 * len(table) + 60)) as asking:
+    with client(limits=ServerLimits(uploads=2 * len(table) + 60)) as asking:
         ids = [upload(asking, "fit", table + b"#" * k, "text/csv")["id"] for k in range(3)]
         kept = [asking.app.app.state.server.uploads.get(each) is not None for each in ids]
         assert kept == [False, True, True]
@@ -490,7 +490,7 @@ def test_reports_of_materials_with_other_sources_are_other_questions():
 
 
 def test_old_files_are_dropped_though_nobody_asks_for_them():
-    store = UploadStore(Limits(upload_seconds=0.05))
+    store = UploadStore(ServerLimits(upload_seconds=0.05))
     store.add(Upload("a" * 64, "fit", ".csv", b"1,2", {}))
     time.sleep(0.1)
     store.drop_old()

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from web_server import CASE, HOST, Limits, client
+from web_server import CASE, HOST, ServerLimits, client
 
 from stonepass.cli import run
 from stonepass.errors import BadInput
@@ -289,7 +289,7 @@ def test_static_files_are_those_of_the_page_alone(asking, path):
 
 
 def test_the_length_that_a_request_states_is_checked_before_its_body_is_read(asking):
-    limits = Limits()
+    limits = ServerLimits()
     for path, most in (("/api/v1/instant", limits.body), ("/api/v1/uploads/fit", limits.upload)):
         headers = {"content-length": str(most + 1), "content-type": "text/csv"}
         problem_of(asking.post(path, content=b"x", headers=headers), 413)
@@ -303,7 +303,7 @@ def test_a_body_of_unknown_length_is_counted():
         for _ in range(100):
             yield b" " * 1000
 
-    with client(limits=Limits(body=50_000)) as asking:
+    with client(limits=ServerLimits(body=50_000)) as asking:
         problem_of(asking.post("/api/v1/instant", content=parts()), 413)
 
 
@@ -341,7 +341,7 @@ def test_a_json_request_must_say_that_it_is_json(asking):
 
 
 def test_a_client_that_asks_too_often_is_told_when_to_ask_again():
-    with client(limits=Limits(per_minute=2)) as asking:
+    with client(limits=ServerLimits(per_minute=2)) as asking:
         for _ in range(2):
             assert asking.post("/api/v1/uploads/fit", content=b"x").status_code != 429
         found = asking.post("/api/v1/uploads/fit", content=b"x")

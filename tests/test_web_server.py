@@ -6,14 +6,14 @@ import time
 from http.client import HTTPResponse
 
 import pytest
-from web_server import CASE, HOST, Limits, at, exchange, server
+from web_server import CASE, HOST, ServerLimits, at, exchange, server
 
 from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.web.server import make_server
 from stonepass.web.settings import ServerSettings
 
-LIMITS = Limits(header_seconds=0.6, body_seconds=0.8, connections=20)
+LIMITS = ServerLimits(header_seconds=0.6, body_seconds=0.8, connections=20)
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from starlette.testclient import TestClient
 
 from stonepass.web.app import create_app
 from stonepass.web.server import make_server
-from stonepass.web.settings import Limits, ServerSettings
+from stonepass.web.settings import ServerLimits, ServerSettings
 
 HOST = "http://127.0.0.1:8765"
 THIN = {"inner_diameter": "3.5 mm", "outer_diameter": "4.54 mm"}
@@ -92,5 +92,5 @@ def at(port, **settings):
     return httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=60.0, **settings)
 
 
-__all__ = ["CASE", "HOST", "LONG", "QUICK", "THIN", "Limits", "at", "client", "ended", "exchange",
+__all__ = ["CASE", "HOST", "LONG", "QUICK", "THIN", "ServerLimits", "at", "client", "ended", "exchange",
            "running", "server"]  # fmt: skip

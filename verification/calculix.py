@@ -15,7 +15,7 @@ import numpy as np
 from page import Check, Section
 
 import stonepass as sp
-from stonepass.export.comparison import Comparison, compare
+from stonepass.export.comparison import DeckComparison, compare
 from stonepass.export.inp import write_inp
 from stonepass.export.results import read_contact
 from stonepass.export.seating import seating
@@ -118,8 +118,8 @@ def section() -> Section:
     )
 
 
-def solver(folder: Path) -> Callable[[int, Question], Comparison | None]:
-    def solve(number: int, question: Question) -> Comparison | None:
+def solver(folder: Path) -> Callable[[int, Question], DeckComparison | None]:
+    def solve(number: int, question: Question) -> DeckComparison | None:
         model, job = seating(question.case), f"job{number}"
         deck = write_inp(model, question.element)
         (folder / f"{job}.inp").write_text(deck, encoding="utf-8")
@@ -131,12 +131,12 @@ def solver(folder: Path) -> Callable[[int, Question], Comparison | None]:
             found = compare(question.case, read_contact(model, folder / f"{job}.dat"))
         except sp.BadInput:  # CalculiX stopped early with exit code 0
             return None
-        return found if isinstance(found, Comparison) else None
+        return found if isinstance(found, DeckComparison) else None
 
     return solve
 
 
-def differences(found: Comparison) -> tuple[float, float, float, float]:
+def differences(found: DeckComparison) -> tuple[float, float, float, float]:
     ours, theirs = found.seated, found.contact
     assert found.answer.pressure is not None
     assert found.pressure is not None

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from page import Check, Section
 
-from stonepass.bench.comparison import Setting, compare
+from stonepass.bench.comparison import SeriesSetting, compare
 from stonepass.bench.invitro import fit_friction
 from stonepass.bench.law_fit import fit_law
 from stonepass.bench.test_data import Tension
@@ -158,7 +158,7 @@ def _coverage(name: str, noise: str) -> tuple[dict[str, float], float]:
 def _series():
     with TemporaryDirectory() as folder, process_pool(CORES) as pool:
         solver = JobSolver(pool, Path(folder))
-        setting = Setting(material("latex"))
+        setting = SeriesSetting(material("latex"))
         stiff = Material("stiffer", NeoHookean(STIFFER * 0.1465e6), "", "", "", (1.0, 1.5))
         own = fit_friction(_made(setting, solver), setting, solver=solver)
         both = fit_friction(_made(replace(setting, material=stiff), solver), setting, solver=solver)
@@ -180,7 +180,7 @@ def _series():
     return checks, (caption, ("fitted", "friction", "stiffness"), rows)
 
 
-def _made(setting: Setting, solver: CaseSolver) -> list[Point]:
+def _made(setting: SeriesSetting, solver: CaseSolver) -> list[Point]:
     blank = [Point(xi, eta, Pressure(1e3 * out), Pressure(1.0)) for eta, xi, out in TUBES]
     found = compare(blank, FRICTION, setting, solver)
     return [

@@ -20,7 +20,7 @@ from page import Check, Section
 from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.friction import friction_of_slopes, surface_friction
 from stonepass.surface.paths import StraightPath
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 ROOT = Path(__file__).parents[1]
 MICRO = 1e-6
@@ -169,7 +169,9 @@ def surface(distance, heights, pixel, angle, bits, noise, generator):
     room = 0.5 / (0.5 + 4.5 * noise)  # contrast that leaves room for the noise
     grey = np.clip(np.round(full * (0.5 + room * (share - 0.5))), 0, full)
     values = grey.astype(np.uint8 if bits == 8 else np.uint16)
-    picture = SurfaceImage(values, (pixel * MICRO, pixel * MICRO), full, Area(0, 0, columns, rows))
+    picture = SurfaceImage(
+        values, (pixel * MICRO, pixel * MICRO), full, PixelArea(0, 0, columns, rows)
+    )
     return picture, [StraightPath(*((end - low) / pixel).ravel()) for end in ends]
 
 

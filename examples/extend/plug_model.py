@@ -14,7 +14,7 @@ import numpy as np
 
 from stonepass.declaration import Kind, check_inputs, declared
 from stonepass.errors import Outcome
-from stonepass.model.answer import Answer, Quantity
+from stonepass.model.answer import Answer, NamedQuantity
 from stonepass.model.far_field import far_field_law, urine_pressure
 from stonepass.model.models.shared_options import far_field_ground
 
@@ -97,4 +97,4 @@ class PlugDetail:
 
     def quantities(self):
         """Return the pressure that opens the tube to the radius of the stone."""
-        return (Quantity("opening_pressure", self.opening / 1e3, "kPa", "opening pressure"),)
+        return (NamedQuantity("opening_pressure", self.opening / 1e3, "kPa", "opening pressure"),)

@@ -19,7 +19,7 @@ from stonepass.result import Presentation, present_with
 
 if TYPE_CHECKING:
     from stonepass import export
-    from stonepass.bench.comparison import Setting
+    from stonepass.bench.comparison import SeriesSetting
     from stonepass.bench.invitro import InVitro, fit_friction
     from stonepass.bench.law_fit import FittedLaw, fit_law
     from stonepass.bench.test_data import Inflation, Tension
@@ -178,7 +178,7 @@ _HOME = {
     "Sensitivity": "studies.sensitivity.sensitivity",
     "SensitivityRecord": "records.sensitivity",
     "SensitivityStudy": "studies.sensitivity.study",
-    "Setting": "bench.comparison",
+    "SeriesSetting": "bench.comparison",
     "Shape": "model.shape",
     "SizeAnswer": "model.size",
     "SizeJob": "studies.jobs",
@@ -338,7 +338,7 @@ __all__ = [
     "Sensitivity",
     "SensitivityRecord",
     "SensitivityStudy",
-    "Setting",
+    "SeriesSetting",
     "Shape",
     "SizeAnswer",
     "SizeJob",

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import chdtrc, fdtrc
 
 from stonepass.array_types import Float
-from stonepass.bench.comparison import Comparison
+from stonepass.bench.comparison import SeriesComparison
 from stonepass.caution import Caution, caution
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
@@ -20,7 +20,7 @@ UNLIKELY = 0.01  # significance level of both tests
 OBJECTIONS = ("beyond_sd", "beyond_repeats", "stiffness_excluded", "no_friction_fits")
 
 
-def disagreement(comparison: Comparison, fitted: int) -> list[Caution]:
+def disagreement(comparison: SeriesComparison, fitted: int) -> list[Caution]:
     """Test whether the measuring errors explain the residuals of a series.
 
     If every point has a standard deviation, the sum of the squared residuals, each divided by its
@@ -30,7 +30,7 @@ def disagreement(comparison: Comparison, fitted: int) -> list[Caution]:
 
     Parameters
     ----------
-    comparison : Comparison
+    comparison : SeriesComparison
         Measured pressures and the answers of the model.
     fitted : int
         Number of parameters that were fitted to the series, 0 or more.

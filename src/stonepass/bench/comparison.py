@@ -22,7 +22,14 @@ from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.studies.case_solver import CaseSolver
 
-__all__ = ["Comparison", "Setting", "SizeCurve", "compare", "point_curves", "size_curves"]
+__all__ = [
+    "SeriesComparison",
+    "SeriesSetting",
+    "SizeCurve",
+    "compare",
+    "point_curves",
+    "size_curves",
+]
 
 T = TypeVar("T")
 
@@ -30,7 +37,7 @@ SIZES = 9  # number of size ratios on a curve
 
 
 @dataclass(frozen=True)
-class Setting:
+class SeriesSetting:
     """Properties that all stones and tubes of a series have in common.
 
     Attributes
@@ -70,7 +77,7 @@ class Setting:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class SeriesComparison:
     """Measured points and the answers of the model at one friction coefficient.
 
     Attributes
@@ -142,8 +149,8 @@ def _moves(answer: Answer) -> bool:
 
 
 def compare(
-    points: Sequence[Point], friction: float, setting: Setting, solver: CaseSolver
-) -> Comparison:
+    points: Sequence[Point], friction: float, setting: SeriesSetting, solver: CaseSolver
+) -> SeriesComparison:
     """Compute the critical pressure of every point of a series at one friction coefficient.
 
     Parameters
@@ -152,13 +159,13 @@ def compare(
         Measured critical pressures.
     friction : float
         Friction coefficient μ_f, 0 to 2.
-    setting : Setting
+    setting : SeriesSetting
         Material, confinement, model and numerics.
     solver : CaseSolver
         Solves the cases.
     """
     cases = [setting.case(point, friction) for point in points]
-    return Comparison(friction, tuple(points), tuple(solver.answers(cases)))
+    return SeriesComparison(friction, tuple(points), tuple(solver.answers(cases)))
 
 
 @array_dataclass
@@ -184,14 +191,16 @@ class SizeCurve:
     pressure: Float[np.ndarray, " n"]
 
 
-def size_curves(comparison: Comparison, setting: Setting, solver: CaseSolver) -> list[SizeCurve]:
+def size_curves(
+    comparison: SeriesComparison, setting: SeriesSetting, solver: CaseSolver
+) -> list[SizeCurve]:
     """Compute a curve of the model for each tube and load that was measured at several sizes.
 
     Parameters
     ----------
-    comparison : Comparison
+    comparison : SeriesComparison
         It gives the tubes, the loads, the range of sizes and the friction coefficient.
-    setting : Setting
+    setting : SeriesSetting
         Material, confinement, model and numerics.
     solver : CaseSolver
         Solves the cases, without error estimates.
@@ -220,14 +229,14 @@ def size_curves(comparison: Comparison, setting: Setting, solver: CaseSolver) ->
     ]
 
 
-def point_curves(comparison: Comparison) -> list[SizeCurve]:
+def point_curves(comparison: SeriesComparison) -> list[SizeCurve]:
     """Return the model's pressures at the measured sizes as curves; nothing is solved.
 
     There is a curve for each tube and load for which the model predicts at least two pressures.
 
     Parameters
     ----------
-    comparison : Comparison
+    comparison : SeriesComparison
     """
     curves = []
     for tube, some in _by_tube(comparison.points, comparison.answers).items():

@@ -18,7 +18,7 @@ from scipy.stats import f as f_distribution
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
 from stonepass.bench.agreement import OBJECTIONS, disagreement
-from stonepass.bench.comparison import Comparison, Setting, compare
+from stonepass.bench.comparison import SeriesComparison, SeriesSetting, compare
 from stonepass.bench.least_squares import (
     LEVEL,
     Interval,
@@ -39,7 +39,15 @@ from stonepass.result import Result
 from stonepass.studies.case_solver import CaseSolver, JobSolver
 from stonepass.units import Values
 
-__all__ = ["LARGEST", "SMALLEST", "STIFFNESS", "Estimate", "InVitro", "JointFit", "fit_friction"]
+__all__ = [
+    "LARGEST",
+    "SMALLEST",
+    "STIFFNESS",
+    "FittedParameter",
+    "InVitro",
+    "JointFit",
+    "fit_friction",
+]
 
 SMALLEST, LARGEST = 0.01, FRICTION[1]  # search bounds of the friction coefficient
 STIFFNESS = (1.0 / 3.0, 3.0)  # search bounds of the factor on the stiffness of the material
@@ -53,7 +61,7 @@ FEWEST = 4  # smallest number of points for a fit of both parameters
 
 
 @dataclass(frozen=True)
-class Estimate:
+class FittedParameter:
     """A fitted parameter and its 95 % confidence interval.
 
     Attributes
@@ -76,9 +84,9 @@ class JointFit:
 
     Attributes
     ----------
-    friction : Estimate
+    friction : FittedParameter
         Friction coefficient μ_f.
-    stiffness : Estimate
+    stiffness : FittedParameter
         Factor on the stiffness of the material.
     correlation : float or None
         Correlation of the two estimates, −1 to 1.
@@ -92,8 +100,8 @@ class JointFit:
     docs/bench.md, "A series in vitro".
     """
 
-    friction: Estimate
-    stiffness: Estimate
+    friction: FittedParameter
+    stiffness: FittedParameter
     correlation: float | None
     misfit: Callable[[Values, Values], Values]
     level: float
@@ -106,15 +114,15 @@ class InVitro(Result):
 
     Attributes
     ----------
-    comparison : Comparison
+    comparison : SeriesComparison
         Comparison at the fitted friction, or at the friction that the caller gave.
-    fitted : Comparison
+    fitted : SeriesComparison
         Comparison at the fitted friction.
-    friction : Estimate
+    friction : FittedParameter
         Friction coefficient fitted with the stiffness of the material.
     joint : JointFit or None
         Friction and stiffness fitted together; None for fewer than four points.
-    setting : Setting
+    setting : SeriesSetting
         Material, confinement, model and numerics.
     weighted : bool
         True if every residual is weighted by the standard deviation of its point.
@@ -122,11 +130,11 @@ class InVitro(Result):
         Warnings; those after which the fitted numbers must not be used come first.
     """
 
-    comparison: Comparison
-    fitted: Comparison
-    friction: Estimate
+    comparison: SeriesComparison
+    fitted: SeriesComparison
+    friction: FittedParameter
     joint: JointFit | None
-    setting: Setting
+    setting: SeriesSetting
     weighted: bool
     warnings: tuple[Caution, ...] = ()
 
@@ -150,7 +158,7 @@ class InVitro(Result):
 
 def fit_friction(
     points: Sequence[Point],
-    setting: Setting,
+    setting: SeriesSetting,
     friction: float | None = None,
     solver: CaseSolver | None = None,
 ) -> InVitro:
@@ -166,7 +174,7 @@ def fit_friction(
     points : sequence of Point
         At least two measured critical pressures. The residuals are weighted if every point has a
         standard deviation.
-    setting : Setting
+    setting : SeriesSetting
         Material, confinement, model and numerics.
     friction : float, optional
         Friction coefficient at which the series is compared with the model, 0 to 2; by default the
@@ -220,11 +228,11 @@ def fit_friction(
     value = float(found.params["friction"].value)
     answered = sum(fitted.answers[k].outcome is Outcome.MOVES for k in kept)
     if answered < 2 or any(abs(value - end) < 1e-3 * end for end in BOUNDS["friction"]):
-        estimate = Estimate(value, None, None)
+        estimate = FittedParameter(value, None, None)
         warnings.append(caution("no_friction_fits"))
     else:
         bounds, more = intervals(minimizer, found, ["friction"])
-        estimate = Estimate(value, *_ends(bounds, "friction"))
+        estimate = FittedParameter(value, *_ends(bounds, "friction"))
         warnings += more
         if False in chosen:
             warnings.append(caution("unanswered_at_fit", count=chosen.count(False)))
@@ -236,7 +244,7 @@ def fit_friction(
     return InVitro(asked, fitted, estimate, joint, setting, weighted, tuple(ordered))
 
 
-def _excluded(joint: JointFit | None, alone: Estimate) -> list[Caution]:
+def _excluded(joint: JointFit | None, alone: FittedParameter) -> list[Caution]:
     """Return cautions if the joint fit excludes the stiffness of the material or ends at a bound.
 
     `joint` and `alone` are the fits with and without an unknown stiffness.
@@ -297,7 +305,9 @@ def _joint(
         return series.misfit(mu, stiffness) / least
 
     best = {name: float(found.params[name].value) for name in BOUNDS}
-    estimates = {name: Estimate(best[name], *_profiled(misfit, best, name, count)) for name in best}
+    estimates = {
+        name: FittedParameter(best[name], *_profiled(misfit, best, name, count)) for name in best
+    }
     bounds = {name: (each.low, each.high) for name, each in estimates.items()}
     warnings = open_ended(bounds, "jointly_not_bounded", "jointly_bounded_on_one_side")
     excess_level = 2.0 * float(f_distribution.ppf(LEVEL, 2, count - 2)) / (count - 2)

@@ -16,7 +16,7 @@ import numpy as np
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
-from stonepass.bench.comparison import Setting
+from stonepass.bench.comparison import SeriesSetting
 from stonepass.caution import Caution, caution
 from stonepass.errors import Outcome
 from stonepass.inputs.measured_pressures import Point
@@ -165,7 +165,7 @@ class SeriesModel:
         Measured critical pressures.
     weights : array (n)
         Weights of the residuals in 1/Pa.
-    setting : Setting
+    setting : SeriesSetting
         Material, confinement, model and numerics.
 
     References
@@ -176,7 +176,7 @@ class SeriesModel:
     curves: tuple[PressureCurve, ...]
     points: Sequence[Point]
     weights: Float[np.ndarray, " n"]
-    setting: Setting
+    setting: SeriesSetting
 
     def residuals(self, parameters: Any) -> Float[np.ndarray, " n"]:
         """Return the weighted differences of prediction and measurement for lmfit parameters."""
@@ -247,7 +247,7 @@ class SeriesModel:
 
 
 def series_curves(
-    points: Sequence[Point], setting: Setting, solver: CaseSolver
+    points: Sequence[Point], setting: SeriesSetting, solver: CaseSolver
 ) -> tuple[list[PressureCurve | None], list[Caution]]:
     """Solve every point at a few friction coefficients and factors on its confining pressure.
 
@@ -255,7 +255,7 @@ def series_curves(
     ----------
     points : sequence of Point
         Measured critical pressures.
-    setting : Setting
+    setting : SeriesSetting
         Material, confinement, model and numerics.
     solver : CaseSolver
         Solves the cases, without error estimates.
@@ -284,7 +284,7 @@ def series_curves(
     return curves, warnings
 
 
-def _asked(point: Point, setting: Setting) -> dict[tuple[float, float], Case]:
+def _asked(point: Point, setting: SeriesSetting) -> dict[tuple[float, float], Case]:
     outside = float(point.confining_pressure)
     factors = tuple(f for f in LOAD_FACTORS if f * outside <= CONFINING[1]) if outside else (1.0,)
     return {(f, mu): setting.case(point, mu, f) for f in factors for mu in NODES}

@@ -70,7 +70,7 @@ def command(
     Give the same case as for the export.
     """
     from stonepass.cli.terminal import FIGURES, print_json, show, warn, working, writable, wrote
-    from stonepass.export.comparison import Comparison, compare
+    from stonepass.export.comparison import DeckComparison, compare
     from stonepass.export.results import read_contact
     from stonepass.export.seating import seating
     from stonepass.studies.jobs import state_solver
@@ -81,7 +81,7 @@ def command(
     contact = read_contact(seating(case, mesh), results)
     with working("solving the finite-element model"):
         found = compare(case, contact, state_solver(cache_folder(cache, no_cache)))
-    if not isinstance(found, Comparison):
+    if not isinstance(found, DeckComparison):
         show(f"{found.outcome.name}: {found.message}")
         return 1
     from stonepass.records.compare import compare_record

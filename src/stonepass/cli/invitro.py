@@ -125,14 +125,14 @@ def command(
     values = {"method.model": model, "method.seating": seating}
     chosen, numerics = build_method({key: v for key, v in values.items() if v is not None})
     wall, points = find_material(material), read_points(data)
-    from stonepass.bench.comparison import Setting, size_curves
+    from stonepass.bench.comparison import SeriesSetting, size_curves
     from stonepass.bench.invitro import fit_friction
     from stonepass.records.invitro import invitro_record, series_warnings, write_invitro
     from stonepass.report.invitro_report import invitro_table
     from stonepass.studies.case_solver import JobSolver
     from stonepass.studies.executor import CORES, process_pool
 
-    setting = Setting(wall, confinement, chosen, numerics)
+    setting = SeriesSetting(wall, confinement, chosen, numerics)
     folder = cache_folder(cache, no_cache)
     count = workers or CORES
     seconds = SECONDS_OF_A_POINT.get(chosen.NAME, 0.0) * len(points) / count

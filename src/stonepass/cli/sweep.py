@@ -130,7 +130,7 @@ def _run(
     from stonepass.cli.terminal import note
     from stonepass.studies.executor import CORES
     from stonepass.studies.sweeps.advice import DAYS
-    from stonepass.studies.sweeps.run import Standing, Words, run_sweep
+    from stonepass.studies.sweeps.run import Standing, SweepWords, run_sweep
 
     last = Standing(0, plan.cases)
     with ExitStack() as stack:
@@ -148,7 +148,7 @@ def _run(
             show(now)
 
         try:
-            words = Words("--out", "--resume", "--max-days")
+            words = SweepWords("--out", "--resume", "--max-days")
             days = DAYS if max_days is None else max_days
             return run_sweep(plan, out, executor=executor, workers=count, resume=resume,
                              max_days=days, tell=tell, words=words)  # fmt: skip

@@ -19,7 +19,7 @@ from stonepass.clinic.samples import Present, Samples
 from stonepass.errors import Outcome
 from stonepass.model.answer import Answer
 from stonepass.result import Result
-from stonepass.studies.censored_samples import Fraction, Range
+from stonepass.studies.censored_samples import Fraction, PercentileRange
 from stonepass.studies.sensitivity_indices import SensitivityIndex
 
 __all__ = ["Assessment"]
@@ -49,9 +49,9 @@ class Assessment(Result):
         because a surrogate of the package covers the inputs.
     central : float or None
         P_ucr in Pa at the measured values; None if it is not known.
-    critical : Range or None
+    critical : PercentileRange or None
         Median and 90 % interval of the critical pressure P_ucr in Pa.
-    present : Range or None
+    present : PercentileRange or None
         Median and 90 % interval of the present urine pressure in Pa; None if the dilated segment
         was not measured.
     below_limit : Fraction or None
@@ -91,8 +91,8 @@ class Assessment(Result):
     cohorts: tuple[Row, ...]
     at_values: Answer | None = None
     central: float | None = None
-    critical: Range | None = None
-    present: Range | None = None
+    critical: PercentileRange | None = None
+    present: PercentileRange | None = None
     below_limit: Fraction | None = None
     below_present: Fraction | None = None
     loose: float = 0.0

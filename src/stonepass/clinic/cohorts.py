@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-__all__ = ["COHORTS", "PLACES", "Cohort", "Rate", "Row", "place_meant", "rows_for", "wilson"]
+__all__ = ["COHORTS", "PLACES", "Cohort", "PassageRate", "Row", "place_meant", "rows_for", "wilson"]
 
 PLACES = ("proximal", "mid", "distal", "UVJ")
 # Other words for the places; only words with a single meaning are listed.
@@ -24,7 +24,7 @@ NORMAL_95 = 1.959963984540054  # quantile of the standard normal distribution at
 
 
 @dataclass(frozen=True)
-class Rate:
+class PassageRate:
     """The fraction of stones of a size class, or at a place, that passed.
 
     Attributes
@@ -68,7 +68,7 @@ class Cohort:
         read in another source.
     about : str
         Which stones were observed, how and for how long.
-    by_size, by_place : tuple of Rate
+    by_size, by_place : tuple of PassageRate
         Rates of size classes, and of places in the ureter.
     """
 
@@ -76,8 +76,8 @@ class Cohort:
     source: str
     read: str
     about: str
-    by_size: tuple[Rate, ...] = ()
-    by_place: tuple[Rate, ...] = ()
+    by_size: tuple[PassageRate, ...] = ()
+    by_place: tuple[PassageRate, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ class Row:
     group : str
         Size class or place as printed.
     passed, days, count, published
-        Attributes of the `Rate`.
+        Attributes of the `PassageRate`.
     sizes : (float, float) or None
         Size class in mm; None for a place.
     """
@@ -148,8 +148,8 @@ def place_meant(word: str) -> str:
     return _OTHER_WORDS.get(word.strip().casefold(), "")
 
 
-def _places(*rates: tuple[str, float, int | None]) -> tuple[Rate, ...]:
-    return tuple(Rate(name, 0.0, math.inf, passed, None, n) for name, passed, n in rates)
+def _places(*rates: tuple[str, float, int | None]) -> tuple[PassageRate, ...]:
+    return tuple(PassageRate(name, 0.0, math.inf, passed, None, n) for name, passed, n in rates)
 
 
 COHORTS = (
@@ -159,12 +159,12 @@ COHORTS = (
         QUOTED,
         "width in CT, passed within 20 weeks; 391 stones in the companion paper",
         (
-            Rate("0–2 mm", 0.0, 2.5, 0.98),
-            Rate("3 mm", 2.5, 3.5, 0.98),
-            Rate("4 mm", 3.5, 4.5, 0.81),
-            Rate("5 mm", 4.5, 5.5, 0.65),
-            Rate("6 mm", 5.5, 6.5, 0.33),
-            Rate("≥ 6.5 mm", 6.5, math.inf, 0.09),
+            PassageRate("0–2 mm", 0.0, 2.5, 0.98),
+            PassageRate("3 mm", 2.5, 3.5, 0.98),
+            PassageRate("4 mm", 3.5, 4.5, 0.81),
+            PassageRate("5 mm", 4.5, 5.5, 0.65),
+            PassageRate("6 mm", 5.5, 6.5, 0.33),
+            PassageRate("≥ 6.5 mm", 6.5, math.inf, 0.09),
         ),
     ),
     Cohort(
@@ -173,11 +173,11 @@ COHORTS = (
         ITSELF,
         "172 stones, largest diameter in the axial plane of CT",
         (
-            Rate("1 mm", 0.0, 1.5, 0.87),
-            Rate("2–4 mm", 1.5, 4.5, 0.76),
-            Rate("5–7 mm", 4.5, 7.0, 0.60),
-            Rate("7–9 mm", 7.0, 9.0, 0.48),
-            Rate("> 9 mm", 9.0, math.inf, 0.25),
+            PassageRate("1 mm", 0.0, 1.5, 0.87),
+            PassageRate("2–4 mm", 1.5, 4.5, 0.76),
+            PassageRate("5–7 mm", 4.5, 7.0, 0.60),
+            PassageRate("7–9 mm", 7.0, 9.0, 0.48),
+            PassageRate("> 9 mm", 9.0, math.inf, 0.25),
         ),
         _places(
             ("proximal", 0.48, None),
@@ -192,9 +192,9 @@ COHORTS = (
         ITSELF,
         "75 patients, passed without intervention",
         (
-            Rate("≤ 2 mm", 0.0, 2.0, 39 / 41, 8.2, 41),
-            Rate("2–4 mm", 2.0, 4.0, 15 / 18, 12.2, 18),
-            Rate("≥ 4 mm", 4.0, math.inf, 8 / 16, 22.1, 16),
+            PassageRate("≤ 2 mm", 0.0, 2.0, 39 / 41, 8.2, 41),
+            PassageRate("2–4 mm", 2.0, 4.0, 15 / 18, 12.2, 18),
+            PassageRate("≥ 4 mm", 4.0, math.inf, 8 / 16, 22.1, 16),
         ),
     ),
     Cohort(
@@ -202,7 +202,7 @@ COHORTS = (
         "Hübner et al. 1993, Eur Urol 24:172–176, PubMed 8375436",
         ITSELF,
         "6 studies before CT, 2704 patients in all, selected",
-        (Rate("< 4 mm", 0.0, 4.0, 0.38), Rate("> 6 mm", 6.0, math.inf, 0.012)),
+        (PassageRate("< 4 mm", 0.0, 4.0, 0.38), PassageRate("> 6 mm", 6.0, math.inf, 0.012)),
         _places(("proximal", 0.12, None), ("mid", 0.22, None), ("distal", 0.45, None)),
     ),
     Cohort(
@@ -210,7 +210,7 @@ COHORTS = (
         "Park JS et al. 2021, PLoS One 16(12):e0260517, doi:10.1371/journal.pone.0260517",
         ITSELF,
         "833 patients in all",
-        (Rate("< 5 mm", 0.0, 5.0, 0.756), Rate("5–10 mm", 5.0, 10.0, 0.682)),
+        (PassageRate("< 5 mm", 0.0, 5.0, 0.756), PassageRate("5–10 mm", 5.0, 10.0, 0.682)),
     ),
     Cohort(
         "AUA/EAU analysis",
@@ -219,8 +219,8 @@ COHORTS = (
         QUOTED,
         "pooled studies; the intervals are those of the analysis",
         (
-            Rate("≤ 5 mm", 0.0, 5.0, 0.68, published=(0.46, 0.85)),
-            Rate("5–10 mm", 5.0, 10.0, 0.47, published=(0.36, 0.59)),
+            PassageRate("≤ 5 mm", 0.0, 5.0, 0.68, published=(0.46, 0.85)),
+            PassageRate("5–10 mm", 5.0, 10.0, 0.47, published=(0.36, 0.59)),
         ),
     ),
     Cohort(
@@ -229,11 +229,11 @@ COHORTS = (
         ITSELF,
         "656 patients; mean time of the stones that passed",
         (
-            Rate("all sizes", 0.0, math.inf, 566 / 656, None, 656),
-            Rate("< 2 mm", 0.0, 2.0, None, 6.8),
-            Rate("2–4 mm", 2.0, 4.0, None, 12.6),
-            Rate("4–6 mm", 4.0, 6.0, None, 14.8),
-            Rate("6–8 mm", 6.0, 8.0, None, 21.8),
+            PassageRate("all sizes", 0.0, math.inf, 566 / 656, None, 656),
+            PassageRate("< 2 mm", 0.0, 2.0, None, 6.8),
+            PassageRate("2–4 mm", 2.0, 4.0, None, 12.6),
+            PassageRate("4–6 mm", 4.0, 6.0, None, 14.8),
+            PassageRate("6–8 mm", 6.0, 8.0, None, 21.8),
         ),
     ),
     Cohort(
@@ -248,7 +248,7 @@ COHORTS = (
         "Ahmed et al. 2014, Arab J Urol 13(2):84–90, doi:10.1016/j.aju.2014.11.004",
         ITSELF,
         "stones up to 10 mm; 24.0 ± 8.1 days to pass",
-        (Rate("≤ 10 mm", 0.0, 10.0, 0.779, 24.0, 163),),
+        (PassageRate("≤ 10 mm", 0.0, 10.0, 0.779, 24.0, 163),),
     ),
     Cohort(
         "Kori Hospital 2019",
@@ -257,7 +257,7 @@ COHORTS = (
         ITSELF,
         "stones up to 10 mm, passed within 4 weeks; 76 % where the wall at the stone was thinner "
         "than 2.71 mm, 15 % where it was thicker",
-        (Rate("≤ 10 mm", 0.0, 10.0, 0.483, None, 418),),
+        (PassageRate("≤ 10 mm", 0.0, 10.0, 0.483, None, 418),),
     ),
 )  # fmt: skip
 
@@ -285,11 +285,11 @@ def rows_for(low: float, high: float, place: str | None) -> list[Row]:
     return rows
 
 
-def _row(cohort: Cohort, rate: Rate, sizes: tuple[float, float] | None) -> Row:
+def _row(cohort: Cohort, rate: PassageRate, sizes: tuple[float, float] | None) -> Row:
     return Row(cohort, rate.label, rate.passed, sizes, rate.days, rate.count, rate.published)
 
 
-def _overlap(rate: Rate, low: float, high: float) -> bool:
+def _overlap(rate: PassageRate, low: float, high: float) -> bool:
     """Return whether a size class and a range overlap in more than a single point."""
     if low == high:
         return rate.low <= low < rate.high

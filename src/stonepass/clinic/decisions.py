@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stonepass.clinic.assessment import Assessment
-from stonepass.studies.censored_samples import Fraction, Range
+from stonepass.studies.censored_samples import Fraction, PercentileRange
 
 __all__ = ["CONTRADICTIONS", "Decision", "decisions", "next_measurement"]
 
@@ -87,7 +87,7 @@ def _limit(found: Assessment) -> Decision | None:
     )
 
 
-def _interval(values: Range | None) -> str:
+def _interval(values: PercentileRange | None) -> str:
     if values is None or values.low is None:
         return ""
     high = values.high if values.high is not None else values.at_least

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from stonepass.export.checks import check_case, checked_options, find_writer
 from stonepass.export.contract import Export, Writer
 from stonepass.export.registry import WRITERS
-from stonepass.export.words import Words, as_keyword
+from stonepass.export.words import FormatWords, as_keyword
 from stonepass.io.text_file import check_writable, write_file
 
 if TYPE_CHECKING:  # these modules load NumPy and SciPy
@@ -45,7 +45,7 @@ def write(
     *,
     solved: Callable[[], Answer] | None = None,
     writers: Sequence[Writer] = WRITERS,
-    words: Words = as_keyword,
+    words: FormatWords = as_keyword,
     **options: Any,
 ) -> Export:
     """Write the input file of a case for another program, or its solved wall for display.

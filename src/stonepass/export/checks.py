@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.export.contract import Limit, Option, Writer
-from stonepass.export.words import Words
+from stonepass.export.words import FormatWords
 
 if TYPE_CHECKING:  # loads NumPy and SciPy
     from stonepass.model.case import Case
@@ -21,7 +21,9 @@ OWN_LAW = "a user-defined law"
 WITH_OPTIONS = ("model", "seating")  # kinds of limits for which messages name the option
 
 
-def find_writer(writers: Sequence[Writer], path: Path, format: str | None, words: Words) -> Writer:
+def find_writer(
+    writers: Sequence[Writer], path: Path, format: str | None, words: FormatWords
+) -> Writer:
     """Return the writer with a given name, or else the one with the ending of a path.
 
     Parameters
@@ -54,7 +56,7 @@ def find_writer(writers: Sequence[Writer], path: Path, format: str | None, words
 
 
 def checked_options(
-    writers: Sequence[Writer], writer: Writer, given: Mapping[str, Any], words: Words
+    writers: Sequence[Writer], writer: Writer, given: Mapping[str, Any], words: FormatWords
 ) -> dict[str, Any]:
     """Return a checked value for every option of a writer.
 
@@ -92,7 +94,7 @@ def checked_options(
     return values
 
 
-def checked_value(option: Option, value: Any, words: Words) -> Any:
+def checked_value(option: Option, value: Any, words: FormatWords) -> Any:
     """Return the value of an option after a check against its choices or bounds.
 
     Parameters
@@ -125,7 +127,7 @@ def check_case(
     writer: Writer,
     case: Case,
     options: Mapping[str, Any],
-    words: Words,
+    words: FormatWords,
 ) -> None:
     """Refuse a case that a format cannot express.
 
@@ -188,7 +190,9 @@ def _within(limit: Limit, name: str, options: Mapping[str, Any]) -> bool:
     return needs is not None and all(options[key] == value for key, value in needs.items())
 
 
-def _remedy(writers: Sequence[Writer], writer: Writer, kind: str, name: str, words: Words) -> str:
+def _remedy(
+    writers: Sequence[Writer], writer: Writer, kind: str, name: str, words: FormatWords
+) -> str:
     """Return the reason of the limit, or the options or formats that can express the name."""
     own = writer.limits[kind]
     if name not in own.allowed and own.reason:

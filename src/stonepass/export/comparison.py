@@ -14,11 +14,11 @@ from stonepass.model.states.seated_state import Contact, SeatedState
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.states.uncached import UNCACHED
 
-__all__ = ["Comparison", "compare"]
+__all__ = ["DeckComparison", "compare"]
 
 
 @dataclass(frozen=True)
-class Comparison:
+class DeckComparison:
     """One case, solved by stonepass and by another program.
 
     Attributes
@@ -44,7 +44,9 @@ class Comparison:
     pressure: float | None
 
 
-def compare(case: Case, contact: Contact, states: StateSolver = UNCACHED) -> Comparison | Answer:
+def compare(
+    case: Case, contact: Contact, states: StateSolver = UNCACHED
+) -> DeckComparison | Answer:
     """Solve a case and compare it with the contact that another program computed.
 
     Parameters
@@ -75,4 +77,4 @@ def compare(case: Case, contact: Contact, states: StateSolver = UNCACHED) -> Com
         return answer
     printed = isinstance(model, SeatedBalance) and model.as_printed
     pressure = balance_pressure(contact, detail.closure, as_printed=printed)
-    return Comparison(answer, seated, contact, pressure)
+    return DeckComparison(answer, seated, contact, pressure)

@@ -15,7 +15,7 @@ import numpy as np
 from stonepass.about import DISCLAIMER
 from stonepass.array_types import Num
 from stonepass.export.feb_material import add_wall_material
-from stonepass.export.seating import KPA, MM, Seating
+from stonepass.export.seating import KPA, MM, DeckSeating
 from stonepass.export.wedge import WEDGE, Wedge
 from stonepass.materials.derivatives import hoop_modulus
 
@@ -32,12 +32,12 @@ STRIP_CURVE, LOAD_CURVE = "1", "2"  # numbers of the load curves
 NO_RESIDUAL = 1e-12
 
 
-def write_feb(seating: Seating) -> str:
+def write_feb(seating: DeckSeating) -> str:
     """Return the text of the input file.
 
     Parameters
     ----------
-    seating : Seating
+    seating : DeckSeating
         Meshes, prescribed displacements and loads.
 
     Raises
@@ -67,7 +67,7 @@ def write_feb(seating: Seating) -> str:
     return '<?xml version="1.0" encoding="ISO-8859-1"?>\n' + tostring(root, "unicode") + "\n"
 
 
-def _header(s: Seating) -> str:
+def _header(s: DeckSeating) -> str:
     lines = (
         *s.heading(),
         f"units mm, mN, kPa; a wedge of {np.degrees(WEDGE):g} degrees about z, from y = 0 to y > 0",
@@ -77,7 +77,7 @@ def _header(s: Seating) -> str:
     return "\n    " + "\n    ".join(plain) + "\n  "
 
 
-def _materials(root: Element, s: Seating) -> None:
+def _materials(root: Element, s: DeckSeating) -> None:
     section = SubElement(root, "Material")
     law = s.case.ureter.material.law
     add_wall_material(section, law, id="1", name="wall")
@@ -86,7 +86,7 @@ def _materials(root: Element, s: Seating) -> None:
     _leaf(stone, "v", 0.3)
 
 
-def _mesh(root: Element, s: Seating, wall: Wedge, strip: Wedge) -> None:
+def _mesh(root: Element, s: DeckSeating, wall: Wedge, strip: Wedge) -> None:
     mesh = SubElement(root, "Mesh")
     bodies = {"wall": wall, "stone": strip}
     for name, wedge in bodies.items():
@@ -117,7 +117,7 @@ def _mesh(root: Element, s: Seating, wall: Wedge, strip: Wedge) -> None:
         SubElement(domains, "SolidDomain", name=name, mat=name)
 
 
-def _travel(root: Element, s: Seating, strip: Wedge) -> None:
+def _travel(root: Element, s: DeckSeating, strip: Wedge) -> None:
     data = SubElement(root, "MeshData")
     travel = strip.turned(s.travel) * s.inner_radius / MM
     for dof, values in zip("xyz", travel.T, strict=True):
@@ -127,7 +127,7 @@ def _travel(root: Element, s: Seating, strip: Wedge) -> None:
             _leaf(table, "node", float(value), lid=str(position))
 
 
-def _boundary(root: Element, s: Seating, wall: Wedge) -> None:
+def _boundary(root: Element, s: DeckSeating, wall: Wedge) -> None:
     section = SubElement(root, "Boundary")
     _hold(section, "side", "y")
     pull = s.pull * s.inner_radius / MM
@@ -162,7 +162,7 @@ def _move(section: Element, node_set: str, dof: str) -> Element:
     return bc
 
 
-def _load(root: Element, s: Seating) -> None:
+def _load(root: Element, s: DeckSeating) -> None:
     """Add the confining pressure.
 
     FEBio's linear pressure acts on the initial area in the initial direction, so that its forces
@@ -178,7 +178,7 @@ def _load(root: Element, s: Seating) -> None:
     _leaf(pressure, "linear", int(not load.hydrostatic))
 
 
-def _contact(root: Element, s: Seating) -> None:
+def _contact(root: Element, s: DeckSeating) -> None:
     """Add the contact; the contact pressure is the penalty times the penetration."""
     section = SubElement(root, "Contact")
     touch = SubElement(section, "contact", type="sliding-elastic", surface_pair="touch")
@@ -191,7 +191,7 @@ def _contact(root: Element, s: Seating) -> None:
     _leaf(touch, "fric_coeff", s.friction)
 
 
-def _steps(root: Element, s: Seating) -> None:
+def _steps(root: Element, s: DeckSeating) -> None:
     section = SubElement(root, "Step")
     counts = (LOAD_INCREMENTS if s.loaded else 1, int(np.ceil(s.length / s.increment)))
     for number, (name, count) in enumerate(zip(("load", "press"), counts, strict=True), start=1):
@@ -221,7 +221,7 @@ def _control(control: Element, count: int) -> None:
     _leaf(SubElement(solver, "qn_method", type="BFGS"), "max_ups", 0)
 
 
-def _curves(root: Element, s: Seating) -> None:
+def _curves(root: Element, s: DeckSeating) -> None:
     section = SubElement(root, "LoadData")
     curves = {STRIP_CURVE: s.first_fraction} | ({LOAD_CURVE: 1.0} if s.loaded else {})
     for number, first in curves.items():

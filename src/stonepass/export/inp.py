@@ -22,7 +22,7 @@ from stonepass.errors import refuse_unknown
 from stonepass.export.grid import Grid
 from stonepass.export.inp_material import deck_line, has_overlaid_matrix, material_lines
 from stonepass.export.input_options import ELEMENT, FLAVOUR
-from stonepass.export.seating import KPA, MM, Seating
+from stonepass.export.seating import KPA, MM, DeckSeating
 
 __all__ = ["write_inp"]
 
@@ -33,7 +33,7 @@ ONLY_LAST = 1_000_000  # increments between outputs, so that only the end of a s
 
 
 def write_inp(
-    seating: Seating,
+    seating: DeckSeating,
     element: str = "CAX8",
     flavour: str = "calculix",
     increment: float | None = None,
@@ -42,7 +42,7 @@ def write_inp(
 
     Parameters
     ----------
-    seating : Seating
+    seating : DeckSeating
         Meshes, prescribed displacements and loads.
     element : {"CAX8", "CAX8R"}
         Element type of the wall.
@@ -50,7 +50,7 @@ def write_inp(
         Program that reads the deck.
     increment : float, optional
         Largest displacement of the element strip in one increment of the second step, in inner
-        radii; `Seating.increment` by default.
+        radii; `DeckSeating.increment` by default.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def write_inp(
     return "\n".join(line for part in parts for line in part) + "\n"
 
 
-def _header(s: Seating, element: str, flavour: str) -> Iterator[str]:
+def _header(s: DeckSeating, element: str, flavour: str) -> Iterator[str]:
     yield from (f"** {line}" for line in s.heading())
     yield f"** {element} for {flavour}; mm, mN, kPa; r along x, the tube's axis along y"
     yield f"** {DISCLAIMER}"
@@ -84,7 +84,7 @@ def _header(s: Seating, element: str, flavour: str) -> Iterator[str]:
     yield "Stone pressed into a ureter"
 
 
-def _mesh(s: Seating, element: str, flavour: str) -> Iterator[str]:
+def _mesh(s: DeckSeating, element: str, flavour: str) -> Iterator[str]:
     hybrid = "H" if flavour == "abaqus" else ""
     points = np.vstack([s.wall.points, s.element_strip.points]) * s.inner_radius / MM
     yield "*NODE, NSET=ALL"
@@ -107,7 +107,7 @@ def _elements(grid: Grid, first: int, first_node: int) -> Iterator[str]:
         yield deck_line(number, *nodes.tolist())
 
 
-def _sets(s: Seating) -> Iterator[str]:
+def _sets(s: DeckSeating) -> Iterator[str]:
     count = len(s.wall.points)
     inner = s.wall.row_line(0)
     yield from _set("FIRST", s.wall.column_line(0))
@@ -131,7 +131,7 @@ def _set(name: str, nodes: Any) -> Iterator[str]:
         yield deck_line(*kept[start : start + A_LINE])
 
 
-def _contact(s: Seating, flavour: str) -> Iterator[str]:
+def _contact(s: DeckSeating, flavour: str) -> Iterator[str]:
     stiffness = s.penalty / KPA / (s.inner_radius / MM)
     yield "*SURFACE INTERACTION, NAME=TOUCH"
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
@@ -148,7 +148,7 @@ def _contact(s: Seating, flavour: str) -> Iterator[str]:
     yield "LUMEN, STONE"
 
 
-def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
+def _steps(s: DeckSeating, flavour: str, increment: float) -> Iterator[str]:
     pull = s.pull * s.inner_radius / MM
     yield "*BOUNDARY"
     yield from ("FIRST, 2, 2", "LAST, 2, 2")
@@ -178,11 +178,11 @@ def _steps(s: Seating, flavour: str, increment: float) -> Iterator[str]:
     yield "*END STEP"
 
 
-def _radial(s: Seating) -> bool:
+def _radial(s: DeckSeating) -> bool:
     return not s.travel[:, 1].any()
 
 
-def _motion(s: Seating, fraction: float) -> Iterator[str]:
+def _motion(s: DeckSeating, fraction: float) -> Iterator[str]:
     yield "*BOUNDARY"
     moved = fraction * s.travel * s.inner_radius / MM
     if _radial(s):
@@ -194,7 +194,7 @@ def _motion(s: Seating, fraction: float) -> Iterator[str]:
         yield deck_line(number, 2, 2, float(z))
 
 
-def _load(s: Seating) -> Iterator[str]:
+def _load(s: DeckSeating) -> Iterator[str]:
     load = s.case.load
     if load.confining_pressure == 0.0:
         return
@@ -211,7 +211,7 @@ def _load(s: Seating) -> Iterator[str]:
         yield deck_line(int(node) + 1, 1, -float(force))
 
 
-def _output(s: Seating, flavour: str) -> Iterator[str]:
+def _output(s: DeckSeating, flavour: str) -> Iterator[str]:
     if flavour == "abaqus":
         yield "*OUTPUT, FIELD"
         yield "*NODE OUTPUT"

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from stonepass.errors import BadInput
-from stonepass.export.seating import KPA, Seating, bulk_modulus
+from stonepass.export.seating import KPA, DeckSeating, bulk_modulus
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.fung import Fung
 from stonepass.materials.holzapfel import HolzapfelGasserOgden
@@ -35,12 +35,12 @@ def has_overlaid_matrix(law: Law) -> bool:
     return isinstance(law, Fung)
 
 
-def material_lines(s: Seating, flavour: str) -> Iterator[str]:
+def material_lines(s: DeckSeating, flavour: str) -> Iterator[str]:
     """Return the lines of the materials and sections of wall, ground matrix and strip.
 
     Parameters
     ----------
-    s : Seating
+    s : DeckSeating
         Meshes, prescribed displacements and loads.
     flavour : {"calculix", "abaqus"}
         Program that reads the deck.

@@ -11,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from stonepass.array_types import Float
 from stonepass.errors import require
-from stonepass.export.seating import KPA, MM, Seating
+from stonepass.export.seating import KPA, MM, DeckSeating
 from stonepass.io.text_file import read_text
 from stonepass.model.states.nondimensional import profile_of
 from stonepass.model.states.seated_state import Contact
@@ -29,7 +29,7 @@ ANGLES = 1001  # number of angles of the returned contact
 MOST = 200_000_000  # largest size of the file in bytes
 
 
-def read_contact(seating: Seating, path: Path) -> Contact:
+def read_contact(seating: DeckSeating, path: Path) -> Contact:
     """Read the contact at the end of the last step from a ``.dat`` file of CalculiX.
 
     The contact pressure is that of CalculiX, averaged over each element of the wall. The edges of
@@ -38,7 +38,7 @@ def read_contact(seating: Seating, path: Path) -> Contact:
 
     Parameters
     ----------
-    seating : Seating
+    seating : DeckSeating
         The meshes from which the input deck was written.
     path : Path
         The ``.dat`` file, at most 200 MB.
@@ -133,7 +133,7 @@ def _numbers(line: str, count: int, where: str) -> list[float]:
 
 
 def _inner_wall(
-    seating: Seating, rows: list[list[float]], path: Path
+    seating: DeckSeating, rows: list[list[float]], path: Path
 ) -> Float[np.ndarray, "samples 2"]:
     """Return points r, z on the deformed inner wall in inner radii, SAMPLES per element side."""
     nodes = seating.wall.row_line(0)
@@ -162,7 +162,7 @@ def _crossing(
 
 
 def _means(
-    seating: Seating,
+    seating: DeckSeating,
     rows: list[list[float]],
     angle: Float[np.ndarray, " samples"],
     edges: tuple[float, float],

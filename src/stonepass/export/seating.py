@@ -28,12 +28,12 @@ from stonepass.model.case import Case
 from stonepass.model.critical import SMALLEST_RESOLVED_OVERSIZE
 from stonepass.model.far_field import stuck_lumen
 from stonepass.model.models.seated_balance import SeatedBalance
-from stonepass.model.seating import Seating as ModelSeating
+from stonepass.model.seating import Seating
 from stonepass.model.states.first_guess import wrap_round_arc
 from stonepass.model.states.nondimensional import profile_of
 from stonepass.units import METRE_PER_MM, PASCAL_PER, Length
 
-__all__ = ["KPA", "MM", "Seating", "bulk_modulus", "seating"]
+__all__ = ["KPA", "MM", "DeckSeating", "bulk_modulus", "seating"]
 
 COARSEST = 0.025  # largest default length of the elements in the contact, in inner radii
 PER_CONTACT = 16  # least default number of elements on each side of the guessed contact
@@ -55,7 +55,7 @@ LONGEST_NAME = 60  # largest number of characters of a material name in a file
 
 @array_dataclass
 @dataclass(frozen=True)
-class Seating:
+class DeckSeating:
     """Meshes and prescribed displacements; all lengths are in inner radii.
 
     The widest cross-section of the stone lies at z = 0. The loading has two steps. In the first
@@ -183,7 +183,7 @@ class Seating:
         return 2.0 * np.pi * pressure * self.case.wall_ratio * tributary
 
 
-def seating(case: Case, fine: float | None = None) -> Seating:
+def seating(case: Case, fine: float | None = None) -> DeckSeating:
     """Make the meshes and the prescribed displacements for the seating of a stone.
 
     Parameters
@@ -196,7 +196,7 @@ def seating(case: Case, fine: float | None = None) -> Seating:
 
     Returns
     -------
-    Seating
+    DeckSeating
 
     Raises
     ------
@@ -224,10 +224,10 @@ def seating(case: Case, fine: float | None = None) -> Seating:
     axial, facing = _axial_lines(case, fine, first, last, whole)
     radial = 1.0 + growing(fine, case.wall_ratio - 1.0, BEYOND)
     strip, travel = element_strip(case, way, place, min(lumen, 1.0), (first, last), whole)
-    return Seating(case, grid(radial, axial), strip, travel, facing, whole, fine)
+    return DeckSeating(case, grid(radial, axial), strip, travel, facing, whole, fine)
 
 
-def seating_of(case: Case) -> ModelSeating:
+def seating_of(case: Case) -> Seating:
     """Return how the stone of a case is seated in the wall.
 
     Raises

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any, Protocol, runtime_checkable
 
-__all__ = ["Words", "as_flag", "as_keyword"]
+__all__ = ["FormatWords", "as_flag", "as_keyword"]
 
 FLAGS = {"path": "out"}  # arguments whose command-line option has another name
 
 
 @runtime_checkable
-class Words(Protocol):
+class FormatWords(Protocol):
     """A function that returns the name of an option, with its value if one is given."""
 
     def __call__(self, name: str, value: Any = None) -> str:

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 from stonepass.fe.axisymmetric.problem import Resolution
 
-__all__ = ["LEVELS", "Claim", "ErrorEstimate", "Level"]
+__all__ = ["LEVELS", "AccuracyLevel", "ErrorEstimate", "ErrorRule"]
 
 
 @dataclass(frozen=True)
-class Claim:
+class ErrorRule:
     """The rule of an error estimate: `factor` × a difference + `floor` × the result.
 
     The difference is that between a result and the result of a coarser solve. The second term is
@@ -39,7 +39,7 @@ class Claim:
 
 
 @dataclass(frozen=True)
-class Level:
+class AccuracyLevel:
     """An accuracy level: a resolution, a coarser companion, and the rules of the error estimates.
 
     Every case is solved with both resolutions. The fitted mesh of the companion is coarser and its
@@ -54,17 +54,17 @@ class Level:
     ----------
     resolution, companion : Resolution
         The fine and the coarse resolution.
-    contact_claim : Claim
+    contact_claim : ErrorRule
         Rule for α₀ and σ(π/2). For α₀ the half-width π/2 − α₀ of the contact takes the place of the
         result.
-    pressure_claim : Claim
+    pressure_claim : ErrorRule
         Rule for P_ucr.
     """
 
     resolution: Resolution
     companion: Resolution
-    contact_claim: Claim
-    pressure_claim: Claim
+    contact_claim: ErrorRule
+    pressure_claim: ErrorRule
 
 
 _FAST = Resolution(order=4, closed=6, edge=0.05, growth=2.0, increments=4, path_columns=7)
@@ -72,15 +72,19 @@ _STANDARD = Resolution()
 _REFERENCE = Resolution(order=5, closed=16, edge=0.008, growth=1.5, increments=32, path_columns=20)
 
 LEVELS = {
-    "fast": Level(
+    "fast": AccuracyLevel(
         _FAST,
         Resolution(order=3, closed=5, edge=0.1, growth=2.5, increments=2, path_columns=5),
-        Claim(3.0, 1e-3),
-        Claim(1.5, 2e-4),
+        ErrorRule(3.0, 1e-3),
+        ErrorRule(1.5, 2e-4),
     ),
-    "standard": Level(_STANDARD, replace(_FAST, order=3), Claim(2.0, 2e-4), Claim(1.5, 1e-4)),
+    "standard": AccuracyLevel(
+        _STANDARD, replace(_FAST, order=3), ErrorRule(2.0, 2e-4), ErrorRule(1.5, 1e-4)
+    ),
     # With four times the increments of the companion, a third of the difference remains as error.
-    "reference": Level(_REFERENCE, _STANDARD, Claim(2.0 / 3.0, 5e-5), Claim(2.0 / 3.0, 5e-5)),
+    "reference": AccuracyLevel(
+        _REFERENCE, _STANDARD, ErrorRule(2.0 / 3.0, 5e-5), ErrorRule(2.0 / 3.0, 5e-5)
+    ),
 }
 
 
@@ -89,7 +93,7 @@ class ErrorEstimate:
     """Estimated absolute discretisation errors of an answer.
 
     The result in the limit of fine meshes and many increments is expected to lie within ± the
-    estimate of the number. The estimates are not strict bounds (see `Level`).
+    estimate of the number. The estimates are not strict bounds (see `AccuracyLevel`).
 
     Attributes
     ----------

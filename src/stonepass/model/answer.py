@@ -17,11 +17,11 @@ from stonepass.model.states.state_solver import StateSolver
 from stonepass.result import Result
 from stonepass.units import PASCAL_PER
 
-__all__ = ["Answer", "Detail", "Model", "Quantity", "unanswered"]
+__all__ = ["Answer", "Detail", "Model", "NamedQuantity", "unanswered"]
 
 
 @dataclass(frozen=True)
-class Quantity:
+class NamedQuantity:
     """A result that only one of the models has, for tables and records.
 
     Attributes
@@ -52,7 +52,7 @@ class Quantity:
 class Detail(Protocol):
     """The additional results of one of the models."""
 
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[NamedQuantity, ...]:
         """Return the additional results in the order in which tables list them."""
 
 

@@ -8,7 +8,7 @@ from typing import ClassVar
 from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import require
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.accuracy import LEVELS, Level
+from stonepass.model.accuracy import LEVELS, AccuracyLevel
 
 __all__ = ["Numerics"]
 
@@ -58,7 +58,7 @@ class Numerics:
         check_inputs(self)
 
     @property
-    def level(self) -> Level:
+    def level(self) -> AccuracyLevel:
         """The accuracy level: both resolutions, and the rule of the error estimate."""
         return LEVELS[self.accuracy]
 

@@ -16,7 +16,14 @@ from stonepass.model.load import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, FRICTION, LIMIT, PASSING, PUBLISHED, ureter_case
 from stonepass.paper.published import PUBLISHED_MARK, draw_critical_size
-from stonepass.paper.section import Asked, Claim, Illustration, Section, Table, answers_table
+from stonepass.paper.section import (
+    Asked,
+    Illustration,
+    PublishedClaim,
+    Table,
+    WrittenSection,
+    answers_table,
+)
 from stonepass.report.style import (
     COLOURS,
     add_heading,
@@ -65,7 +72,7 @@ class Fig8:
         ]
 
     @in_style
-    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
+    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
         """Draw the panels, write their data, and judge the claims."""
         line = {eta: _size_of(found, eta, asked.limit) for eta in WALLS}
         figure = new_figure(9.6, 8.4)
@@ -82,7 +89,7 @@ class Fig8:
         lines = new_figure(6.8, 5.0)
         add_heading(lines, HEADING)
         _line(lines.add_subplot(), line, asked.limit, found)
-        return Section.written(
+        return WrittenSection.written(
             "Fig. 8: the human ureter",
             "",
             folder,
@@ -284,12 +291,12 @@ def _line(axes: Axes, line: Line, limit: Pressure, found: Results) -> None:
     tidy(axes)
 
 
-def _sizes(found: Results, limit: Pressure) -> list[Claim]:
+def _sizes(found: Results, limit: Pressure) -> list[PublishedClaim]:
     if limit != LIMIT:
         return []
     reason = "the ground matrix, which the paper does not give, was calibrated to meet both sizes"
     return [
-        Claim.number(
+        PublishedClaim.number(
             f"ξ_cr at 12 kPa, η = {eta:.2f} (Fig. 8a)",
             published,
             found.size(ureter_case(eta, 1.1, LOADS[0]), limit).size_ratio,
@@ -300,7 +307,7 @@ def _sizes(found: Results, limit: Pressure) -> list[Claim]:
     ]
 
 
-def _diameters(found: Results, limit: Pressure) -> list[Claim]:
+def _diameters(found: Results, limit: Pressure) -> list[PublishedClaim]:
     """Return claims for the narrowest ureter (thickest wall) and the widest (thinnest wall)."""
     if limit != LIMIT:
         return []
@@ -308,7 +315,7 @@ def _diameters(found: Results, limit: Pressure) -> list[Claim]:
     for inner, (eta, published) in PASSING.items():
         size = found.size(ureter_case(eta, 1.1, LOADS[0]), limit).size_ratio
         claims.append(
-            Claim.number(
+            PublishedClaim.number(
                 f"largest passing diameter in mm, lumen {inner * 1e3:g} mm (section 3.2)",
                 published,
                 None if size is None else size * inner * 1e3,
@@ -319,11 +326,11 @@ def _diameters(found: Results, limit: Pressure) -> list[Claim]:
     return claims
 
 
-def _grows(found: Results) -> Claim:
+def _grows(found: Results) -> PublishedClaim:
     grid = np.array([[_surface_pressure(found, e, x) for x in SIZES] for e in WALLS], float)
     along, across = np.diff(grid, axis=1), np.diff(grid[:, 1:], axis=0)
     along, across = along[np.isfinite(along)], across[np.isfinite(across)]
-    return Claim(
+    return PublishedClaim(
         "P_ucr grows with ξ and with η (Fig. 8a, b)",
         "yes",
         f"with ξ in {int((along > 0).sum())} of {along.size} steps, with η in "
@@ -333,7 +340,7 @@ def _grows(found: Results) -> Claim:
     )
 
 
-def _added(found: Results) -> list[Claim]:
+def _added(found: Results) -> list[PublishedClaim]:
     claims = []
     for eta, xi in PUBLISHED.items():
         bare = found.answer(ureter_case(eta, xi)).pressure
@@ -343,7 +350,7 @@ def _added(found: Results) -> list[Claim]:
             if bare is not None and loaded is not None:
                 ratios.append((loaded - bare) / pressure)
         claims.append(
-            Claim(
+            PublishedClaim(
                 f"P_out adds about itself to P_ucr, η = {eta:.2f}, ξ = {xi:.2f} (Fig. 8c)",
                 "nearly equal to P_out",
                 ", ".join(f"{ratio:.3f} P_out" for ratio in ratios),
@@ -371,7 +378,7 @@ def _beyond(found: Results, eta: float, xi: float) -> str:
     )
 
 
-def _falls(fits: dict[float, tuple[float, float] | None], limit: Pressure) -> list[Claim]:
+def _falls(fits: dict[float, tuple[float, float] | None], limit: Pressure) -> list[PublishedClaim]:
     if limit != LIMIT:
         return []
     known = {eta: fit for eta, fit in fits.items() if fit is not None}
@@ -380,15 +387,16 @@ def _falls(fits: dict[float, tuple[float, float] | None], limit: Pressure) -> li
     straight = len(known) == 2 and all(slope < 0.0 and r2 >= 0.98 for slope, r2 in known.values())
     thin, thick = (known.get(eta, (np.nan, np.nan))[0] for eta in (1.30, 3.40))
     return [
-        Claim("ξ_cr falls linearly with P_out (Fig. 8d)", "yes", shown, straight,
+        PublishedClaim("ξ_cr falls linearly with P_out (Fig. 8d)", "yes", shown, straight,
               "linear is read as R² ≥ 0.98"),
-        Claim("it falls faster for η = 1.30 (Fig. 8d)", "yes", f"{thin:+.4f} against {thick:+.4f}",
+        PublishedClaim("it falls faster for η = 1.30 (Fig. 8d)", "yes",
+              f"{thin:+.4f} against {thick:+.4f}",
               bool(thin < thick), "the order of the slopes"),
     ]  # fmt: skip
 
 
-def _clinical() -> Claim:
-    return Claim(
+def _clinical() -> PublishedClaim:
+    return PublishedClaim(
         "ξ_cr(η) agrees with clinical sizes (Fig. 8b)",
         "agrees well",
         "not judged",

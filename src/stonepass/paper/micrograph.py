@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from stonepass.paper.inputs import SLOPES
-from stonepass.paper.section import Asked, Claim, Section
+from stonepass.paper.section import Asked, PublishedClaim, WrittenSection
 from stonepass.studies.jobs import Job, Results
 from stonepass.surface.friction import friction_of_slopes
 
@@ -20,13 +20,15 @@ class Eq18:
         """Return no jobs, since nothing has to be solved."""
         return []
 
-    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
+    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
         """Return a section that has only a claim."""
-        claim = Claim.number(
+        claim = PublishedClaim.number(
             "friction coefficient from slopes 0.38 and 0.12 (Eq. 18)",
             0.5,
             friction_of_slopes(*SLOPES),
             0.03,
             "Eq. 18 gives 0.52, which the paper rounds to 0.5",
         )
-        return Section.written("Section 2.3: friction from the surface", "", folder, claims=[claim])
+        return WrittenSection.written(
+            "Section 2.3: friction from the surface", "", folder, claims=[claim]
+        )

@@ -12,7 +12,7 @@ from stonepass.clinic.patient import INPUTS
 from stonepass.clinic.pressure_limits import describe_limit
 from stonepass.records.answer import AnswerRecord, answer_record
 from stonepass.records.base import CautionRecord, PartRecord, Record, kilo, warning_records
-from stonepass.studies.censored_samples import Fraction, Range
+from stonepass.studies.censored_samples import Fraction, PercentileRange
 from stonepass.studies.uncertain_quantity import UncertainQuantity
 
 __all__ = [
@@ -297,7 +297,7 @@ def _cohort(row: Row, beside: Fraction | None) -> CohortRecord:
     )
 
 
-def _range(found: Range | None) -> PressureRangeRecord | None:
+def _range(found: PercentileRange | None) -> PressureRangeRecord | None:
     if found is None:
         return None
     return PressureRangeRecord(

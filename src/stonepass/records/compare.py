@@ -6,7 +6,7 @@ import math
 
 from pydantic import Field
 
-from stonepass.export.comparison import Comparison
+from stonepass.export.comparison import DeckComparison
 from stonepass.records.answer import AnswerRecord, answer_fields
 from stonepass.records.base import PartRecord, kilo
 
@@ -33,7 +33,7 @@ class CompareRecord(AnswerRecord):
     calculix: CalculixRecord = Field(description="results from the contact of CalculiX")
 
 
-def compare_record(found: Comparison) -> CompareRecord:
+def compare_record(found: DeckComparison) -> CompareRecord:
     """Make the record of a comparison."""
     theirs = found.contact
     return CompareRecord(

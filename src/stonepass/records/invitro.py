@@ -7,8 +7,8 @@ from pathlib import Path
 
 from pydantic import Field
 
-from stonepass.bench.comparison import Comparison
-from stonepass.bench.invitro import Estimate, InVitro
+from stonepass.bench.comparison import SeriesComparison
+from stonepass.bench.invitro import FittedParameter, InVitro
 from stonepass.bench.least_squares import LEVEL
 from stonepass.caution import Caution
 from stonepass.inputs.measured_pressures import Point
@@ -200,11 +200,11 @@ def write_invitro(found: InVitro, path: Path) -> None:
     write_csv(path, columns, ([row[name] for name in columns] for row in rows))
 
 
-def _estimate(estimate: Estimate) -> EstimateRecord:
+def _estimate(estimate: FittedParameter) -> EstimateRecord:
     return EstimateRecord(value=estimate.value, low=estimate.low, high=estimate.high)
 
 
-def _agreement(comparison: Comparison) -> AgreementRecord:
+def _agreement(comparison: SeriesComparison) -> AgreementRecord:
     return AgreementRecord(
         bias_kPa=kilo(comparison.bias),
         rmse_kPa=kilo(comparison.rmse),
@@ -214,7 +214,7 @@ def _agreement(comparison: Comparison) -> AgreementRecord:
     )
 
 
-def _points(comparison: Comparison) -> list[InVitroPointRecord]:
+def _points(comparison: SeriesComparison) -> list[InVitroPointRecord]:
     return [_point(*pair) for pair in zip(comparison.points, comparison.answers, strict=True)]
 
 

@@ -10,7 +10,7 @@ from stonepass.records.base import CautionRecord, PartRecord, Record, kilo, warn
 from stonepass.studies.sensitivity.conclusions import conclusions
 from stonepass.studies.sensitivity.estimate import (
     Effects,
-    Estimate,
+    IndexEstimate,
     Indices,
     Interaction,
     Sensitivities,
@@ -239,7 +239,7 @@ def _interaction(one: Interaction) -> InteractionRecord:
     return InteractionRecord(keys=list(one.keys), second_order=_estimate(one.second))
 
 
-def _estimate(estimate: Estimate) -> IndexEstimateRecord:
+def _estimate(estimate: IndexEstimate) -> IndexEstimateRecord:
     return IndexEstimateRecord(value=estimate.value, low=estimate.low, high=estimate.high)
 
 

@@ -15,7 +15,7 @@ from stonepass.clinic.contradiction import FEWER, MORE, contradiction
 from stonepass.clinic.decisions import CONTRADICTIONS, decisions, next_measurement
 from stonepass.clinic.patient import INPUTS
 from stonepass.records.assess import LENGTHS
-from stonepass.studies.censored_samples import Fraction, Range
+from stonepass.studies.censored_samples import Fraction, PercentileRange
 from stonepass.units import METRE_PER_MM, PASCAL_PER
 
 __all__ = [
@@ -97,7 +97,7 @@ def describe_inputs(found: Assessment) -> dict[str, str]:
     return inputs
 
 
-def describe_range(found: Range | None, unit: str = "kPa") -> tuple[str, str]:
+def describe_range(found: PercentileRange | None, unit: str = "kPa") -> tuple[str, str]:
     """Return median and interval in words in a unit of pressure; empty without a range."""
     if found is None:
         return "", ""

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from rich import box
 from rich.table import Table
 
-from stonepass.export.comparison import Comparison
+from stonepass.export.comparison import DeckComparison
 from stonepass.report.case_line import case_line
 from stonepass.report.style import (
     COLOURS,
@@ -25,7 +25,7 @@ __all__ = ["compare_figure", "compare_table"]
 KPA = 1e3
 
 
-def compare_table(found: Comparison) -> Table:
+def compare_table(found: DeckComparison) -> Table:
     """Return a table of the numbers of both programs and their relative differences."""
     table = Table(box=box.SIMPLE_HEAD, title=case_title(found.answer.case))
     table.add_column("")
@@ -68,7 +68,7 @@ def _kpa(pressure: float | None) -> str:
 
 
 @in_style
-def compare_figure(found: Comparison) -> Figure:
+def compare_figure(found: DeckComparison) -> Figure:
     """Draw the contact pressure of both programs over the angle."""
     figure = new_figure(6.4, 4.0)
     add_heading(figure, case_line(found.answer.case, found.answer.model))

@@ -6,7 +6,7 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from stonepass.bench.invitro import Estimate, InVitro
+from stonepass.bench.invitro import FittedParameter, InVitro
 from stonepass.report.table import significant
 
 __all__ = ["invitro_table"]
@@ -76,6 +76,6 @@ def _fits(found: InVitro) -> Table:
     return table
 
 
-def _interval(estimate: Estimate) -> str:
+def _interval(estimate: FittedParameter) -> str:
     ends = ("open" if end is None else f"{end:.3g}" for end in (estimate.low, estimate.high))
     return " to ".join(ends)

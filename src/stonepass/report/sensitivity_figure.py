@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 
 from stonepass.report.case_line import case_line
 from stonepass.report.style import COLOURS, add_heading, in_style, new_figure, tidy
-from stonepass.studies.sensitivity.estimate import Effects, Estimate, Indices
+from stonepass.studies.sensitivity.estimate import Effects, IndexEstimate, Indices
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
 from stonepass.studies.sensitivity.tornado import Bar, Tornado
 
@@ -80,7 +80,7 @@ def draw_indices(axes: Axes, found: Sensitivity) -> None:
 
 def _draw_estimates(
     axes: Axes,
-    estimates: Sequence[Estimate],
+    estimates: Sequence[IndexEstimate],
     places: np.ndarray,
     marker: str,
     colour: str,
@@ -93,7 +93,7 @@ def _draw_estimates(
     )  # fmt: skip
 
 
-def _highest(estimates: Sequence[Estimate]) -> float:
+def _highest(estimates: Sequence[IndexEstimate]) -> float:
     return max(each.high for each in estimates)
 
 

@@ -7,7 +7,7 @@ from rich.table import Table
 
 from stonepass.report.printing import Part
 from stonepass.studies.sensitivity.conclusions import conclusions
-from stonepass.studies.sensitivity.estimate import Effects, Estimate, Indices
+from stonepass.studies.sensitivity.estimate import Effects, IndexEstimate, Indices
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
 from stonepass.studies.sensitivity.tornado import Bar, Tornado
 
@@ -51,7 +51,7 @@ def _cells(each: Indices | Effects, unit: str) -> tuple[str, str]:
     return f"{_shown(each.mean_absolute)} {unit}".rstrip(), f"{each.spread:.2g} {unit}".rstrip()
 
 
-def _shown(estimate: Estimate) -> str:
+def _shown(estimate: IndexEstimate) -> str:
     return f"{estimate.value:.2f} ± {estimate.half_width:.2f}"
 
 

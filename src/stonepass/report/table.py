@@ -9,7 +9,7 @@ from rich import box
 from rich.markup import escape
 from rich.table import Table
 
-from stonepass.model.answer import Answer, Quantity
+from stonepass.model.answer import Answer, NamedQuantity
 from stonepass.model.contact_state import SolvedState
 from stonepass.model.problem import Problem
 from stonepass.model.size import SizeAnswer
@@ -193,7 +193,7 @@ def _state_rows(pressures: Table, others: Table, answer: Answer) -> None:
         others.add_row("stability margin", f"{margin:.2f}", remark)
 
 
-def _quantity_row(pressures: Table, others: Table, quantity: Quantity) -> None:
+def _quantity_row(pressures: Table, others: Table, quantity: NamedQuantity) -> None:
     """Add a quantity that only one model has, if it has a title."""
     value = quantity.value
     if not quantity.title or not isinstance(value, float):

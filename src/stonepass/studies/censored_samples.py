@@ -8,7 +8,7 @@ import numpy as np
 
 from stonepass.array_types import Bool, Float
 
-__all__ = ["Fraction", "Range", "fraction_below", "interval", "median_noise"]
+__all__ = ["Fraction", "PercentileRange", "fraction_below", "interval", "median_noise"]
 
 INTERVAL = (0.05, 0.5, 0.95)  # quantiles of the interval and the median
 # A quantile is stated only if replacing the censored values by infinity changes it by at most this
@@ -17,7 +17,7 @@ AGREE = 0.02
 
 
 @dataclass(frozen=True)
-class Range:
+class PercentileRange:
     """Median and 90 % interval of a quantity, some samples of which may be censored.
 
     Attributes
@@ -73,7 +73,7 @@ class Fraction:
         return "more than 99 %" if low == 100 else f"{low} %"
 
 
-def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) -> Range:
+def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) -> PercentileRange:
     """Return the median and the 90 % interval of right-censored samples.
 
     A quantile is None if it changes by more than 2 % when the censored values are replaced by
@@ -98,8 +98,8 @@ def interval(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) 
     )
     ends = (low, median, high)
     if None not in ends:
-        return Range(low, median, high)
-    return Range(low, median, high, float(least[ends.index(None)]))
+        return PercentileRange(low, median, high)
+    return PercentileRange(low, median, high, float(least[ends.index(None)]))
 
 
 def median_noise(values: Float[np.ndarray, " n"], censored: Bool[np.ndarray, " n"]) -> float | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from stonepass.array_types import Bool, Num
 from stonepass.surface.data_bar import HIGHEST
-from stonepass.surface.surface_image import Area
+from stonepass.surface.surface_image import PixelArea
 
 __all__ = ["without_border"]
 
@@ -23,19 +23,19 @@ PLAIN = 0.9  # least fraction of the pixels of a line with the grey of the borde
 JUMP, USUAL = 3.0, 0.99
 
 
-def without_border(values: Num[np.ndarray, "rows columns"], area: Area) -> Area:
+def without_border(values: Num[np.ndarray, "rows columns"], area: PixelArea) -> PixelArea:
     """Return the part of an area that remains without the borders at its four sides.
 
     Parameters
     ----------
     values : array (rows, columns)
         Grey levels of the whole picture.
-    area : Area
+    area : PixelArea
         The area in pixels.
 
     Returns
     -------
-    Area
+    PixelArea
         The area itself if it has no border.
 
     References
@@ -44,9 +44,9 @@ def without_border(values: Num[np.ndarray, "rows columns"], area: Area) -> Area:
     """
     while True:
         top, bottom = _lines(values[area.top : area.bottom, area.left : area.right])
-        part = Area(area.left, area.top + top, area.right, area.bottom - bottom)
+        part = PixelArea(area.left, area.top + top, area.right, area.bottom - bottom)
         left, right = _lines(values[part.top : part.bottom, part.left : part.right].T)
-        part = Area(part.left + left, part.top, part.right - right, part.bottom)
+        part = PixelArea(part.left + left, part.top, part.right - right, part.bottom)
         if part == area:
             return area
         area = part

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stonepass.array_types import Bool, Num
-from stonepass.surface.surface_image import Area
+from stonepass.surface.surface_image import PixelArea
 
 __all__ = ["Decoded"]
 
@@ -47,7 +47,7 @@ class Decoded:
         values = self.values if self.values.ndim == 2 else self.values[..., 0]
         return np.ascontiguousarray(values, values.dtype.newbyteorder("="))
 
-    def coloured(self, area: Area) -> tuple[int, int] | None:
+    def coloured(self, area: PixelArea) -> tuple[int, int] | None:
         """Return column and row of the first coloured pixel of an area; None if all are grey."""
         for start in range(area.top, area.bottom, ROWS):
             rows = slice(start, min(start + ROWS, area.bottom))
@@ -57,7 +57,7 @@ class Decoded:
                 return area.left + int(column), start + int(row)
         return None
 
-    def grey_part(self, area: Area) -> Area | None:
+    def grey_part(self, area: PixelArea) -> PixelArea | None:
         """Return the largest part of an area without colours that has its full width or height.
 
         The result is None if this part is smaller than half of the area, e.g. in a photograph.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stonepass.array_types import Num
-from stonepass.surface.surface_image import Area
+from stonepass.surface.surface_image import PixelArea
 
 __all__ = ["drawn_bar"]
 
@@ -16,7 +16,7 @@ FILLED = 0.9  # smallest part of its rectangle that has its grey; a saturated pa
 ALIKE = 3  # largest difference from the extreme grey in levels of 255, as JPEG leaves it
 
 
-def drawn_bar(values: Num[np.ndarray, "rows columns"], full_scale: int) -> Area | None:
+def drawn_bar(values: Num[np.ndarray, "rows columns"], full_scale: int) -> PixelArea | None:
     """Return the largest bar of the darkest or of the brightest grey; None if there is none.
 
     Parameters
@@ -28,13 +28,13 @@ def drawn_bar(values: Num[np.ndarray, "rows columns"], full_scale: int) -> Area 
 
     Returns
     -------
-    Area or None
+    PixelArea or None
         Rows and columns of the bar in `values`.
     """
     from scipy.ndimage import find_objects, label
 
     tolerance = ALIKE * (full_scale // 255)
-    found: list[tuple[int, Area]] = []
+    found: list[tuple[int, PixelArea]] = []
     darkest, brightest = int(values.min()) + tolerance, int(values.max()) - tolerance
     for near in (values <= darkest, values >= brightest):
         marked, _ = label(near)
@@ -47,6 +47,6 @@ def drawn_bar(values: Num[np.ndarray, "rows columns"], full_scale: int) -> Area 
             # A bar from side to side is a data bar or a border, which are found elsewhere.
             inside = tall < len(values) and wide < values.shape[1]
             if filled and inside and short >= THINNEST and long >= OBLONG * short:
-                area = Area(columns.start, rows.start, columns.stop, rows.stop)
+                area = PixelArea(columns.start, rows.start, columns.stop, rows.stop)
                 found.append((int(counts[number]), area))
     return max(found, key=lambda each: each[0])[1] if found else None

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from stonepass.array_types import Bool, Float, Num
-from stonepass.surface.surface_image import Area
+from stonepass.surface.surface_image import PixelArea
 
 __all__ = ["BRIDGED", "MISSING", "bridge", "bridgeable", "gap_length", "known_area"]
 
@@ -72,7 +72,7 @@ def bridge(
     return np.interp(places, places[known], values[known])
 
 
-def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | None:
+def known_area(values: Num[np.ndarray, "rows columns"], area: PixelArea) -> PixelArea | None:
     """Return the part of an area that remains without a border in which many heights are missing.
 
     The row or column at the edge with the largest fraction of missing heights is removed, until at
@@ -82,12 +82,12 @@ def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | No
     ----------
     values : array (rows, columns)
         Heights in m; NaN where one is missing.
-    area : Area
+    area : PixelArea
         The area in pixels.
 
     Returns
     -------
-    Area or None
+    PixelArea or None
         None if fewer than 2 × 2 pixels are left.
 
     References
@@ -102,7 +102,7 @@ def known_area(values: Num[np.ndarray, "rows columns"], area: Area) -> Area | No
         missing = [1.0 - np.count_nonzero(edge) / len(edge) for edge in edges]
         worst = int(np.argmax(missing))
         if missing[worst] <= SPARSE:
-            return Area(left, top, right, bottom)
+            return PixelArea(left, top, right, bottom)
         left, top = left + (worst == 0), top + (worst == 1)
         right, bottom = right - (worst == 2), bottom - (worst == 3)
     return None

@@ -15,7 +15,7 @@ from stonepass.surface.border import without_border
 from stonepass.surface.data_bar import drawn_rows
 from stonepass.surface.drawn_bar import drawn_bar
 from stonepass.surface.levelling import Plane
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 __all__ = ["SCALINGS", "Greys", "check_surface", "grey_ranges", "to_heights"]
 
@@ -92,7 +92,7 @@ def check_surface(picture: SurfaceImage) -> list[Caution]:
     bar = drawn_bar(values, picture.full_scale)
     if bar is not None:
         left, top = picture.area.left, picture.area.top
-        place = Area(left + bar.left, top + bar.top, left + bar.right, top + bar.bottom)
+        place = PixelArea(left + bar.left, top + bar.top, left + bar.right, top + bar.bottom)
         told.append(caution("drawn_bar", place=str(place)))
     return told
 

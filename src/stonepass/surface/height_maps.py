@@ -14,7 +14,7 @@ from stonepass.io.optional_imports import library
 from stonepass.surface.file_name import short_name
 from stonepass.surface.height_containers import mended_sur, mended_x3p
 from stonepass.surface.limits import check_points
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 __all__ = ["HEIGHT_MAPS", "read_height_map"]
 
@@ -33,14 +33,14 @@ READ, EXTRA = "read this file", "imaging"
 SHOWN = 5  # largest number of channels named in an error message
 
 
-def read_height_map(path: Path, area: Area | None) -> SurfaceImage:
+def read_height_map(path: Path, area: PixelArea | None) -> SurfaceImage:
     """Read the default channel of a file, or else its first channel that is a map of heights.
 
     Parameters
     ----------
     path : Path
         File with one of the extensions in `HEIGHT_MAPS`.
-    area : Area or None
+    area : PixelArea or None
         The part that belongs to the surface, in pixels; None for the whole map.
 
     Raises
@@ -66,7 +66,7 @@ def read_height_map(path: Path, area: Area | None) -> SurfaceImage:
             raise BadInput("image", shown, "a height map with a unit of length")
         values = _values(topography.heights(), metre)
     pixel = (float(sizes[0]) * metre / columns, float(sizes[1]) * metre / rows)
-    whole = Area(0, 0, columns, rows)
+    whole = PixelArea(0, 0, columns, rows)
     return SurfaceImage(values, pixel, 0, whole if area is None else area, "height map")
 
 

@@ -14,7 +14,7 @@ from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput, require
 from stonepass.surface.analysis import PATH_COUNT
 from stonepass.surface.gaps import MISSING, bridge, bridgeable, gap_length, known_area
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 __all__ = ["Profiles", "StraightPath", "evenly_spaced", "profiles_along", "read_path", "rows_moved"]
 
@@ -156,12 +156,12 @@ def evenly_spaced(
     return [StraightPath(area.left, row, area.right - 1.0, row) for row in rows]
 
 
-def rows_moved(area: Area, paths: Sequence[StraightPath]) -> int:
+def rows_moved(area: PixelArea, paths: Sequence[StraightPath]) -> int:
     """Return how many paths of `evenly_spaced` were moved to other rows because of gaps.
 
     Parameters
     ----------
-    area : Area
+    area : PixelArea
         Area that the paths cross, in pixels.
     paths : sequence of StraightPath
         The paths that `evenly_spaced` returned for it.
@@ -170,13 +170,13 @@ def rows_moved(area: Area, paths: Sequence[StraightPath]) -> int:
     return sum(path.y0 != row for path, row in zip(paths, rows, strict=True))
 
 
-def _even_rows(area: Area, count: int) -> list[int]:
+def _even_rows(area: PixelArea, count: int) -> list[int]:
     height = area.bottom - area.top
     return [area.top + round(height * (k + 0.5) / count - 0.5) for k in range(count)]
 
 
 def _complete_rows(
-    picture: SurfaceImage, area: Area, wanted: Sequence[int], longest_gap: float
+    picture: SurfaceImage, area: PixelArea, wanted: Sequence[int], longest_gap: float
 ) -> list[int] | None:
     """Return for each wanted row the nearest row with bridgeable gaps; None without enough rows."""
     part = picture.values[:, area.left : area.right]

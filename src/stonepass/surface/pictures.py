@@ -25,7 +25,7 @@ from stonepass.surface.pixel_size import (
 )
 from stonepass.surface.scan import Scan
 from stonepass.surface.side_files import scan_beside
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 __all__ = ["JPEG", "PNG", "TIFF", "read_plain", "read_tiff"]
 
@@ -40,14 +40,14 @@ PLAIN = (1, 8, 32946)  # TIFF compressions that tifffile decodes without a codec
 WHITE_IS_ZERO, PALETTE = 0, 3  # photometric interpretations
 
 
-def read_tiff(path: Path, area: Area | None) -> SurfaceImage:
+def read_tiff(path: Path, area: PixelArea | None) -> SurfaceImage:
     """Read the largest page of a TIFF file that is not marked as a reduced image or a mask.
 
     Parameters
     ----------
     path : Path
         A TIFF file with 8 or 16 bits per sample.
-    area : Area or None
+    area : PixelArea or None
         The part that belongs to the surface, in pixels; None for the picture without its data bar
         and without borders.
 
@@ -144,14 +144,14 @@ def _check_upright(path: Path, orientation: Any) -> None:
         raise BadInput("image", shown, "stored upright", "rotate it and save it again")
 
 
-def read_plain(path: Path, area: Area | None) -> SurfaceImage:
+def read_plain(path: Path, area: PixelArea | None) -> SurfaceImage:
     """Read a PNG or JPEG file.
 
     Parameters
     ----------
     path : Path
         A PNG file of 8 or 16 bits, or a JPEG file.
-    area : Area or None
+    area : PixelArea or None
         The part that belongs to the surface, in pixels; None for the picture without its data bar
         and without borders.
 
@@ -210,14 +210,14 @@ def _unsigned(
 
 
 def _picture(
-    path: Path, decoded: Decoded, scan: Scan, notes: list[str], asked: Area | None
+    path: Path, decoded: Decoded, scan: Scan, notes: list[str], asked: PixelArea | None
 ) -> SurfaceImage:
     """Make the surface image from the grey channel, the pixel size and the area of the surface."""
     if decoded.has_alpha:
         notes.append("the last channel, alpha, is ignored")
     grey = decoded.grey()
     rows, columns = grey.shape
-    whole = Area(0, 0, columns, rows)
+    whole = PixelArea(0, 0, columns, rows)
     area = _surface(grey, scan, notes) if asked is None else asked
     # An area that is not within the picture is refused by SurfaceImage.
     spot = decoded.coloured(area) if area.lies_in(whole) else None
@@ -241,14 +241,14 @@ def _picture(
     )
 
 
-def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]) -> Area:
+def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]) -> PixelArea:
     """Return the area without borders and without the data bar, which is declared or detected."""
     rows, columns = grey.shape
     bar = scan.rows_of_bar(columns, rows)
     declared = 0 < bar < rows - SIDE[0]
     if declared:
         notes.append(f"the lowest {bar} rows are the data bar and are left out")
-        area = without_border(grey, Area(0, 0, columns, rows - bar))
+        area = without_border(grey, PixelArea(0, 0, columns, rows - bar))
     else:
         area = _undeclared(grey)
     bottom = 0 if declared and area.bottom == rows - bar else rows - area.bottom
@@ -263,16 +263,18 @@ def _surface(grey: Num[np.ndarray, "rows columns"], scan: Scan, notes: list[str]
     return area
 
 
-def _undeclared(grey: Num[np.ndarray, "rows columns"]) -> Area:
+def _undeclared(grey: Num[np.ndarray, "rows columns"]) -> PixelArea:
     """Return the area without the data bars and borders that are detected."""
     rows, columns = grey.shape
-    area = Area(0, 0, columns, rows)
+    area = PixelArea(0, 0, columns, rows)
     while True:
         part = grey[area.top : area.bottom, area.left : area.right]
         top, bottom = find_bar(part)
         # A margin or a panel at the sides is found as a data bar of the transposed picture.
         left, right = find_bar(np.ascontiguousarray(part[top : len(part) - bottom].T))
-        found = Area(area.left + left, area.top + top, area.right - right, area.bottom - bottom)
+        found = PixelArea(
+            area.left + left, area.top + top, area.right - right, area.bottom - bottom
+        )
         area = without_border(grey, found)
         if area == found:
             return area

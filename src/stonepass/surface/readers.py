@@ -18,12 +18,12 @@ from stonepass.surface.file_name import said_of, short_name
 from stonepass.surface.height_maps import HEIGHT_MAPS, read_height_map
 from stonepass.surface.limits import MEMORY_REMEDY, check_file
 from stonepass.surface.pictures import JPEG, PNG, TIFF, read_plain, read_tiff
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 __all__ = ["load_libraries", "read_surface_image"]
 
 
-def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceImage:
+def read_surface_image(path: str | Path, area: PixelArea | None = None) -> SurfaceImage:
     """Read a micrograph or a height map.
 
     Grey pictures that were saved in colour or with a palette are accepted, and an alpha channel is
@@ -35,7 +35,7 @@ def read_surface_image(path: str | Path, area: Area | None = None) -> SurfaceIma
     ----------
     path : str or Path
         A TIFF, PNG or JPEG file with 8 or 16 bits per sample, or a height map.
-    area : Area, optional
+    area : PixelArea, optional
         The part of the picture that belongs to the surface, in pixels. Only this part must be grey.
         By default it is the whole picture without a data bar and without borders.
 
@@ -78,7 +78,7 @@ def _memory_error(problem: BaseException | None) -> MemoryError | None:
     return problem
 
 
-def _reader(path: Path) -> Callable[[Path, Area | None], SurfaceImage]:
+def _reader(path: Path) -> Callable[[Path, PixelArea | None], SurfaceImage]:
     """Return the function that reads this kind of file."""
     with path.open("rb") as file:
         head = file.read(16)

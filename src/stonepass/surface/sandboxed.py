@@ -14,7 +14,7 @@ from stonepass.sandbox.protocol import Text
 from stonepass.sandbox.sandbox import MEMORY, SECONDS, Limits, parse_in_sandbox
 from stonepass.surface.file_name import short_name
 from stonepass.surface.limits import BODY, SIDE, check_file
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 
 __all__ = ["read_in_sandbox"]
 
@@ -26,7 +26,7 @@ def read_in_sandbox(
     path: str | Path,
     seconds: float = SECONDS,
     memory: int = MEMORY,
-    area: Area | None = None,
+    area: PixelArea | None = None,
 ) -> SurfaceImage:
     """Read a picture in a child process with limits of time and memory.
 
@@ -41,7 +41,7 @@ def read_in_sandbox(
         Processor time in s that reading may take after the process and its libraries have started.
     memory : int
         Largest amount of data of the process in bytes; it is enforced on Linux.
-    area : Area, optional
+    area : PixelArea, optional
         The part of the picture that belongs to the surface, in pixels.
 
     Returns
@@ -82,11 +82,11 @@ def _picture(header: dict[str, Any], body: bytes) -> SurfaceImage:
         values,
         described.pixel,
         described.full_scale,
-        Area(*described.area),
+        PixelArea(*described.area),
         described.pixel_source,
         described.notes,
         described.pixel_hint,
-        None if described.grey is None else Area(*described.grey),
+        None if described.grey is None else PixelArea(*described.grey),
     )
 
 

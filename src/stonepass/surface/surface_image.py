@@ -10,7 +10,7 @@ from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Num
 from stonepass.errors import BadInput, require
 
-__all__ = ["PIXEL", "Area", "SurfaceImage", "possible_pixel", "read_area"]
+__all__ = ["PIXEL", "PixelArea", "SurfaceImage", "possible_pixel", "read_area"]
 
 PIXEL = (1e-11, 1e-3)  # smallest and largest side of a pixel in m
 OBLONG = 10.0  # largest ratio of the sides of a pixel
@@ -22,7 +22,7 @@ FULL_SCALES = {"uint8": 255, "uint16": 65535, "float64": 0}
 
 
 @dataclass(frozen=True)
-class Area:
+class PixelArea:
     """A rectangle of pixels.
 
     Attributes
@@ -47,7 +47,7 @@ class Area:
         """The command-line option that selects this area."""
         return f"--area {self.left},{self.top},{self.right},{self.bottom}"
 
-    def lies_in(self, other: Area) -> bool:
+    def lies_in(self, other: PixelArea) -> bool:
         """Return whether this area lies within another one."""
         return (
             other.left <= self.left
@@ -57,7 +57,7 @@ class Area:
         )
 
 
-def read_area(text: str, name: str = "area") -> Area:
+def read_area(text: str, name: str = "area") -> PixelArea:
     """Read an area from a text such as ``0,0,640,440``: left, top, right, bottom in pixels.
 
     Parameters
@@ -75,7 +75,7 @@ def read_area(text: str, name: str = "area") -> Area:
     whole = all(part.strip().isdecimal() and len(part) < DIGITS for part in parts)
     if len(parts) != 4 or not whole:
         raise BadInput(name, text, "four whole numbers LEFT,TOP,RIGHT,BOTTOM in pixels")
-    return Area(*(int(part) for part in parts))
+    return PixelArea(*(int(part) for part in parts))
 
 
 @array_dataclass
@@ -92,7 +92,7 @@ class SurfaceImage:
         Width and height of a pixel in m, 1e-11 to 1e-3; None if the file does not contain them.
     full_scale : int
         Largest possible grey level, 255 or 65535; 0 for heights.
-    area : Area
+    area : PixelArea
         The part that belongs to the surface, without a data bar, in pixels.
     pixel_source : str
         Origin of the pixel size, e.g. "FEI tag"; empty if it is unknown.
@@ -100,7 +100,7 @@ class SurfaceImage:
         Remarks of the reader, e.g. about parts that were left out.
     pixel_hint : str
         Reason why a pixel size in the file was not used, and what to do; otherwise empty.
-    grey : Area or None
+    grey : PixelArea or None
         The part whose pixels are all grey, which `area` must lie in; None for the whole picture.
 
     Raises
@@ -117,11 +117,11 @@ class SurfaceImage:
     values: Num[np.ndarray, "rows columns"]
     pixel: tuple[float, float] | None
     full_scale: int
-    area: Area
+    area: PixelArea
     pixel_source: str = ""
     notes: tuple[str, ...] = ()
     pixel_hint: str = ""
-    grey: Area | None = None
+    grey: PixelArea | None = None
 
     def __post_init__(self) -> None:
         rows, columns = self.values.shape
@@ -182,9 +182,9 @@ class SurfaceImage:
         Parameters
         ----------
         left, top, right, bottom : int
-            Bounds of the area in pixels of the whole picture (see `Area`).
+            Bounds of the area in pixels of the whole picture (see `PixelArea`).
         """
-        return replace(self, area=Area(left, top, right, bottom))
+        return replace(self, area=PixelArea(left, top, right, bottom))
 
 
 def possible_pixel(pixel: tuple[float, float]) -> bool:

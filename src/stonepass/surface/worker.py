@@ -9,7 +9,7 @@ from typing import Any
 
 from stonepass.sandbox.worker import serve
 from stonepass.surface.readers import load_libraries, read_surface_image
-from stonepass.surface.surface_image import Area
+from stonepass.surface.surface_image import PixelArea
 
 __all__ = ["parse"]
 
@@ -17,7 +17,9 @@ __all__ = ["parse"]
 def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
     """Read the picture of a request and return its header and its values."""
     asked = request.get("area")
-    picture = read_surface_image(Path(request["path"]), None if asked is None else Area(*asked))
+    picture = read_surface_image(
+        Path(request["path"]), None if asked is None else PixelArea(*asked)
+    )
     header = {
         "shape": picture.values.shape,
         "type": picture.values.dtype.name,

@@ -17,7 +17,7 @@ from stonepass.web.answers import Json, ProblemError
 from stonepass.web.documented import BUSY, PROBLEMS, JobDocument
 from stonepass.web.jobs.bodies import JobBody, ReportBody
 from stonepass.web.jobs.book import QueueFull
-from stonepass.web.jobs.job import Job, Status
+from stonepass.web.jobs.job import ServerJob, Status
 from stonepass.web.state import ServerState, client_of, state_of
 from stonepass.web.uploads.store import Upload
 
@@ -102,7 +102,7 @@ async def report(body: ReportBody, request: Request) -> Response:
     )
 
 
-async def _queued(body: Any, request: Request, form: str = "") -> Job:
+async def _queued(body: Any, request: Request, form: str = "") -> ServerJob:
     """Return the job that answers a question, and put it into the queue if it is new.
 
     Parameters
@@ -116,7 +116,7 @@ async def _queued(body: Any, request: Request, form: str = "") -> Job:
     state.rate.take(client_of(request))
     asked = await asyncio.to_thread(body.question)
     content = body.model_dump(mode="json")
-    job = Job(_fingerprint(body.kind, asked, form), body.kind, content, format=form)
+    job = ServerJob(_fingerprint(body.kind, asked, form), body.kind, content, format=form)
     if body.UPLOAD and not _answering(state.book.get(job.id)):
         job.upload = _upload(state, body.UPLOAD, body.upload)
     try:
@@ -137,7 +137,7 @@ def _fingerprint(kind: str, asked: dict[str, Any], form: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _answering(job: Job | None) -> bool:
+def _answering(job: ServerJob | None) -> bool:
     return job is not None and job.status not in (Status.FAILED, Status.CANCELLED)
 
 
@@ -150,14 +150,14 @@ def _upload(state: ServerState, kind: str, identity: str) -> Upload:
     return found
 
 
-def _job(request: Request, identity: str) -> Job:
+def _job(request: Request, identity: str) -> ServerJob:
     found = state_of(request).book.get(identity)
     if found is None:
         raise ProblemError(404, GONE)
     return found
 
 
-async def _events(job: Job, state: ServerState) -> AsyncIterator[bytes]:
+async def _events(job: ServerJob, state: ServerState) -> AsyncIterator[bytes]:
     state.streams += 1
     try:
         async for document in job.changes(PAUSE):

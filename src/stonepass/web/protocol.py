@@ -16,7 +16,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from stonepass.web.answers import problem_response
 from stonepass.web.guard import HEADERS
-from stonepass.web.settings import Limits
+from stonepass.web.settings import ServerLimits
 
 __all__ = ["limited_protocol"]
 
@@ -24,7 +24,7 @@ MALFORMED = "What was sent is not a request of HTTP/1.1, or its head is longer t
 SLACK = 5.0  # time in s after which a body is cut off that the guard does not read
 
 
-def limited_protocol(limits: Limits) -> type[H11Protocol]:
+def limited_protocol(limits: ServerLimits) -> type[H11Protocol]:
     """Return the protocol of connections with these limits."""
 
     class LimitedProtocol(_LimitedProtocol):
@@ -38,7 +38,7 @@ def limited_protocol(limits: Limits) -> type[H11Protocol]:
 class _LimitedProtocol(H11Protocol):
     """HTTP/1.1 that closes connections whose client is too slow."""
 
-    _limits: Limits
+    _limits: ServerLimits
 
     def __init__(self, *arguments: Any, **keywords: Any) -> None:
         super().__init__(*arguments, **keywords)

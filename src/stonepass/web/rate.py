@@ -9,7 +9,7 @@ from time import monotonic
 
 from stonepass.web.answers import ProblemError
 
-__all__ = ["Rate"]
+__all__ = ["RequestRate"]
 
 CLIENTS = 1024  # number of clients that are remembered
 MINUTE = 60.0
@@ -23,7 +23,7 @@ class _Bucket:
     at: float
 
 
-class Rate:
+class RequestRate:
     """A token bucket for each client: a number of requests at once, refilled within a minute."""
 
     def __init__(self, per_minute: int) -> None:

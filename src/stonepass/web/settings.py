@@ -12,7 +12,7 @@ __all__ = [
     "HOST",
     "MOST_WORKERS",
     "PORT",
-    "Limits",
+    "ServerLimits",
     "ServerSettings",
     "is_loopback",
     "is_unspecified",
@@ -25,7 +25,7 @@ LOOPBACK_NAMES = ("localhost", "127.0.0.1", "[::1]")
 
 
 @dataclass(frozen=True)
-class Limits:
+class ServerLimits:
     """Limits that keep the server in working order whatever its clients send.
 
     Attributes
@@ -101,7 +101,7 @@ class ServerSettings:
         Number of worker processes.
     cache_folder : Path or None
         Folder of the solution cache; None for no cache.
-    limits : Limits
+    limits : ServerLimits
 
     Raises
     ------
@@ -116,7 +116,7 @@ class ServerSettings:
     names: tuple[str, ...] = ()
     workers: int = 1
     cache_folder: Path | None = None
-    limits: Limits = field(default_factory=Limits)
+    limits: ServerLimits = field(default_factory=ServerLimits)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "host", self.host.strip("[]").lower())

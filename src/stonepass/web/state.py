@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fastapi import Request
 
 from stonepass.web.jobs.book import JobBook
-from stonepass.web.rate import Rate
+from stonepass.web.rate import RequestRate
 from stonepass.web.settings import ServerSettings
 from stonepass.web.uploads.store import UploadStore
 
@@ -23,7 +23,7 @@ class ServerState:
     settings : ServerSettings
     book : JobBook
     uploads : UploadStore
-    rate : Rate
+    rate : RequestRate
     reading : int
         Number of uploads that are being received or read.
     streams : int
@@ -33,7 +33,7 @@ class ServerState:
     settings: ServerSettings
     book: JobBook
     uploads: UploadStore
-    rate: Rate
+    rate: RequestRate
     reading: int = field(default=0)
     streams: int = field(default=0)
 
@@ -41,7 +41,7 @@ class ServerState:
     def of(cls, settings: ServerSettings) -> ServerState:
         """Return the state of a server that has just started."""
         limits = settings.limits
-        return cls(settings, JobBook(settings), UploadStore(limits), Rate(limits.per_minute))
+        return cls(settings, JobBook(settings), UploadStore(limits), RequestRate(limits.per_minute))
 
 
 def state_of(request: Request) -> ServerState:

@@ -18,7 +18,7 @@ from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.materials.secant import STRETCH, secant_moduli
-from stonepass.model.answer import Answer, Quantity, unanswered
+from stonepass.model.answer import Answer, NamedQuantity, unanswered
 from stonepass.model.closure import linear_closure
 from stonepass.model.far_field import far_field_law
 from stonepass.model.models.shared_options import far_field_ground
@@ -193,16 +193,18 @@ class ElasticFoundationDetail:
     closure_end_pressure: float
     state: BeamState
 
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[NamedQuantity, ...]:
         """Return end pressure of the closure, moduli, foundation, decay and contact length."""
         state = self.state
         return (
-            Quantity("closure_end_pressure", self.closure_end_pressure / 1e3, "kPa", "closure end"),
-            Quantity("circumferential_modulus", state.circumferential_modulus, "Pa", "E1"),
-            Quantity("longitudinal_modulus", state.longitudinal_modulus, "Pa", "E2"),
-            Quantity("foundation", state.foundation, "Pa"),
-            Quantity("decay", state.decay),
-            Quantity("half_contact_length", state.half_length, "R_a", "half contact length"),
+            NamedQuantity(
+                "closure_end_pressure", self.closure_end_pressure / 1e3, "kPa", "closure end"
+            ),
+            NamedQuantity("circumferential_modulus", state.circumferential_modulus, "Pa", "E1"),
+            NamedQuantity("longitudinal_modulus", state.longitudinal_modulus, "Pa", "E2"),
+            NamedQuantity("foundation", state.foundation, "Pa"),
+            NamedQuantity("decay", state.decay),
+            NamedQuantity("half_contact_length", state.half_length, "R_a", "half contact length"),
         )
 
 

@@ -13,8 +13,8 @@ from stonepass.caution import caution
 from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import Outcome
 from stonepass.fe.axisymmetric.problem import Resolution
-from stonepass.model.accuracy import ErrorEstimate, Level
-from stonepass.model.answer import Answer, Quantity, unanswered
+from stonepass.model.accuracy import AccuracyLevel, ErrorEstimate
+from stonepass.model.answer import Answer, NamedQuantity, unanswered
 from stonepass.model.models.shared_options import far_field_ground
 from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
@@ -141,17 +141,17 @@ class PushThroughDetail:
     leak_pressure: float | None
     seal_angle: float
 
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[NamedQuantity, ...]:
         """Return leak pressure and angle of the seal."""
         leak = None if self.leak_pressure is None else self.leak_pressure / 1e3
         return (
-            Quantity("leak_pressure", leak, "kPa", "leak pressure"),
-            Quantity("seal_angle", math.degrees(self.seal_angle), "deg", "seal"),
+            NamedQuantity("leak_pressure", leak, "kPa", "leak pressure"),
+            NamedQuantity("seal_angle", math.degrees(self.seal_angle), "deg", "seal"),
         )
 
 
 def _error(
-    level: Level, coarse: PushedState, fine: PushedState, pressure: float | None
+    level: AccuracyLevel, coarse: PushedState, fine: PushedState, pressure: float | None
 ) -> ErrorEstimate:
     width = fine.downstream_angle - fine.contact_angle
     equator = fine.equator_contact_pressure

@@ -12,7 +12,7 @@ from stonepass.declaration import Kind, check_inputs, declared, described
 from stonepass.errors import BadInput, Misplaced, Outcome, require
 from stonepass.fe.axisymmetric.problem import Resolution
 from stonepass.model.accuracy import ErrorEstimate
-from stonepass.model.answer import Answer, Quantity, unanswered
+from stonepass.model.answer import Answer, NamedQuantity, unanswered
 from stonepass.model.closure import (
     ORDER,
     Closure,
@@ -217,13 +217,15 @@ class SeatedBalanceDetail:
     closure_end_pressure: float
     printed_series: tuple[float, ...] | None = None
 
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[NamedQuantity, ...]:
         """Return the end pressure of the closure, and the coefficients of a fitted series."""
         series = self.closure.series
         return (
-            Quantity("closure_end_pressure", self.closure_end_pressure / 1e3, "kPa", "closure end"),
-            Quantity("series_coefficients", None if series is None else series.coefficients),
-            Quantity("printed_series_coefficients", self.printed_series),
+            NamedQuantity(
+                "closure_end_pressure", self.closure_end_pressure / 1e3, "kPa", "closure end"
+            ),
+            NamedQuantity("series_coefficients", None if series is None else series.coefficients),
+            NamedQuantity("printed_series_coefficients", self.printed_series),
         )
 
 

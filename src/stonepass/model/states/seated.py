@@ -20,7 +20,7 @@ from stonepass.fe.axisymmetric.seating import seat_on_stone
 from stonepass.fe.axisymmetric.wall_values import ContactProfile
 from stonepass.materials.derivatives import hoop_modulus
 from stonepass.materials.stability import check
-from stonepass.model.accuracy import ErrorEstimate, Level
+from stonepass.model.accuracy import AccuracyLevel, ErrorEstimate
 from stonepass.model.far_field import stuck_lumen
 from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
@@ -100,7 +100,7 @@ def _solve(
     return seat_on_stone(tube, profile_of(case), wrap_at, wanted, _path(case, seating, lumen))
 
 
-def _error(state: SeatedState, coarse: Contact, level: Level) -> ErrorEstimate:
+def _error(state: SeatedState, coarse: Contact, level: AccuracyLevel) -> ErrorEstimate:
     """Estimate the errors of α₀ and σ(π/2).
 
     The increments of a loading path leave ripples in σ(θ). The curves of two paths may therefore

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from stonepass.studies.sensitivity.estimate import Effects, Estimate, Gap, Indices, Sensitivities
+from stonepass.studies.sensitivity.estimate import (
+    Effects,
+    Gap,
+    IndexEstimate,
+    Indices,
+    Sensitivities,
+)
 from stonepass.studies.sensitivity.evaluator import OUTSIDE, outcome_name
 from stonepass.studies.sensitivity.responses import ANSWERED, MOVES, PRESSURE
 from stonepass.studies.sensitivity.sensitivity import Sensitivity
@@ -216,7 +222,7 @@ def _missing(found: Sensitivity, tornado: Tornado, bar: Bar, end: End) -> str:
     return f"There is no {tornado.quantity} {where} (outcome {end.outcome}){bound}."
 
 
-def _amount(each: Sensitivities, estimate: Estimate) -> str:
+def _amount(each: Sensitivities, estimate: IndexEstimate) -> str:
     """Return an estimate with its 95 % interval, e.g. ``71 % (66 to 76 %)``."""
     if each.inputs and isinstance(each.inputs[0], Effects):
         low, high = max(estimate.low, 0.0), estimate.high

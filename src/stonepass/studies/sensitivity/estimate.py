@@ -8,8 +8,8 @@ from dataclasses import dataclass
 __all__ = [
     "LEVEL",
     "Effects",
-    "Estimate",
     "Gap",
+    "IndexEstimate",
     "Indices",
     "Interaction",
     "Response",
@@ -20,7 +20,7 @@ LEVEL = 0.95  # level of the confidence intervals
 
 
 @dataclass(frozen=True)
-class Estimate:
+class IndexEstimate:
     """An estimate with its 95 % confidence interval.
 
     Attributes
@@ -44,7 +44,7 @@ class Estimate:
         """Upper end of the confidence interval."""
         return self.value + self.half_width
 
-    def overlaps(self, other: Estimate) -> bool:
+    def overlaps(self, other: IndexEstimate) -> bool:
         """Return True if the two confidence intervals overlap."""
         return self.low <= other.high and other.low <= self.high
 
@@ -60,16 +60,16 @@ class Indices:
     ----------
     key : str
         Key of the input.
-    first, total : Estimate
+    first, total : IndexEstimate
         First-order and total index.
     """
 
     key: str
-    first: Estimate
-    total: Estimate
+    first: IndexEstimate
+    total: IndexEstimate
 
     @property
-    def importance(self) -> Estimate:
+    def importance(self) -> IndexEstimate:
         """The number by which inputs are ordered: the total index."""
         return self.total
 
@@ -84,12 +84,12 @@ class Interaction:
     ----------
     keys : (str, str)
         Keys of the two inputs.
-    second : Estimate
+    second : IndexEstimate
         The index.
     """
 
     keys: tuple[str, str]
-    second: Estimate
+    second: IndexEstimate
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class Effects:
     ----------
     key : str
         Key of the input.
-    mean_absolute : Estimate
+    mean_absolute : IndexEstimate
         Mean absolute effect μ*, in the unit of the response.
     mean : float
         Mean effect μ.
@@ -113,12 +113,12 @@ class Effects:
     """
 
     key: str
-    mean_absolute: Estimate
+    mean_absolute: IndexEstimate
     mean: float
     spread: float
 
     @property
-    def importance(self) -> Estimate:
+    def importance(self) -> IndexEstimate:
         """The number by which inputs are ordered: the mean absolute effect."""
         return self.mean_absolute
 

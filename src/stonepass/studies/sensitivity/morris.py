@@ -15,7 +15,7 @@ from stonepass.io.optional_imports import library
 from stonepass.studies.sensitivity.estimate import (
     LEVEL,
     Effects,
-    Estimate,
+    IndexEstimate,
     Response,
     Sensitivities,
 )
@@ -109,7 +109,7 @@ def morris_sensitivities(
     effects = [
         Effects(
             name,
-            Estimate(float(found["mu_star"][k]), float(found["mu_star_conf"][k])),
+            IndexEstimate(float(found["mu_star"][k]), float(found["mu_star_conf"][k])),
             float(found["mu"][k]),
             float(found["sigma"][k]),
         )

@@ -24,7 +24,7 @@ from stonepass.studies.sensitivity.evaluator import (
 from stonepass.studies.sensitivity.morris import morris_design, morris_sensitivities
 from stonepass.studies.sensitivity.responses import responses
 from stonepass.studies.sensitivity.sobol import saltelli_design, sobol_sensitivities
-from stonepass.studies.sensitivity.solved_cases import SolvedCases
+from stonepass.studies.sensitivity.solved_cases import CaseEvaluator
 from stonepass.studies.sensitivity.study import SensitivityStudy
 from stonepass.studies.sensitivity.study_file import read_sensitivity
 from stonepass.studies.sensitivity.surrogate_cases import SurrogateCases
@@ -202,7 +202,7 @@ def _evaluator(
     if study.sweep is not None:
         return swept_cases(uncertain, read_results(study.sweep))
     if study.surrogate is None:
-        return SolvedCases(uncertain, executor, cache_folder, progress)
+        return CaseEvaluator(uncertain, executor, cache_folder, progress)
     surrogate = load_surrogate(study.surrogate, uncertain.median_case.model.NAME)
     return SurrogateCases(uncertain, surrogate, Path(study.surrogate).stem)
 

@@ -16,7 +16,7 @@ from stonepass.array_types import Float
 from stonepass.io.optional_imports import library
 from stonepass.studies.sensitivity.estimate import (
     LEVEL,
-    Estimate,
+    IndexEstimate,
     Indices,
     Interaction,
     Response,
@@ -129,5 +129,5 @@ def _interactions(names: list[str], found: Any) -> tuple[Interaction, ...]:
     return tuple(sorted(each, key=lambda interaction: -interaction.second.value))
 
 
-def _estimate(found: Any, name: str, at: Any) -> Estimate:
-    return Estimate(float(found[name][at]), float(found[f"{name}_conf"][at]))
+def _estimate(found: Any, name: str, at: Any) -> IndexEstimate:
+    return IndexEstimate(float(found[name][at]), float(found[f"{name}_conf"][at]))

@@ -19,13 +19,13 @@ from stonepass.studies.sensitivity.evaluator import Evaluations, evaluations
 from stonepass.studies.sensitivity.uncertain_case import Inputs, UncertainCase
 from stonepass.units import Pressure
 
-__all__ = ["Refusal", "SolvedCases", "TriedJob"]
+__all__ = ["CaseEvaluator", "Refusal", "TriedJob"]
 
 Found = TypeVar("Found")
 
 
 @dataclass(frozen=True)
-class SolvedCases:
+class CaseEvaluator:
     """An evaluator that solves every case; equal cases are solved once.
 
     Attributes

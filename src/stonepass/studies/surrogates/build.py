@@ -26,13 +26,13 @@ from stonepass.studies.surrogates.build_held import build_held_stone
 from stonepass.studies.surrogates.claimed_error import FLOOR, claimed_error
 from stonepass.studies.surrogates.domain import Domain
 from stonepass.studies.surrogates.learnt import LearntFunctions
-from stonepass.studies.surrogates.levels import Level, levels_for
+from stonepass.studies.surrogates.levels import FitLevel, levels_for
 from stonepass.studies.surrogates.origin import origin
 from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain_cases
 from stonepass.studies.surrogates.regression import fit_polynomial, joined
 from stonepass.studies.surrogates.seated_contact import SeatedContact
-from stonepass.studies.surrogates.solved_cases import SolvedCases
+from stonepass.studies.surrogates.solved_cases import LearntCases
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_surrogate"]
@@ -75,9 +75,9 @@ def build_surrogate(
     _refuse_unsolved(list(chain(*answers)))
     physics = SeatedContact.fitted_to(list(chain(*answers)))
 
-    def solved(level: Level, at: Conditions, found: list[Answer]) -> SolvedCases:
+    def solved(level: FitLevel, at: Conditions, found: list[Answer]) -> LearntCases:
         setting = domain.setting(level.case, at)
-        return SolvedCases(setting, found, physics.learnt(case, setting, found))
+        return LearntCases(setting, found, physics.learnt(case, setting, found))
 
     learnt: LearntFunctions | None = None
     fitted = []
@@ -125,7 +125,7 @@ def _refuse_unsolved(answers: Sequence[Answer]) -> None:
         )  # fmt: skip
 
 
-def _answers(level: Level, at: Conditions, solver: CaseSolver) -> list[Answer]:
+def _answers(level: FitLevel, at: Conditions, solver: CaseSolver) -> list[Answer]:
     cases = [case_at(level.case, at, k) for k in range(len(at.friction))]
     return solver.answers(cases, error=False)
 
@@ -135,8 +135,8 @@ def _least_certain(
     domain: Domain,
     physics: SeatedContact,
     before: LearntFunctions | None,
-    level: Level,
-    solved: SolvedCases,
+    level: FitLevel,
+    solved: LearntCases,
 ) -> Conditions:
     """Return the conditions of a level at which the surrogate is least certain."""
 
@@ -150,7 +150,7 @@ def _least_certain(
 
 
 def _corrected(
-    before: LearntFunctions | None, level: Level, solved: SolvedCases
+    before: LearntFunctions | None, level: FitLevel, solved: LearntCases
 ) -> tuple[LearntFunctions, Float[np.ndarray, "n functions"]]:
     """Fit what earlier levels leave over; return all levels together and leave-one-out errors."""
     at, values = solved.at, solved.values
@@ -166,7 +166,7 @@ def _corrected(
 def _claimed(
     case: Case,
     physics: SeatedContact,
-    solved: SolvedCases,
+    solved: LearntCases,
     left_out: Float[np.ndarray, "n functions"],
 ) -> SparsePolynomial:
     """Return the logarithm of the claimed relative error of P_ucr, from leave-one-out errors."""

@@ -27,7 +27,7 @@ from stonepass.studies.surrogates.polynomial import SparsePolynomial
 from stonepass.studies.surrogates.refinement import least_certain_cases
 from stonepass.studies.surrogates.regression import FEWEST, fit_polynomial, joined
 from stonepass.studies.surrogates.solved import MOVES
-from stonepass.studies.surrogates.solved_cases import SolvedCases
+from stonepass.studies.surrogates.solved_cases import LearntCases
 from stonepass.studies.surrogates.surrogate import Surrogate
 
 __all__ = ["build_held_stone"]
@@ -115,7 +115,7 @@ class _Build:
         """Return a number of cases for the effort."""
         return max(FEWEST, round(self.effort * number))
 
-    def solved(self, asked: Conditions, leaks: int) -> SolvedCases:
+    def solved(self, asked: Conditions, leaks: int) -> LearntCases:
         """Solve cases; with an error estimate the model computes the leak pressure too."""
         cases = [case_at(self.case, asked, k) for k in range(len(asked.friction))]
         answers = [
@@ -123,16 +123,16 @@ class _Build:
             *self.solver.answers(cases[leaks:], error=False),
         ]
         at = self.domain.setting(self.case, asked)
-        return SolvedCases(at, answers, self.physics.learnt(self.case, at, answers))
+        return LearntCases(at, answers, self.physics.learnt(self.case, at, answers))
 
-    def free(self) -> SolvedCases:
+    def free(self) -> LearntCases:
         """Solve the first level, nearly without friction."""
         count, leaks = map(self.count, self.sizes.free)
         asked = self.domain.training(self.case, count)
         nearly = np.full(len(asked.friction), NEARLY_NONE)
         return self.solved(replace(asked, friction=nearly), leaks)
 
-    def held(self, base: SparsePolynomial) -> SolvedCases:
+    def held(self, base: SparsePolynomial) -> LearntCases:
         """Solve the second and the third level, whose first level gave `base`."""
         gentle = self.count(self.sizes.gentle[0])
         asked = self.domain.training(self.case, gentle + self.count(self.sizes.pushed[0]))
@@ -145,7 +145,7 @@ class _Build:
         below = self.physics.solve(self.case, at, functions(at)).outcome == MOVES
         return second.joined(self.solved(rest.where(below), self.count(self.sizes.pushed[1])))
 
-    def refined(self, base: SparsePolynomial, held: SolvedCases) -> SolvedCases:
+    def refined(self, base: SparsePolynomial, held: LearntCases) -> LearntCases:
         """Return the cases of `held` with further ones where the surrogate is least certain."""
         if not self.sizes.refined:
             return held
@@ -198,7 +198,7 @@ def build_held_stone(case: Case, box: Box, solver: CaseSolver, effort: float) ->
     )
 
 
-def _base(free: SolvedCases, sizes: _Sizes) -> SparsePolynomial:
+def _base(free: LearntCases, sizes: _Sizes) -> SparsePolynomial:
     """Fit ln((π/2 − α)/root) and the functions of p without friction."""
     _, *functions = free.values.T
     widths = np.log(functions[1])
@@ -209,7 +209,7 @@ def _base(free: SolvedCases, sizes: _Sizes) -> SparsePolynomial:
 
 
 def _with_changes(
-    base: SparsePolynomial, solved: SolvedCases, sizes: _Sizes
+    base: SparsePolynomial, solved: LearntCases, sizes: _Sizes
 ) -> tuple[HeldFunctions, Values]:
     """Fit what the pressure changes in all functions; return leave-one-out errors too."""
     at, p = solved.at, solved.values[:, 0]
@@ -223,7 +223,7 @@ def _with_changes(
 
 
 def _claimed(
-    case: Case, physics: HeldStone, learnt: HeldFunctions, solved: SolvedCases, left_out: Values
+    case: Case, physics: HeldStone, learnt: HeldFunctions, solved: LearntCases, left_out: Values
 ) -> SparsePolynomial:
     """Return the claimed error from the leave-one-out errors of ln h."""
     known = np.isfinite(left_out[:, 0])

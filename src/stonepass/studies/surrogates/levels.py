@@ -14,11 +14,11 @@ from stonepass.materials.relaxed_energy import Microbuckling
 from stonepass.model.case import Case
 from stonepass.model.models.seated_balance import SeatedBalance
 
-__all__ = ["Level", "levels_for"]
+__all__ = ["FitLevel", "levels_for"]
 
 
 @dataclass(frozen=True)
-class Level:
+class FitLevel:
     """A number of cases that are solved in one way, and the polynomial that is fitted to them.
 
     Attributes
@@ -45,7 +45,7 @@ class Level:
     candidates: int = 0
 
 
-def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
+def levels_for(case: Case, effort: float = 1.0) -> list[FitLevel]:
     """Return the levels for a surrogate of a case, the cheapest one first.
 
     In the thin walls of a material that does not microbuckle, friction changes the contact so fast
@@ -69,9 +69,9 @@ def levels_for(case: Case, effort: float = 1.0) -> list[Level]:
     degrees = (20, 16, 0, 8 * last)
     if isinstance(case.model, SeatedBalance) and case.model.seating != "frictionless":
         smooth = replace(case.model, seating="frictionless", seating_friction=None)
-        base = Level(replace(case, model=smooth), count(4 * many), degrees, 20)
+        base = FitLevel(replace(case, model=smooth), count(4 * many), degrees, 20)
         cases = count(many), count(many // 2)
         if isinstance(case.ureter.material.law, Microbuckling):
-            return [base, Level(case, cases[0], (8, 6, 6, 5 * last), 8, cases[1], 512)]
-        return [base, Level(case, cases[0], (16, 12, 8, 6 * last), 16, cases[1], 2048)]
-    return [Level(case, count(4 * many), degrees, 20)]
+            return [base, FitLevel(case, cases[0], (8, 6, 6, 5 * last), 8, cases[1], 512)]
+        return [base, FitLevel(case, cases[0], (16, 12, 8, 6 * last), 16, cases[1], 2048)]
+    return [FitLevel(case, count(4 * many), degrees, 20)]

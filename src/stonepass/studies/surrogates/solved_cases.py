@@ -11,12 +11,12 @@ from stonepass.array_types import Bool, Float
 from stonepass.model.answer import Answer
 from stonepass.studies.surrogates.box import Setting
 
-__all__ = ["SolvedCases"]
+__all__ = ["LearntCases"]
 
 
 @array_dataclass
 @dataclass(frozen=True)
-class SolvedCases:
+class LearntCases:
     """Cases with their answers and the values that a surrogate learns from them.
 
     Attributes
@@ -37,16 +37,16 @@ class SolvedCases:
         """Critical pressures in Pa; NaN where there is none."""
         return np.array([each.pressure for each in self.answers], dtype=float)
 
-    def joined(self, other: SolvedCases) -> SolvedCases:
+    def joined(self, other: LearntCases) -> LearntCases:
         """Return the cases of both."""
-        return SolvedCases(
+        return LearntCases(
             self.at.joined(other.at),
             [*self.answers, *other.answers],
             np.concatenate([self.values, other.values]),
         )
 
-    def part(self, rows: slice) -> SolvedCases:
+    def part(self, rows: slice) -> LearntCases:
         """Return some of the cases."""
         chosen: Bool[np.ndarray, " n"] = np.zeros(len(self.answers), dtype=bool)
         chosen[rows] = True
-        return SolvedCases(self.at.where(chosen), self.answers[rows], self.values[rows])
+        return LearntCases(self.at.where(chosen), self.answers[rows], self.values[rows])

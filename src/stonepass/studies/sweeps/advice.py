@@ -13,7 +13,7 @@ from stonepass.studies.sweeps.blocks import case_seconds
 from stonepass.studies.sweeps.plan import Sweep
 from stonepass.studies.sweeps.workers import Workers
 
-__all__ = ["DAYS", "Estimate", "estimated", "refuse_long"]
+__all__ = ["DAYS", "Duration", "estimated", "refuse_long"]
 
 DAYS = 3.0  # longest duration in days that is accepted without being asked for
 MEASURED_FROM = 2_000  # cases from which some are solved first to measure what they take
@@ -23,7 +23,7 @@ DAY = 86_400.0
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Duration:
     """The expected duration of a sweep.
 
     Attributes
@@ -53,7 +53,7 @@ class Estimate:
         ).replace(",", " ")
 
 
-def estimated(plan: Sweep, left: int, workers: Workers) -> Estimate | None:
+def estimated(plan: Sweep, left: int, workers: Workers) -> Duration | None:
     """Return the expected duration, measured by solving some cases; None for a small study.
 
     Parameters
@@ -73,15 +73,15 @@ def estimated(plan: Sweep, left: int, workers: Workers) -> Estimate | None:
         seconds = workers.executor.submit(case_seconds, plan, indices, LONGEST).result()
     except BrokenExecutor as problem:
         raise StonepassError(KILLED) from problem
-    return Estimate(left, float(np.mean(seconds)), workers.count)
+    return Duration(left, float(np.mean(seconds)), workers.count)
 
 
-def refuse_long(estimate: Estimate, days: float, lift: str) -> None:
+def refuse_long(estimate: Duration, days: float, lift: str) -> None:
     """Raise an error if a sweep would take too long.
 
     Parameters
     ----------
-    estimate : Estimate
+    estimate : Duration
         The expected duration.
     days : float
         Longest accepted duration in days.

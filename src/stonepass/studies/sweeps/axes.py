@@ -16,7 +16,7 @@ from stonepass.array_types import Float
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.studies.sweeps.varied_input import VariedInput, described, plain
 
-__all__ = ["Axis", "Points", "Range", "read_variation"]
+__all__ = ["Axis", "Points", "SampledRange", "read_variation"]
 
 SCALES = ("linear", "log")
 GRID_KEYS, RANGE_KEYS = ("from", "to", "count", "scale"), ("low", "high", "scale")
@@ -53,7 +53,7 @@ class Axis:
 
 
 @dataclass(frozen=True)
-class Range:
+class SampledRange:
     """The range of an input that is sampled.
 
     Attributes
@@ -129,7 +129,9 @@ class Points:
         }
 
 
-def read_variation(given: VariedInput, value: Any, folder: Path | None = None) -> Axis | Range:
+def read_variation(
+    given: VariedInput, value: Any, folder: Path | None = None
+) -> Axis | SampledRange:
     """Read what a study says of one varied input.
 
     Parameters
@@ -165,9 +167,9 @@ def _built_in(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _range(given: VariedInput, table: Mapping[str, Any]) -> Range:
+def _range(given: VariedInput, table: Mapping[str, Any]) -> SampledRange:
     low, high = _ends(given, table, RANGE_KEYS)
-    return Range(given, low, high, _scale(given, table, low))
+    return SampledRange(given, low, high, _scale(given, table, low))
 
 
 def _steps(given: VariedInput, table: Mapping[str, Any]) -> tuple[Any, ...]:

@@ -12,7 +12,7 @@ from typing import Any
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.errors import require
-from stonepass.studies.sweeps.axes import Axis, Points, Range
+from stonepass.studies.sweeps.axes import Axis, Points, SampledRange
 from stonepass.studies.sweeps.sampling import Sampling
 from stonepass.studies.sweeps.varied_input import VariedInput, described, plain
 
@@ -75,7 +75,7 @@ class Sweep:
         Raw values by the key of the case file that all cases have.
     axes : tuple of Axis
         Axes of the grid.
-    ranges : tuple of Range
+    ranges : tuple of SampledRange
         Ranges of the sampled inputs.
     sampling : Sampling, optional
         How the ranges are sampled; None without ranges.
@@ -91,7 +91,7 @@ class Sweep:
 
     fixed: Mapping[str, Any]
     axes: tuple[Axis, ...] = ()
-    ranges: tuple[Range, ...] = ()
+    ranges: tuple[SampledRange, ...] = ()
     sampling: Sampling | None = None
     points: Points | None = None
     models: tuple[Variant, ...] = (Variant("paper"),)

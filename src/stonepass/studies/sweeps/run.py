@@ -38,7 +38,7 @@ from stonepass.studies.sweeps.shards import FOLDER, READ, shard_name, write_shar
 from stonepass.studies.sweeps.sweep_file import read_sweep
 from stonepass.studies.sweeps.workers import workers_of
 
-__all__ = ["Standing", "Words", "run_sweep", "sweep"]
+__all__ = ["Standing", "SweepWords", "run_sweep", "sweep"]
 
 # Beginnings of the names of the files that a sweep has in its folder.
 OWN = (LEDGER, LOCK, FOLDER)
@@ -73,7 +73,7 @@ class Standing:
 
 
 @dataclass(frozen=True)
-class Words:
+class SweepWords:
     """The names of the arguments in messages, which are options on the command line."""
 
     folder: str = "folder"
@@ -176,7 +176,7 @@ def run_sweep(
     max_days: float = DAYS,
     block_cases: int | None = None,
     tell: Callable[[Standing], None] = lambda _: None,
-    words: Words | None = None,
+    words: SweepWords | None = None,
 ) -> Standing:
     """Solve and store the cases of a plan that are not finished; see `sweep` for the parameters.
 
@@ -186,7 +186,7 @@ def run_sweep(
         As for `sweep`.
     tell : callable
         Function that is called with the standing before the first and after each block.
-    words : Words, optional
+    words : SweepWords, optional
         Names of the arguments in messages; by default those of Python.
 
     Returns
@@ -194,7 +194,7 @@ def run_sweep(
     Standing
         The standing at the end.
     """
-    words = words or Words()
+    words = words or SweepWords()
     for name, value in (("workers", workers), ("block_cases", block_cases)):
         require(value is None or value >= 1, name, value, "a whole number, at least 1")
     for name in ("pyarrow", "pandas"):
@@ -229,7 +229,7 @@ def _begun(ledger: Ledger | None, plan: Sweep) -> Standing:
     return standing
 
 
-def _refuse_foreign(folder: Path, resume: bool, words: Words) -> None:
+def _refuse_foreign(folder: Path, resume: bool, words: SweepWords) -> None:
     """Refuse a folder with results unless they are to be resumed, before anything is written."""
     there = (folder / LEDGER).exists()
     if there and not resume and read_ledger(folder).entries:
@@ -243,7 +243,7 @@ def _has_other_files(folder: Path) -> bool:
     return any(not each.name.startswith(OWN) for each in folder.iterdir())
 
 
-def _present(folder: Path, plan: Sweep, words: Words) -> Ledger | None:
+def _present(folder: Path, plan: Sweep, words: SweepWords) -> Ledger | None:
     """Return the ledger of a folder without damaged blocks; None if there is no finished block.
 
     Raises
@@ -270,7 +270,7 @@ def _present(folder: Path, plan: Sweep, words: Words) -> Ledger | None:
 
 
 @contextmanager
-def _disk_errors(folder: Path, words: Words) -> Iterator[None]:
+def _disk_errors(folder: Path, words: SweepWords) -> Iterator[None]:
     """Turn an error of the disk into one sentence; what was stored before is complete."""
     try:
         yield
@@ -280,7 +280,7 @@ def _disk_errors(folder: Path, words: Words) -> Iterator[None]:
         raise _not_written(folder, problem.strerror or str(problem), words) from problem
 
 
-def _not_written(folder: Path, why: str, words: Words) -> StonepassError:
+def _not_written(folder: Path, why: str, words: SweepWords) -> StonepassError:
     return StonepassError(
         f"the folder '{folder}' could not be written ({why}): the finished blocks are kept; make "
         f"room and go on with {words.resume}."

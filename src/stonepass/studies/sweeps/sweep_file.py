@@ -18,7 +18,7 @@ from stonepass.io.toml_file import merged
 from stonepass.materials.protocol import Material
 from stonepass.model.models.registry import MODELS
 from stonepass.model.models.seated_balance import SeatedBalance
-from stonepass.studies.sweeps.axes import Axis, Points, Range, read_variation
+from stonepass.studies.sweeps.axes import Axis, Points, SampledRange, read_variation
 from stonepass.studies.sweeps.case_rows import build
 from stonepass.studies.sweeps.plan import Sweep, Variant
 from stonepass.studies.sweeps.points_file import read_points_table
@@ -102,7 +102,7 @@ def _plan(document: Table, fixed: dict[str, Any], path: Path, folder: Path, *,
     found = [
         read_variation(varied_input(key, materials), value, folder) for key, value in vary.items()
     ]
-    ranges = tuple(each for each in found if isinstance(each, Range))
+    ranges = tuple(each for each in found if isinstance(each, SampledRange))
     points = _points(_table(document, "points"), materials, folder)
     return Sweep(
         fixed,
@@ -195,7 +195,9 @@ def _points(table: Table, materials: list[Material], folder: Path) -> Points | N
     return read_points_table(table, lambda key: varied_input(key, materials), folder)
 
 
-def _sampling(table: Table, ranges: tuple[Range, ...], points: Points | None) -> Sampling | None:
+def _sampling(
+    table: Table, ranges: tuple[SampledRange, ...], points: Points | None
+) -> Sampling | None:
     if ranges:
         require(points is None, "'points'", "given", "left out where ranges are sampled")
         return read_sampling(table)

@@ -10,7 +10,7 @@ from contextlib import ExitStack, suppress
 from typing import Any
 
 from stonepass.web.answers import problem_document
-from stonepass.web.jobs.job import Job, Status
+from stonepass.web.jobs.job import ServerJob, Status
 from stonepass.web.jobs.process import WorkerEnded, WorkerProcess
 from stonepass.web.settings import ServerSettings
 from stonepass.web.uploads.store import as_file
@@ -59,19 +59,19 @@ class JobBook:
 
     def __init__(self, settings: ServerSettings) -> None:
         self._settings = settings
-        self._jobs: OrderedDict[str, Job] = OrderedDict()
-        self._waiting: deque[Job] = deque()
+        self._jobs: OrderedDict[str, ServerJob] = OrderedDict()
+        self._waiting: deque[ServerJob] = deque()
         self._arrived = asyncio.Event()
-        self._running: dict[Job, asyncio.Task[None]] = {}
+        self._running: dict[ServerJob, asyncio.Task[None]] = {}
         self._workers: list[asyncio.Task[None]] = []
         self.processes = [WorkerProcess() for _ in range(settings.workers)]
 
-    def get(self, fingerprint: str) -> Job | None:
+    def get(self, fingerprint: str) -> ServerJob | None:
         """Return the job with this fingerprint, or None."""
         self.forget_old()
         return self._jobs.get(fingerprint)
 
-    def add(self, job: Job) -> Job:
+    def add(self, job: ServerJob) -> ServerJob:
         """Return the job of this fingerprint; a new one is queued if there is none that may answer.
 
         Raises
@@ -92,7 +92,7 @@ class JobBook:
             self._workers = [asyncio.create_task(self._work(each)) for each in self.processes]
         return job
 
-    async def cancel(self, job: Job) -> None:
+    async def cancel(self, job: ServerJob) -> None:
         """End a job that waits or runs; forget one that has ended."""
         if job.status.ended:
             self._jobs.pop(job.id, None)
@@ -136,7 +136,7 @@ class JobBook:
                 if not job.status.ended:
                     self._fail(job, FAULT.format(name=type(fault).__name__), 500)
 
-    async def _next(self, process: WorkerProcess) -> Job:
+    async def _next(self, process: WorkerProcess) -> ServerJob:
         """Return the next job; an idle process is ended after a while."""
         while not self._waiting:
             self._arrived.clear()
@@ -147,7 +147,7 @@ class JobBook:
                 await process.end()
         return self._waiting.popleft()
 
-    async def _do(self, job: Job, process: WorkerProcess) -> None:
+    async def _do(self, job: ServerJob, process: WorkerProcess) -> None:
         """Do one job and note its result, or why it failed."""
         limits = self._settings.limits
         folder = self._settings.cache_folder
@@ -178,7 +178,9 @@ class JobBook:
         else:
             await self._conclude(job, message, process)
 
-    async def _conclude(self, job: Job, message: dict[str, Any], process: WorkerProcess) -> None:
+    async def _conclude(
+        self, job: ServerJob, message: dict[str, Any], process: WorkerProcess
+    ) -> None:
         if "result" in message:
             job.result, job.report = message["result"], base64.b64decode(message["report"])
             job.size = len(json.dumps(job.result)) + len(job.report)
@@ -192,15 +194,17 @@ class JobBook:
         else:
             self._fail(job, FAULT.format(name=message["fault"]), 500)
 
-    def _lacked_memory(self, job: Job) -> None:
+    def _lacked_memory(self, job: ServerJob) -> None:
         memory = self._settings.limits.job_memory // 1_000_000
         self._fail(job, NO_MEMORY.format(memory=memory), 422)
 
-    def _fail(self, job: Job, detail: str, status: int, field: str = "", value: str = "") -> None:
+    def _fail(
+        self, job: ServerJob, detail: str, status: int, field: str = "", value: str = ""
+    ) -> None:
         job.problem = problem_document(status, detail, field or None, value or None)
         self._end(job, Status.FAILED)
 
-    def _end(self, job: Job, status: Status) -> None:
+    def _end(self, job: ServerJob, status: Status) -> None:
         """Note that a job has ended, and drop its question, its file and what is too old."""
         job.change(
             status=status,

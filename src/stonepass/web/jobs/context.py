@@ -25,7 +25,7 @@ class Context:
     file : Path or None
         The uploaded file, under a name of the server.
     area : sequence of 4 int, or None
-        Part of the uploaded image that was chosen when it was uploaded, see `Area`.
+        Part of the uploaded image that was chosen when it was uploaded, see `PixelArea`.
     format : str
         Format of the report to print, ``html`` or ``pdf``; empty for no report.
     """

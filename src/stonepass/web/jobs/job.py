@@ -10,7 +10,7 @@ from typing import Any
 
 from stonepass.web.uploads.store import Upload
 
-__all__ = ["Job", "Status"]
+__all__ = ["ServerJob", "Status"]
 
 
 class Status(enum.Enum):
@@ -29,7 +29,7 @@ class Status(enum.Enum):
 
 
 @dataclass(eq=False)
-class Job:
+class ServerJob:
     """A question that a worker process answers.
 
     Attributes

@@ -33,7 +33,7 @@ from stonepass.web.section.grid import (
     PLACES,
     STATIONS,
     FreeTube,
-    Section,
+    SeatedSection,
     digest,
     free_tube,
     scaled,
@@ -74,7 +74,7 @@ def case_of_section(
     return replace(case, stone=Stone(size_ratio=size)), tube
 
 
-def section_of(answer: Answer) -> Section:
+def section_of(answer: Answer) -> SeatedSection:
     """Return the section of a solved answer of the paper's model with its stress field."""
     contact = answer.contact
     assert isinstance(contact, SolvedState)
@@ -87,7 +87,7 @@ def section_of(answer: Answer) -> Section:
         lines += [np.interp(PLACES, reference, z), np.interp(PLACES, reference, r)]
     first = contact.contact_angle
     theta = first + STATIONS * (np.pi / 2.0 - first)
-    return Section(lines[0], lines[1], lines[2], lines[3], first, contact.pressure_at(theta))
+    return SeatedSection(lines[0], lines[1], lines[2], lines[3], first, contact.pressure_at(theta))
 
 
 def build(folder: Path, workers: int) -> None:

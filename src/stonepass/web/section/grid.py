@@ -31,7 +31,7 @@ __all__ = [
     "PLACES",
     "STATIONS",
     "FreeTube",
-    "Section",
+    "SeatedSection",
     "SectionGrid",
     "digest",
     "free_tube",
@@ -49,7 +49,7 @@ NAMES = ("inner_z", "inner_r", "outer_z", "outer_r", "angle", "pressure")
 
 @array_dataclass
 @dataclass(frozen=True)
-class Section:
+class SeatedSection:
     """A section: half of it, from the equator of the stone downstream; lengths in inner radii.
 
     Attributes
@@ -141,7 +141,7 @@ class SectionGrid:
 
     def section(
         self, size_ratio: float, wall_ratio: float, confining: float, tube: FreeTube
-    ) -> Section:
+    ) -> SeatedSection:
         """Return the interpolated section of a stone that is larger than the lumen.
 
         Closer to the lumen than the smallest solved size (0.4 % of the way to the largest one) the
@@ -167,7 +167,7 @@ class SectionGrid:
         inner_z, inner_r = PLACES + over * found["inner_z"], tube.inner + over * found["inner_r"]
         # Interpolated points must not lie in the stone.
         outward = np.maximum(1.0, size_ratio / np.hypot(inner_z, inner_r))
-        return Section(
+        return SeatedSection(
             outward * inner_z,
             outward * inner_r,
             PLACES + over * found["outer_z"],
@@ -177,7 +177,7 @@ class SectionGrid:
         )
 
 
-def scaled(section: Section, size_ratio: float, tube: FreeTube) -> dict[str, Any]:
+def scaled(section: SeatedSection, size_ratio: float, tube: FreeTube) -> dict[str, Any]:
     """Return the parts of a solved section as a `SectionGrid` stores them."""
     over = size_ratio - tube.inner
     return {

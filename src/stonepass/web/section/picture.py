@@ -11,7 +11,7 @@ from stonepass.array_types import Float
 from stonepass.model.case import Case
 from stonepass.model.load import Load
 from stonepass.units import Pressure
-from stonepass.web.section.grid import PLACES, STATIONS, Section, free_tube, grid_of
+from stonepass.web.section.grid import PLACES, STATIONS, SeatedSection, free_tube, grid_of
 from stonepass.web.section.points import EXTENT, contact_points, outline_points
 
 __all__ = ["instant_section"]
@@ -56,13 +56,15 @@ def instant_section(case: Case, stiffness: float) -> dict[str, Any] | None:
     }
     if size <= tube.inner:
         radii = [np.full_like(PLACES, radius) for radius in (tube.inner, tube.outer)]
-        rest = Section(PLACES, radii[0], PLACES, radii[1], np.pi / 2.0, np.zeros_like(STATIONS))
+        rest = SeatedSection(
+            PLACES, radii[0], PLACES, radii[1], np.pi / 2.0, np.zeros_like(STATIONS)
+        )
         return found | _outlines(rest, size) | {"contact": None, "seal": None}
     section = grid.section(size, wall, confining, tube)
     return found | _outlines(section, size) | _contact(section, size, stiffness)
 
 
-def _outlines(section: Section, size: float) -> dict[str, Any]:
+def _outlines(section: SeatedSection, size: float) -> dict[str, Any]:
     """Return both surfaces of the wall on both sides of the equator."""
     return {
         name: _both_sides(z, r, EXTENT[0] * size + EXTENT[1])
@@ -81,7 +83,7 @@ def _both_sides(
     return outline_points(np.concatenate([-z[:0:-1], z]), np.concatenate([r[:0:-1], r]))
 
 
-def _contact(section: Section, size: float, stiffness: float) -> dict[str, Any]:
+def _contact(section: SeatedSection, size: float, stiffness: float) -> dict[str, Any]:
     """Return the contact pressure along the contact and its largest value's place."""
     half = section.contact_angle + STATIONS * (np.pi / 2.0 - section.contact_angle)
     theta = np.concatenate([half, np.pi - half[-2::-1]])

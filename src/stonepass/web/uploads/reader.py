@@ -14,7 +14,7 @@ from stonepass.bench.test_files import table_of_test
 from stonepass.errors import BadInput
 from stonepass.sandbox.worker import serve
 from stonepass.surface.readers import load_libraries, read_surface_image
-from stonepass.surface.surface_image import Area, SurfaceImage
+from stonepass.surface.surface_image import PixelArea, SurfaceImage
 from stonepass.web.api_words import api_words, in_api_words
 
 __all__ = ["parse"]
@@ -34,7 +34,7 @@ def parse(request: Mapping[str, Any]) -> tuple[dict[str, Any], memoryview]:
     try:
         if request["kind"] == "fit":
             return _table(path), memoryview(b"")
-        area = None if request["area"] is None else Area(*request["area"])
+        area = None if request["area"] is None else PixelArea(*request["area"])
         return _picture(read_surface_image(path, area))
     except BadInput as problem:
         raise in_api_words(problem) from None

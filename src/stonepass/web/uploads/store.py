@@ -12,11 +12,10 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
-from stonepass.sandbox.sandbox import Limits as SandboxLimits
-from stonepass.sandbox.sandbox import parse_in_sandbox
-from stonepass.surface.surface_image import Area
+from stonepass.sandbox.sandbox import Limits, parse_in_sandbox
+from stonepass.surface.surface_image import PixelArea
 from stonepass.web.api_words import FILE, UPLOAD
-from stonepass.web.settings import Limits
+from stonepass.web.settings import ServerLimits
 
 __all__ = ["Upload", "UploadStore", "as_file", "read_upload"]
 
@@ -61,7 +60,7 @@ class Upload:
 class UploadStore:
     """Uploaded files by their ids; the oldest are dropped when there are too many bytes."""
 
-    def __init__(self, limits: Limits) -> None:
+    def __init__(self, limits: ServerLimits) -> None:
         self._limits = limits
         self._held: OrderedDict[str, Upload] = OrderedDict()
 
@@ -95,7 +94,7 @@ def _size(upload: Upload) -> int:
     return len(upload.content) + len(upload.preview)
 
 
-def read_upload(kind: str, ending: str, content: bytes, area: Area | None = None) -> Upload:
+def read_upload(kind: str, ending: str, content: bytes, area: PixelArea | None = None) -> Upload:
     """Read an uploaded file in the sandbox and return it with its summary.
 
     Parameters
@@ -105,7 +104,7 @@ def read_upload(kind: str, ending: str, content: bytes, area: Area | None = None
     ending : str
         Ending of the name under which it is read, chosen by the server.
     content : bytes
-    area : Area, optional
+    area : PixelArea, optional
         Part of the picture that belongs to the surface; only this part must be grey.
 
     Raises
@@ -116,7 +115,7 @@ def read_upload(kind: str, ending: str, content: bytes, area: Area | None = None
     about = (kind.encode(), ending.encode(), str(area or "").encode(), content)
     identity = hashlib.sha256(b"\0".join(about)).hexdigest()
     numbers = None if area is None else astuple(area)
-    limits = SandboxLimits(body=PREVIEW)
+    limits = Limits(body=PREVIEW)
     with as_file(ending, content) as path:
         request = {"kind": kind, "path": str(path), "area": numbers}
         summary, preview = parse_in_sandbox(TASK, request, limits, WHAT[kind], UPLOAD)

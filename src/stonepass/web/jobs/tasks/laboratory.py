@@ -20,7 +20,7 @@ from stonepass.surface.friction import surface_friction
 from stonepass.surface.height_range import crystal_height
 from stonepass.surface.paths import StraightPath
 from stonepass.surface.sandboxed import read_in_sandbox
-from stonepass.surface.surface_image import Area
+from stonepass.surface.surface_image import PixelArea
 from stonepass.units import Length, length
 from stonepass.units import area as read_area
 from stonepass.web.api_words import UPLOAD, api_words
@@ -75,7 +75,7 @@ def _friction(request: Mapping[str, Any], context: Context) -> Done:
     assert context.file is not None
     context.tell(0, 0, "Reading the picture.")
     numbers = context.area if body.area is None else body.area
-    area = None if numbers is None else Area(*numbers)
+    area = None if numbers is None else PixelArea(*numbers)
     picture = read_in_sandbox(context.file, area=area)
     if body.pixel is not None:
         picture = picture.with_pixel(length(body.pixel, "pixel"))

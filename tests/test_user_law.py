@@ -287,3 +287,29 @@ def test_constants_in_kilopascals_are_asked_about(tmp_path):
     )
     (asked,) = [each for each in answer.warnings if each.code == "soft_law"]
     assert "is 293 Pa, which is softer than any ureter: check whether its constants" in str(asked)
+
+
+def test_a_wall_that_varies_along_the_tube_is_told(tmp_path, capsys):
+    """Its far field and its stability are those of the middle; a wall in layers is no such wall."""
+    along = "def energy(C, place, xp):\n    return 5e4*(1 + 0.1*place.Z**2)*(C.I1 - 3.0)\n"
+    layers = along.replace("place.Z**2", "place.R")
+    for law, told in ((along, True), (layers, False)):
+        name = write(tmp_path, law)
+        answer = sp.critical_pressure(
+            sp.Stone(size_ratio=1.1),
+            sp.Ureter(wall_ratio=1.5, material=load_material(name)),
+            **FAST,
+        )
+        assert ("varies_along" in {each.code for each in answer.warnings}) is told
+        assert run(["material", "check", name]) == 0
+        assert ("varies along the tube" in capsys.readouterr().err) is told
+
+
+@pytest.mark.parametrize("term", ["(C.I1 - 3.0)**1.5", "xp.sqrt(C.I1 - 3.0)"])
+def test_an_energy_without_derivatives_at_rest_is_told_why(tmp_path, capsys, term):
+    name = write(tmp_path, f"def energy(C, place, xp):\n    return 1e5*{term} + 1e4*(C.I1 - 3.0)\n")
+    assert run(["material", "check", name]) == 2
+    told = capsys.readouterr().err
+    assert "the energy needs two derivatives at C = 1" in told
+    assert "nan" not in told
+    assert "inf" not in told.replace("infl", "")

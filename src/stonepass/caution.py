@@ -225,6 +225,10 @@ SENTENCES = {
         "any ureter: check whether its constants were given in kPa; they have to be in Pa "
         "(1 kPa = 1000 Pa)"
     ),
+    "varies_along": (
+        "material '{material}' varies along the tube (its energy depends on place.Z): the far "
+        "field, the closure and the check of stability use its properties at Z = 0"
+    ),
     "loose_points": (
         "{count} of {points} stones are no larger than the lumen and contain no information about "
         "the friction"

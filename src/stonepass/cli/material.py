@@ -173,7 +173,7 @@ def check_material(name: Name) -> int:
     from stonepass.inputs.material_file import find_material
     from stonepass.materials.stability import check, one_sided_moduli
     from stonepass.model.states.law_trial import check_in_engine
-    from stonepass.model.validity import soft_law
+    from stonepass.model.validity import law_cautions
 
     entry = find_material(name)
     state = check(entry)
@@ -182,7 +182,7 @@ def check_material(name: Name) -> int:
     sides = zip(one_sided_moduli(entry.law, 1.0), one_sided_moduli(entry.law, -1.0), strict=True)
     rows = {name: _modulus(*both) for name, both in zip(names, sides, strict=True)}
     rows["r-z shear modulus"] = _modulus(state.shear, state.shear)
-    warn(soft_law(entry))
+    warn(law_cautions(entry))
     show(
         f"{entry.name}: free of stress at rest, strongly elliptic over its strain range at axial "
         "stretch 1, and equal in the finite elements and in NumPy.",

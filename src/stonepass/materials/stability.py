@@ -23,6 +23,10 @@ __all__ = ["SOFTEST_WALL", "RestState", "check", "one_sided_moduli", "rest_state
 TINY = 1e-7  # strain that selects tension or compression in the limit of zero strain
 MOST_SIDES = 12  # largest number of iterations of the lateral contraction
 SOFTEST_WALL = 1e3  # Pa; the constants of a law with a smaller shear modulus are probably in kPa
+_SMOOTH = (
+    "the energy needs two derivatives at C = 1: terms that vanish there, such as C.I1 - 3, may not "
+    "be under a root or have a power below 2 other than 1"
+)
 MODULUS_RANGE = (1.0, 1e11)  # Pa, from softer than any tissue to far stiffer than any elastomer
 
 
@@ -156,10 +160,10 @@ def check(material: Material) -> RestState:
 def _check_rest_stress(law: Law, name: str) -> None:
     gradient = rest_gradient(law)
     if not np.all(np.isfinite(gradient)):
-        raise BadInput(f"energy of {name} at rest", str(gradient), "finite with finite slopes")
+        raise BadInput(f"energy of {name} at rest", "without finite slopes", "smooth", _SMOOTH)
     moduli, shear = rest_moduli(law)
     if not (np.all(np.isfinite(moduli)) and math.isfinite(shear)):
-        raise BadInput(f"stiffness of {name} at rest", str(moduli), "finite")
+        raise BadInput(f"stiffness of {name} at rest", "undefined", "finite", _SMOOTH)
     uneven = max(np.ptp(gradient[:3]), np.abs(gradient[3:]).max())
     scale = max(float(np.abs(moduli).max()), abs(shear))
     if uneven > 1e-9 * scale:

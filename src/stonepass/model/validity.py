@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
+import numpy as np
+
 from stonepass.caution import Caution, caution
 from stonepass.materials.derivatives import hoop_modulus, rest_moduli
-from stonepass.materials.protocol import Material
+from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import SOFTEST_WALL
 from stonepass.model.far_field import lumen_ratio
 from stonepass.model.problem import Problem
+from stonepass.strain import CauchyGreen, Place
 
-__all__ = ["ring_buckling", "soft_law", "strain_range"]
+__all__ = ["law_cautions", "ring_buckling", "strain_range"]
+
+PLACES = (0.0, 0.7, 3.1, 9.0)  # places along the tube, Z/R_a, at which the energy is compared
+VARIATION = 1e-9  # relative difference of energies that is not a rounding error
 
 
 def strain_range(case: Problem) -> list[Caution]:
@@ -26,12 +34,31 @@ def strain_range(case: Problem) -> list[Caution]:
     return found
 
 
-def soft_law(material: Material) -> list[Caution]:
-    """Return a caution if the wall is so soft that its constants probably have another unit."""
+def law_cautions(material: Material) -> list[Caution]:
+    """Return cautions about the law of a material.
+
+    One is that the wall is so soft that its constants probably have another unit. The other one is
+    that the wall varies along the tube, for which neither the far field nor the check of stability
+    holds.
+    """
+    found = []
     shear = rest_moduli(material.law)[1]
-    if shear >= SOFTEST_WALL:
-        return []
-    return [caution("soft_law", material=material.name, modulus_Pa=shear)]
+    if shear < SOFTEST_WALL:
+        found.append(caution("soft_law", material=material.name, modulus_Pa=shear))
+    if _varies_along(material.law):
+        found.append(caution("varies_along", material=material.name))
+    return found
+
+
+@lru_cache(maxsize=32)
+def _varies_along(law: Law) -> bool:
+    """Return whether the energy of a strained wall depends on the place along the tube."""
+    Z = np.array(PLACES)
+    one = np.ones_like(Z)
+    C = CauchyGreen(one / 1.21, 1.21 * one, one, 0.0 * one)
+    with np.errstate(all="ignore"):  # the strain may be outside the range of a law
+        energies = np.asarray(law.energy(C, Place(1.1 * one, Z), np)) * one
+    return bool(np.ptp(energies) > VARIATION * np.abs(energies).max())
 
 
 def ring_buckling(case: Problem) -> list[Caution]:

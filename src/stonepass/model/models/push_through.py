@@ -20,7 +20,7 @@ from stonepass.model.numerics import Numerics
 from stonepass.model.problem import Problem
 from stonepass.model.states.loaded_state import Critical, NoPush, PushedState
 from stonepass.model.states.state_solver import StateSolver
-from stonepass.model.validity import ring_buckling, soft_law, strain_range
+from stonepass.model.validity import law_cautions, ring_buckling, strain_range
 
 __all__ = ["PushThrough", "PushThroughDetail"]
 
@@ -109,7 +109,7 @@ class PushThrough:
             seconds=found.seconds,
             warnings=(
                 *case.stone.shape.warnings(),
-                *soft_law(case.ureter.material),
+                *law_cautions(case.ureter.material),
                 *strain_range(case),
                 *ring_buckling(case),
                 *state.warnings(),

@@ -30,7 +30,7 @@ from stonepass.model.seating import SEATINGS, Seating
 from stonepass.model.states.seated_state import NoSeat, SeatedState
 from stonepass.model.states.state_solver import StateSolver
 from stonepass.model.stone import FRICTION
-from stonepass.model.validity import ring_buckling, soft_law, strain_range
+from stonepass.model.validity import law_cautions, ring_buckling, strain_range
 
 __all__ = ["SeatedBalance", "SeatedBalanceDetail", "balance"]
 
@@ -264,7 +264,7 @@ def balance(
         seconds=seated.solver.seconds,
         warnings=(
             *case.stone.shape.warnings(),
-            *soft_law(case.ureter.material),
+            *law_cautions(case.ureter.material),
             *strain_range(case),
             *ring_buckling(case),
             *seated.warnings(),

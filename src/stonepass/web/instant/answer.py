@@ -12,7 +12,7 @@ from stonepass.caution import Caution
 from stonepass.errors import Outcome
 from stonepass.inputs.case_record import fingerprint
 from stonepass.model.case import Case
-from stonepass.model.validity import ring_buckling, soft_law, strain_range
+from stonepass.model.validity import law_cautions, ring_buckling, strain_range
 from stonepass.records.surrogate import surrogate_records
 from stonepass.studies.surrogates.surrogate import Surrogate
 from stonepass.units import Pressure
@@ -33,6 +33,7 @@ CAUSES = {
     "wall_beyond_range": "stone.size_ratio",
     "lumen_below_range": "load.confining_pressure",
     "soft_law": "ureter.material",
+    "varies_along": "ureter.material",
     "ring_buckling": "load.confining_pressure",
 }
 
@@ -128,7 +129,7 @@ def _size(question: InstantQuestion, limit: Pressure, passing: Passing) -> dict[
 
 def _cautions(case: Case) -> list[Caution]:
     """Return the cautions that follow from the inputs alone."""
-    return [*strain_range(case), *ring_buckling(case), *soft_law(case.ureter.material)]
+    return [*strain_range(case), *ring_buckling(case), *law_cautions(case.ureter.material)]
 
 
 def _warning(each: Caution) -> dict[str, Any]:

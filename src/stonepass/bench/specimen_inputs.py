@@ -1,4 +1,4 @@
-"""The sizes of a specimen at rest, declared once for all doors."""
+"""The inputs of a tensile test beside its table, declared once for all doors."""
 
 from __future__ import annotations
 
@@ -6,39 +6,45 @@ from typing import Any
 
 from stonepass.declaration import DeclaredInput, Kind, free_input, read_declared
 
-__all__ = ["GAUGE_LENGTH", "RELATIVE", "SECTION", "SIZES", "THICKNESS", "WIDTH", "read_sizes"]
+__all__ = ["RELATIVE", "SIZES", "read_sizes"]
 
 _LENGTHS = (1e-5, 1.0)  # m
 _AREAS = (1e-10, 1e-2)  # m²
 
-WIDTH = free_input(
-    "width",
-    Kind.LENGTH,
-    "--width",
-    "Width of the strip at rest; needed with forces.",
-    bounds=_LENGTHS,
-)
-THICKNESS = free_input(
-    "thickness",
-    Kind.LENGTH,
-    "--thickness",
-    "Thickness of the strip at rest; needed with forces.",
-    bounds=_LENGTHS,
-)
-SECTION = free_input(
-    "section",
-    Kind.AREA,
-    "--section",
-    "Cross-section of the strip at rest, e.g. 12mm2; replaces width and thickness.",
-    bounds=_AREAS,
-)
-GAUGE_LENGTH = free_input(
-    "gauge_length",
-    Kind.LENGTH,
-    "--gauge-length",
-    "Length at rest over which the extension was measured; needed with extensions.",
-    bounds=_LENGTHS,
-)
+# Sizes of the strip at rest by their keys.
+SIZES: dict[str, DeclaredInput] = {
+    each.name: each
+    for each in (
+        free_input(
+            "width",
+            Kind.LENGTH,
+            "--width",
+            "Width of the strip at rest; needed with forces.",
+            bounds=_LENGTHS,
+        ),
+        free_input(
+            "thickness",
+            Kind.LENGTH,
+            "--thickness",
+            "Thickness of the strip at rest; needed with forces.",
+            bounds=_LENGTHS,
+        ),
+        free_input(
+            "section",
+            Kind.AREA,
+            "--section",
+            "Cross-section of the strip at rest, e.g. 12mm2; replaces width and thickness.",
+            bounds=_AREAS,
+        ),
+        free_input(
+            "gauge_length",
+            Kind.LENGTH,
+            "--gauge-length",
+            "Length at rest over which the extension was measured; needed with extensions.",
+            bounds=_LENGTHS,
+        ),
+    )
+}
 RELATIVE = free_input(
     "relative",
     Kind.FLAG,
@@ -47,9 +53,6 @@ RELATIVE = free_input(
     "(absolute).",
     default=False,
 )
-SIZES: dict[str, DeclaredInput] = {
-    each.name: each for each in (WIDTH, THICKNESS, SECTION, GAUGE_LENGTH)
-}
 
 
 def read_sizes(words: dict[str, str] | None = None, **given: Any) -> dict[str, Any]:
@@ -73,7 +76,8 @@ def read_sizes(words: dict[str, str] | None = None, **given: Any) -> dict[str, A
         The unit is missing or wrong, or the size is out of its bounds.
     """
     return {
-        key: None if value is None
+        key: None
+        if value is None
         else read_declared(SIZES[key].declaration, (words or {}).get(key, key), value)
         for key, value in given.items()
-    }  # fmt: skip
+    }

@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stonepass.about import DISCLAIMER
-from stonepass.bench.specimen_inputs import (
-    GAUGE_LENGTH,
-    RELATIVE,
-    SECTION,
-    SIZES,
-    THICKNESS,
-    WIDTH,
-    read_sizes,
-)
+from stonepass.bench.specimen_inputs import RELATIVE, SIZES, read_sizes
 from stonepass.cli.app import SETTINGS
 from stonepass.cli.help import OUTPUT, QUESTION, PanelCommand, PanelGroup, epilog
 from stonepass.cli.options import Json, option_for
@@ -116,10 +108,10 @@ Relative = Annotated[bool, option_for(RELATIVE, QUESTION)]
 def tensile(
     data: File,
     law: Law,
-    width: Annotated[str | None, option_for(WIDTH, QUESTION)] = None,
-    thickness: Annotated[str | None, option_for(THICKNESS, QUESTION)] = None,
-    section: Annotated[str | None, option_for(SECTION, QUESTION)] = None,
-    gauge_length: Annotated[str | None, option_for(GAUGE_LENGTH, QUESTION)] = None,
+    width: Annotated[str | None, option_for(SIZES["width"], QUESTION)] = None,
+    thickness: Annotated[str | None, option_for(SIZES["thickness"], QUESTION)] = None,
+    section: Annotated[str | None, option_for(SIZES["section"], QUESTION)] = None,
+    gauge_length: Annotated[str | None, option_for(SIZES["gauge_length"], QUESTION)] = None,
     fix: Fix = None,
     free: Free = None,
     relative: Relative = False,

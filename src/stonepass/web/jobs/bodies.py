@@ -6,15 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from stonepass.bench.specimen_inputs import (
-    GAUGE_LENGTH,
-    RELATIVE,
-    SECTION,
-    SIZES,
-    THICKNESS,
-    WIDTH,
-    read_sizes,
-)
+from stonepass.bench.specimen_inputs import RELATIVE, SIZES, read_sizes
 from stonepass.clinic.patient import PatientFile, patient_of
 from stonepass.declaration import inputs_of, read_declared
 from stonepass.errors import BadInput, require
@@ -168,10 +160,10 @@ class FitJob(StrictBody):
     upload: Upload
     test: Literal["tensile", "inflation"]
     law: Text = Field(description="name of the law", examples=["neo-hookean"])
-    width: Text | None = declared_field(WIDTH)
-    thickness: Text | None = declared_field(THICKNESS)
-    section: Text | None = declared_field(SECTION)
-    gauge_length: Text | None = declared_field(GAUGE_LENGTH)
+    width: Text | None = declared_field(SIZES["width"])
+    thickness: Text | None = declared_field(SIZES["thickness"])
+    section: Text | None = declared_field(SIZES["section"])
+    gauge_length: Text | None = declared_field(SIZES["gauge_length"])
     inner: Text | None = declared_field(TUBE["inner_diameter"], "Inner diameter at rest.")
     outer: Text | None = declared_field(TUBE["outer_diameter"], "Outer diameter at rest.")
     fix: dict[Text, Text | float] = Field(

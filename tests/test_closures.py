@@ -149,8 +149,8 @@ def test_closures_and_push_at_the_door(tmp_path, capsys):
     assert "numbers separated by commas" in capsys.readouterr().err
     assert run([*bare, "--xi", "1.2"]) == 2
     assert "--xi cannot be used with --map" in capsys.readouterr().err
-    assert run(["closures", *stone, "--order", "9"]) == 2
-    assert "order is 9, but must be 1 to 8" in capsys.readouterr().err
+    assert run(["closures", *stone, "--series-order", "9"]) == 2
+    assert "order is 9, but must be a whole number from 1 to 8" in capsys.readouterr().err
     assert run(["push", *stone, "--steps", "1"]) == 2
     assert "steps is 1, but must be a whole number from 2 to 200" in capsys.readouterr().err
     assert run(["push", *stone, "--to", "0kPa"]) == 2

@@ -25,7 +25,11 @@ EXIT_NO_ANSWER, EXIT_BAD_REQUEST, EXIT_FAULT = 1, 2, 3
 EXIT_INTERRUPTED, EXIT_TERMINATED = 130, 143
 COMPLETION = "_STONEPASS_COMPLETE"  # set by a shell that asks for completions
 WAYS = "; --cache DIR chooses another folder, --no-cache works without one"
-RENAMED = {"--relief": "--height-range", "--pairs": "--opening-curve"}
+RENAMED = {
+    "--relief": "--height-range",
+    "--pairs": "--opening-curve",
+    "--order": "--series-order",
+}
 
 
 def main(arguments: list[str] | None = None) -> None:

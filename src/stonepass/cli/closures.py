@@ -17,10 +17,11 @@ from stonepass.cli.options import (
     Settings,
     Workers,
     cache_folder,
+    option_for,
     takes_settings,
 )
 from stonepass.errors import BadInput, Misplaced
-from stonepass.inputs.catalogue import option_of
+from stonepass.inputs.catalogue import all_inputs, option_of
 
 if TYPE_CHECKING:
     from stonepass.model.case import Case
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CLOSURE_CHOICES", "EPILOG", "command"]
 
+ORDER = all_inputs()["method.series_order"]
 MOST_CASES = 2_000
 SECONDS_OF_A_CASE = 10.0  # one process, an empty cache; the direct model takes most of it
 # Options of the paper's model that the comparison varies or sets itself.
@@ -67,15 +69,7 @@ EPILOG = epilog(
 def command(
     settings: Settings,
     json: Json = False,
-    order: Annotated[
-        int,
-        typer.Option(
-            "--order",
-            metavar="INTEGER",
-            help="Order of the series closure (1 to 8).",
-            rich_help_panel=QUESTION,
-        ),
-    ] = 3,
+    order: Annotated[int, option_for(ORDER, QUESTION)] = ORDER.default,
     sizes: Annotated[
         str | None,
         typer.Option(

@@ -8,11 +8,12 @@ from pathlib import Path
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.caution import Caution, caution
-from stonepass.errors import BadInput, Outcome, require
+from stonepass.declaration import inputs_of, read_declared
+from stonepass.errors import BadInput, Outcome
 from stonepass.model.accuracy import LEVELS
 from stonepass.model.answer import Answer
 from stonepass.model.case import Case
-from stonepass.model.closure import ORDER, Closure, Series, first_radius, series_through
+from stonepass.model.closure import Closure, Series, first_radius, series_through
 from stonepass.model.critical import solve
 from stonepass.model.critical_state import balance_pressure
 from stonepass.model.energy_balance import advance_force
@@ -49,7 +50,7 @@ CLOSURES = {
 }
 EXACT = "direct"  # the others are compared with this one
 APPROXIMATE = tuple(name for name in CLOSURES if name != EXACT)
-SERIES_ORDER = 3  # default order of the fitted series
+SERIES_ORDER = inputs_of(SeatedBalance)["series_order"]
 # D is computed at two pressures, which differ from the direct answer by ± this fraction of it.
 NEAR = 0.03
 
@@ -113,7 +114,7 @@ class ClosureComparison(Result):
 
 def closures(
     case: Case,
-    order: int = SERIES_ORDER,
+    order: int = SERIES_ORDER.default,
     states: StateSolver = UNCACHED,
     *,
     wetted: bool = False,
@@ -147,7 +148,7 @@ def closures(
     ----------
     Liu et al. 2022, Eqs 5, 13–15; docs/closures.md.
     """
-    require(ORDER[0] <= order <= ORDER[1], "order", order, f"{ORDER[0]} to {ORDER[1]}")
+    read_declared(SERIES_ORDER.declaration, "order", order)
     # Errors are not estimated, since the closures differ by more than the discretisation error.
     resolution = case.numerics.resolution
     seated = seated_model(case)
@@ -207,7 +208,7 @@ class ClosureJob:
     """
 
     case: Case
-    order: int = SERIES_ORDER
+    order: int = SERIES_ORDER.default
     wetted: bool = False
 
     def run(self, cache_folder: Path | None) -> ClosureComparison:
@@ -229,7 +230,7 @@ class ClosureMap:
     """
 
     cases: Sequence[Case]
-    order: int = SERIES_ORDER
+    order: int = SERIES_ORDER.default
     wetted: bool = False
 
     def jobs(self) -> list[ClosureJob]:

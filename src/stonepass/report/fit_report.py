@@ -37,6 +37,9 @@ def fit_table(found: FittedLaw) -> Table:
     low, high = found.data.strain_range
     table.add_row("stretches", f"{low:.4g} to {high:.4g}", "")
     table.add_row("stable", "no" if found.unstable else "yes", found.unstable)
+    if not all(each.given for each in found.constants):
+        table.caption = "The intervals assume that the errors of the points are independent."
+        table.caption_justify = "left"
     return table
 
 

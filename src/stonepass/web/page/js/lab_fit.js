@@ -64,7 +64,7 @@ export async function fitSection(take) {
     form,
     results,
     expected:
-      "The fitted constants with their 95 % intervals, the curve beside the data, and what in the data speaks against the law.",
+      "The fitted constants with their 95 % intervals, which assume independent errors of the points, the curve beside the data, and what in the data speaks against the law.",
     start,
   });
 

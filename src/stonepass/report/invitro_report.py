@@ -51,7 +51,8 @@ def _points(found: InVitro) -> Table:
 
 
 def _fits(found: InVitro) -> Table:
-    table = Table(box=box.SIMPLE_HEAD)
+    assumed = "The intervals assume that the errors of the points are independent."
+    table = Table(box=box.SIMPLE_HEAD, caption=assumed, caption_justify="left")
     for name in ("", "value", "95 % confidence interval"):
         table.add_column(name)
     here = found.comparison

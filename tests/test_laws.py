@@ -191,17 +191,20 @@ C10 = "6 kPa"
         (
             'C10 = "6 kPa"',
             'G = "6 kPa"',
-            r"matrix, 'G' is given, but must be left out for law 'neo",
+            r"'matrix.G' is given, but must be left out for law 'neo",
         ),
         ("[matrix]", "[matrx]", "did you mean 'matrix'"),
-        ("a1111 = 0.7", 'a1111 = "x"', "fibres, 'a1111' is x, but must be a number"),
-        ("a2222 = 0.9", "", "fibres, 'a2222' is missing, but must be given for law 'fung'"),
-        ('law = "fung"', 'law = "fang"', "fibres, law is fang, .* did you mean 'fung'"),
+        ("a1111 = 0.7", 'a1111 = "x"', "'fibres.a1111' is x, but must be a number"),
+        ("a2222 = 0.9", "", "'fibres.a2222' is missing, but must be given for law 'fung'"),
+        ('law = "fung"', 'law = "fang"', "'fibres.law' is fang, .* did you mean 'fung'"),
+        ("a2222", "a2233", r"key of \[fibres\] is a2233, .* did you mean 'a2222'"),
+        ('"6 kPa"', '"6"', "'matrix.C10' is 6, but must be a pressure with its unit"),
+        ('"6 kPa"', '"-6 kPa"', "'matrix.C10' is -6000.0, but must be a positive modulus"),
         ('law = "composed"', 'law = "yeoh"', "'fibres' is given, but must be left out for law 'ye"),
         (
             '"neo-hookean"',
             '"composed"',
-            "matrix, 'C10' is given, but must be left out for law 'com",
+            "'matrix.C10' is given, but must be left out for law 'com",
         ),
         (
             '[matrix]\nlaw = "neo-hookean"\nC10 = "6 kPa"\n',
@@ -218,6 +221,17 @@ def test_a_wrong_part_of_a_composed_law_is_named(old, new, message, tmp_path):
     path.write_text(COMPOSED_FILE.replace(old, new))
     with pytest.raises(BadInput, match=message):
         load_material(str(path))
+
+
+def test_a_law_is_composed_in_a_few_levels_only(tmp_path):
+    law = NeoHookean(5e3)
+    for _ in range(5):
+        law = Composed(NeoHookean(1e3), law)
+    assert written_and_read(law, tmp_path / "law.toml").law == law
+    with pytest.raises(
+        BadInput, match=r"'matrix.matrix.matrix.matrix.matrix.fibres' is given, but"
+    ):
+        written_and_read(Composed(NeoHookean(1e3), law), tmp_path / "law.toml")
 
 
 def test_a_composed_law_is_shown_with_its_parts(tmp_path, capsys):

@@ -1,5 +1,6 @@
 """What the API answers at once: information, instant answers, and how they can be repeated."""
 
+import copy
 import itertools
 import json
 import shlex
@@ -512,3 +513,34 @@ def test_problems_name_the_field_and_say_what_is_allowed(asking, body, field, wo
     assert problem["field"] == field
     assert words in problem["detail"]
     assert set(problem) <= {"type", "title", "status", "detail", "field", "value"}
+
+
+COMPOSED = {
+    "law": "composed",
+    "source": "two parts",
+    "strain_range": [1.0, 1.3],
+    "fibres": {"law": "fung", "C": "0.4 MPa", "a1111": 0.7, "a2222": 0.9, "a1122": 0.2},
+    "matrix": {"law": "neo-hookean", "C10": "6 kPa"},
+}
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "value", "field", "message"),
+    [
+        ("fibres", "a1111", "x", "fibres.a1111", "is x, but must be a number"),
+        ("matrix", "C10", "6", "matrix.C10", "is 6, but must be a pressure with its unit"),
+        ("matrix", "source", "x", "matrix.source", "is x, but must be left out, because there is"),
+        (None, "matrix", 3, "matrix", "is 3, but must be a table"),
+        (None, "law", "compsed", "law", "did you mean 'composed'"),
+    ],
+)
+def test_the_parts_of_a_composed_law_are_named_by_their_keys(part, key, value, field, message):
+    given = copy.deepcopy(COMPOSED)
+    (given[part] if part else given)[key] = value
+    case = {"stone": {"diameter": "4.2 mm"},
+            "ureter": {"inner_diameter": "3.5 mm", "wall_thickness": "0.52 mm", "material": given}}  # fmt: skip
+    with client() as asking:
+        told = asking.post("/api/v1/instant", json={"case": case})
+    assert told.status_code == 422
+    assert told.json()["field"] == f"ureter.material.{field}"
+    assert message in told.json()["detail"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import runpy
 import sys
-from collections.abc import Container, Iterable
 from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any, TypeVar
@@ -39,6 +38,7 @@ from stonepass.strain import CauchyGreen, Place
 __all__ = ["find_material", "load_material", "material_table", "write_law"]
 
 _PARTS = ("fibres", "matrix")  # tables of a composed law
+DEEPEST = 5  # levels of composed laws
 Table = TypeVar("Table", bound="_LawTable")
 
 
@@ -237,42 +237,45 @@ def _with_constants(table: type[Table]) -> type[Table]:
     return create_model("_Constants", __base__=table, **keys)
 
 
-def _law(table: _LawTable, path: str = "") -> Law:
-    """Return the law of a table; `path` names the part of a composed law in messages."""
+def _law(table: _LawTable, depth: int = 0) -> Law:
+    """Return the law of a table that stands `depth` levels inside that of a composed law."""
     if table.law not in (*KNOWN_LAWS, COMPOSED):
-        refuse_unknown(f"{path}law", table.law, [*KNOWN_LAWS, COMPOSED], ONES_OWN)
+        refuse_unknown("law", table.law, [*KNOWN_LAWS, COMPOSED], ONES_OWN)
     given = {
         name: value
         for name in (*_all_constants(), *_PARTS)
         if (value := getattr(table, name)) is not None
     }
+    known = _PARTS if table.law == COMPOSED else constants_by_name(table.law)
+    for name in given:
+        if name not in known:
+            raise BadInput(f"'{name}'", "given", f"left out for law '{table.law}'")
     if table.law == COMPOSED:
-        _refuse_others(given, _PARTS, table.law, path)
-        parts = {name: _part(name, given.get(name), f"{path}{name}, ") for name in _PARTS}
-        return Composed(**parts)
-    declared = constants_by_name(table.law)
-    _refuse_others(given, declared, table.law, path)
+        return Composed(**{name: _part(name, given.get(name), depth + 1) for name in _PARTS})
     values: dict[str, float] = {}
-    for name, each in declared.items():
+    for name, each in constants_by_name(table.law).items():
         if name in given:
             values[name] = read_constant(given[name], each)
         elif each.default is None:
-            raise BadInput(f"{path}'{name}'", "missing", f"given for law '{table.law}'")
+            raise BadInput(f"'{name}'", "missing", f"given for law '{table.law}'")
     made: Law = KNOWN_LAWS[table.law](**values)
     return made
 
 
-def _part(name: str, given: dict[str, Any] | None, path: str) -> Law:
-    """Return a law inside a composed law."""
+def _part(name: str, given: dict[str, Any] | None, depth: int) -> Law:
+    """Return a law inside a composed law; its keys are named like ``fibres.C`` in messages."""
     if given is None:
         raise BadInput(f"'{name}'", "missing", f"a table with a law for law '{COMPOSED}'")
-    return _law(parse_table(given, _with_constants(_LawTable), path), path)
-
-
-def _refuse_others(given: Iterable[str], known: Container[str], law: str, path: str) -> None:
-    for name in given:
-        if name not in known:
-            raise BadInput(f"{path}'{name}'", "given", f"left out for law '{law}'")
+    if depth > DEEPEST:
+        raise BadInput(f"'{name}'", "given", f"left out: laws are composed in {DEEPEST} levels")
+    try:
+        return _law(parse_table(given, _with_constants(_LawTable), ""), depth)
+    except BadInput as problem:
+        key = problem.argument.strip("'")
+        if key.startswith("key"):  # "key", or "key of [matrix]"
+            section = ".".join([name, *key.removesuffix("]").split("[")[1:]])
+            raise problem.named(f"key of [{section}]") from problem
+        raise problem.named(f"'{name}.{key}'") from problem
 
 
 def material_table(material: Material) -> dict[str, Any]:

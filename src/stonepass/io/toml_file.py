@@ -22,6 +22,7 @@ _ALLOWED = {
     "bool_type": "true or false",
     "too_long": "shorter",
     "tuple_type": "a list",
+    "dict_type": "a table",
     "string_too_short": "not empty",
 }
 

@@ -105,14 +105,18 @@ def _material_of(table: dict[str, Any]) -> Material:
         return find_material(table)
     except BadInput as problem:
         key = problem.argument.removeprefix("material, ").strip("'")
-        if key == "key":  # the table has a key that is not known
+        stray = re.fullmatch(r"key(?: of \[([\w.]+)\])?", key)
+        if stray:  # a table has a key that is not known
             unknown, known = str(problem.value), problem.allowed.removeprefix("one of ")
-            where, value = f"{MATERIAL}.{unknown}", table[unknown]
+            section, inner = MATERIAL, table
+            for part in stray[1].split(".") if stray[1] else ():
+                section, inner = f"{section}.{part}", inner[part]
+            where, value = f"{section}.{unknown}", inner[unknown]
             if not re.fullmatch(r"\w+", unknown):
-                where, value = MATERIAL, f"a table with the key '{unknown}'"
+                where, value = section, f"a table with the key '{unknown}'"
             raise BadInput(where, value, "left out, because there is no such key",
                            problem.remedy or f"known keys are {known}") from problem  # fmt: skip
-        where = f"{MATERIAL}.{key}" if re.fullmatch(r"\w+", key) else MATERIAL
+        where = f"{MATERIAL}.{key}" if re.fullmatch(r"[\w.]+", key) else MATERIAL
         # The remedy for an unknown law is a Python file, which a request cannot name.
         remedy = "" if key == "law" else problem.remedy
         raise BadInput(where, problem.value, problem.allowed, remedy) from problem

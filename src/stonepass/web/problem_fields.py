@@ -10,7 +10,7 @@ from stonepass.inputs.catalogue import all_inputs
 __all__ = ["field_of", "part_of_table"]
 
 # Inputs that only the API has are named by their keys, and so are those of a table of constants.
-KEY = re.compile(r"[a-z_]+|ureter\.material\.\w+")
+KEY = re.compile(r"[a-z_]+|ureter\.material\.[\w.]+")
 # Inputs that a message about more than one input belongs to.
 SHARED_FIELDS = {
     "size of the stone": "stone.diameter",

@@ -15,6 +15,7 @@ from stonepass.inputs.material_file import find_material
 from stonepass.inputs.overlay import refuse_pairs
 from stonepass.inputs.sections import section_model, section_values
 from stonepass.materials.catalogue import CATALOGUE
+from stonepass.materials.known_laws import ONES_OWN
 from stonepass.materials.protocol import Material
 from stonepass.model.case import Case
 
@@ -117,8 +118,8 @@ def _material_of(table: dict[str, Any]) -> Material:
             raise BadInput(where, value, "left out, because there is no such key",
                            problem.remedy or f"known keys are {known}") from problem  # fmt: skip
         where = f"{MATERIAL}.{key}" if re.fullmatch(r"[\w.]+", key) else MATERIAL
-        # The remedy for an unknown law is a Python file, which a request cannot name.
-        remedy = "" if key == "law" else problem.remedy
+        # A law of one's own is a Python file, which a request cannot name.
+        remedy = problem.remedy.removesuffix(ONES_OWN).removesuffix("; ")
         raise BadInput(where, problem.value, problem.allowed, remedy) from problem
 
 

@@ -17,6 +17,7 @@ from stonepass.cli import run
 from stonepass.errors import BadInput
 from stonepass.inputs.material_file import load_material, write_law
 from stonepass.materials.catalogue import material
+from stonepass.materials.demiray import Demiray
 from stonepass.materials.fung import Fung
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, name_of_law
 from stonepass.materials.mooney_rivlin import MooneyRivlin
@@ -835,3 +836,92 @@ def test_a_law_in_kPa_is_asked_about(tmp_path, capsys):
     )
     assert run(["material", "check", "latex"]) == 0
     assert capsys.readouterr().err == ""
+
+
+def fitted_record(capsys, *arguments):
+    """Exit code, record (None without one) and messages of a fit with --json."""
+    code, out, err = fitted(capsys, *arguments, "--json")
+    return code, json.loads(out) if out else None, err
+
+
+def ogden(stretch, *terms):
+    """Nominal stress in kPa of an Ogden law with the terms (μ in kPa, α)."""
+    return sum(mu * (stretch ** (alpha - 1.0) - stretch ** (-alpha / 2.0 - 1.0))
+               for mu, alpha in terms)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "mu", "alpha"),
+    [(1.0, 1.6, -1.0, -10.0), (0.8, 1.2, -5.0, -10.0), (0.8, 1.0, -5.0, -10.0),
+     (1.0, 1.5, -1.0, -14.0), (1.0, 1.5, 30.0, 1.5), (0.7, 1.8, 2.0, 9.0)],
+)  # fmt: skip
+def test_powers_of_either_sign_are_found(tmp_path, capsys, low, high, mu, alpha):
+    """The search began with positive powers only, and ended at a wrong minimum or at a bound."""
+    x = np.linspace(low, high, 21)
+    rows = zip(x, np.round(ogden(x, (mu, alpha)), 6), strict=True)
+    code, record, _ = fitted_record(capsys, "tensile", table(tmp_path, rows), "--law", "ogden")
+    assert code == 0
+    found = {each["name"]: each["value"] for each in record["constants"]}
+    assert found["alpha1"] == pytest.approx(alpha, rel=1e-3)
+    assert found["mu1"] == pytest.approx(1e3 * mu, rel=1e-3)
+    assert record["warnings"] == []
+
+
+def test_two_terms_are_found_and_a_power_may_be_given(tmp_path, capsys):
+    x = np.linspace(0.6, 3.0, 33)
+    path = table(tmp_path, zip(x, ogden(x, (400.0, 1.5), (2.0, 6.0)), strict=True))
+    more = ["--law", "ogden", "--free", "mu2", "--free", "alpha2"]
+    _, record, _ = fitted_record(capsys, "tensile", path, *more)
+    found = {each["name"]: each["value"] for each in record["constants"]}
+    terms = sorted((found[f"alpha{k}"], found[f"mu{k}"]) for k in "12")
+    assert terms == [pytest.approx((1.5, 4e5), rel=1e-3), pytest.approx((6.0, 2e3), rel=1e-2)]
+    path = table(tmp_path, zip(x, ogden(x, (-1.0, -10.0)), strict=True))
+    code, record, _ = fitted_record(
+        capsys, "tensile", path, "--law", "ogden", "--fix", "alpha1=-10"
+    )
+    assert code == 0
+    assert record["constants"][0]["value"] == pytest.approx(-1e3, rel=1e-6)
+
+
+def test_constants_that_contradict_each_other_are_told_as_a_misfit(tmp_path, capsys):
+    x = np.linspace(1.0, 6.0, 21)
+    rows = zip(x, 0.4e3 * (x - x**-2) * (1.0 + 0.02 * x**3 - 0.9 / x), strict=True)
+    code, _, told = fitted(capsys, "tensile", table(tmp_path, rows), "--law", "mooney-rivlin")
+    assert code == 2
+    assert "fit of law 'mooney-rivlin' is C10 = " in told
+    assert "must be constants of a stable solid (C01 above -C10)" in told
+    assert "use a smaller range of stretches, or fit another law" in told
+
+
+def test_rows_after_a_rupture_are_named(tmp_path, capsys):
+    x = np.linspace(1.0, 2.0, 40)
+    rows = [
+        *zip(x, 300.0 * (x - x**-2), strict=True),
+        *((2.0 + 0.02 * k, 2.0) for k in range(1, 16)),
+    ]
+    code, _, told = fitted(capsys, "tensile", table(tmp_path, rows), "--law", "neo-hookean")
+    assert code == 2
+    assert "nominal stress after row 41 is at most 2 kPa, after 525 kPa" in told
+    assert "leave out the rows after row 41 if the specimen broke there" in told
+
+
+@pytest.mark.parametrize("b", [1.0, 4.0, 8.0])
+@pytest.mark.parametrize("kind", ["inner", "outer"])
+def test_diameters_of_the_other_kind_are_recognised_for_stiffening_walls(tmp_path, capsys, b, kind):
+    """Outer diameters named inner were fitted with a modulus 15 times too small."""
+    ratio = np.linspace(1.0, 1.3, 13)
+    pressure = inflation(ratio, 1.3, Demiray(2e4, b)) / 1e3
+    inner = 3.5 * ratio
+    outer = np.sqrt(inner**2 + 4.55**2 - 3.5**2)
+    values = {"inner": inner, "outer": outer}
+    other = {"inner": "outer", "outer": "inner"}[kind]
+    sizes = ["--law", "demiray", "--inner", "3.5mm", "--outer", "4.55mm"]
+    for name, expected in ((kind, 0), (other, 2)):
+        rows = zip(pressure, values[kind], strict=True)
+        path = table(tmp_path, rows, f"pressure_kPa,{name}_diameter_mm")
+        code, record, told = fitted_record(capsys, "inflation", path, *sizes)
+        assert code == expected
+        if code:
+            assert f"name the column {kind}_diameter_mm" in told
+        else:
+            assert record["constants"][0]["value"] == pytest.approx(2e4, rel=1e-3)

@@ -30,6 +30,9 @@ WRONG_SHARE_STRETCHED = 0.2
 # Data should begin near the state at rest. They are refused if the smallest stretch of the strips,
 # or the smallest diameter of the tube divided by that at rest, is at least this large.
 FARTHEST_START, FARTHEST_TUBE = 2.0, 1.7
+# A pressure below this fraction of the largest one is none, and a diameter within this relative
+# distance of that at rest is the latter.
+NO_PRESSURE, SAME_SIZE = 0.01, 0.01
 SAME_AS_REST = 0.02  # relative difference of two diameters that may both be measured at rest
 STRAINS = "a stretch is the length divided by that at rest: 1 + strain, or 1 + per cent/100"
 
@@ -194,6 +197,7 @@ def check_inflation(
                        f"below {FARTHEST_TUBE:g} times for data that begin at rest",
                        "give diameters, not radii, as --inner and --outer, or add the row at rest, "
                        "without pressure")  # fmt: skip
+    _check_size_without_pressure(file, columns, given, ureter, axial)
     shapes = [tube_shapes(each, ureter.wall_ratio, axial, 2) for each in (ratio, swapped)]
     if explains_better(pressure, *shapes):
         values = columns[given]
@@ -201,6 +205,25 @@ def check_inflation(
                        f"{given[:5]} diameters, so that the pressure is zero at {at_rest}",
                        f"as {other[:5]} diameters the values agree with a tube: {renamed}"
                        )  # fmt: skip
+
+
+def _check_size_without_pressure(
+    file: str, columns: Columns, given: str, ureter: Ureter, axial: Float[np.ndarray, " n"]
+) -> None:
+    """Refuse diameters that begin, nearly without pressure, at the other diameter at rest."""
+    pressure, diameter = np.abs(columns["pressure_kPa"]), columns[given]
+    sizes = {"--inner": ureter.inner_diameter, "--outer": ureter.outer_diameter}
+    other = "--outer" if given[0] == "i" else "--inner"
+    size = 1e3 * (sizes[other] or np.nan)
+    first = int(np.argmin(diameter))
+    at_rest = pressure[first] <= NO_PRESSURE * pressure.max() and axial[first] == 1.0
+    if at_rest and abs(diameter[first] / size - 1.0) < SAME_SIZE:
+        kind, right = ("inner", "outer") if given[0] == "i" else ("outer", "inner")
+        raise BadInput(f"in {file}, {columns.place(first, given)}",
+                       f"{diameter[first]:g} at {columns['pressure_kPa'][first]:g} kPa",
+                       f"the {kind} diameter at rest where there is no pressure",
+                       f"{size:.4g} mm is the diameter {other}: name the column "
+                       f"{right}_diameter_mm if the values are {right} diameters")  # fmt: skip
 
 
 def _refuse_tube(

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from stonepass.array_types import Float
-from stonepass.bench.fit_search import STARTS, Search
+from stonepass.bench.fit_search import Search
 from stonepass.bench.least_squares import LEVEL
 from stonepass.bench.objective import Data, Objective, at_an_end
 from stonepass.caution import Caution, caution
@@ -82,8 +82,8 @@ def check_told(objective: Objective, search: Search) -> None:
     docs/bench.md, "Identifiability".
     """
     told: list[_Blind] = []
-    for start in STARTS:
-        found = _blind(objective, search.parameters(start).valuesdict(), search.free)
+    for start in search.starts(objective):
+        found = _blind(objective, start.valuesdict(), search.free)
         if found is None:
             return
         told.append(found)

@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.bench.fit_starts import starting_values
 from stonepass.bench.least_squares import lmfit
 from stonepass.bench.objective import Data, Objective, starting_parameters, stiffness_guess
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, shown_constant
 from stonepass.materials.known_laws import constants_by_name, known_law
 
-__all__ = ["STARTS", "Search", "best_fit", "proportional_spread", "search_for"]
+__all__ = ["Search", "best_fit", "proportional_spread", "search_for"]
 
-STARTS = (0.1, 1.0, 5.0)  # factors on the first guess of the dimensionless constants
 # Smallest proportional error, as a fraction of the error at the largest stress.
 SMALLEST_SHARE = 0.01
 REWEIGHTED = 3  # iterations in which proportional errors are updated from the predictions
@@ -52,12 +52,12 @@ class Search:
         """The class of the law."""
         return known_law(self.law)
 
-    def parameters(self, start: float) -> Any:
-        """Return lmfit parameters whose dimensionless constants start at `start` times the guess.
-
-        Moduli start at their guess.
-        """
-        return starting_parameters(lmfit(), self.declared, self.fixed, self.modulus, start)
+    def starts(self, objective: Objective) -> list[Any]:
+        """Return lmfit parameters at the starting points of the search, the best first."""
+        return [
+            starting_parameters(lmfit(), self.declared, self.fixed, self.modulus, values)
+            for values in starting_values(objective, self.declared, self.fixed, self.modulus)
+        ]
 
 
 def search_for(data: Data, law: str, given: Mapping[str, float], free: Sequence[str]) -> Search:
@@ -123,9 +123,7 @@ def best_fit(objective: Objective, search: Search, relative: bool) -> tuple[Obje
     data = objective.data
     if relative:
         objective = replace(objective, spread=proportional_spread(data.observed))
-    starts = [search.parameters(start) for start in STARTS]
-    alike = starts[0].valuesdict() == starts[-1].valuesdict()  # no dimensionless constant is free
-    found = [_minimized(objective, each) for each in (starts[:1] if alike else starts)]
+    found = [_minimized(objective, each) for each in search.starts(objective)]
     minimizer, result = min(found, key=lambda each: float(each[1].chisqr))
     for _ in range(REWEIGHTED if relative else 0):
         predicted = objective.predicted(result.params.valuesdict())

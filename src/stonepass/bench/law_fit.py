@@ -39,6 +39,9 @@ UNLIKELY = 0.01  # significance level of the test of a trend
 # A load is a gross error if it exceeds the largest of the others this many times, and if the law
 # describes the others with at least this R².
 GROSS, WELL = 10.0, 0.9
+# A specimen is broken where it carries less than this fraction of the largest load, in at least so
+# many rows at its end.
+BROKEN, FEWEST_AFTER = 0.2, 2
 # Young's modulus in Pa at rest that no soft tissue of a tube and no rubber has. The hardest rubber
 # of the scale Shore A, 95, has 44 MPa (Gent 1958, IRI Trans. 34, 46-57); beyond it lie plastics.
 STIFFEST_WALL = 5e7
@@ -199,12 +202,13 @@ def fit_law(
         at_bounds = check_fit(objective, search, result)
     except BadInput:
         _refuse_gross_error(data, law, fixed, free)
+        _refuse_rupture(data)
         raise
     values = {each: float(value) for each, value in result.params.valuesdict().items()}
     predicted = objective.predicted(values)
     off = predicted - data.observed
     growing = _growing(off, data.observed, relative)
-    material = _material(search.made(**values), data, name)
+    material = _material(_made(search, values), data, name)
     doubts = _doubts(objective, material.law, values, search.free, proportional=bool(growing))
     held = {dict(one.values)["name"] for one in at_bounds}
     inside = [each for each in search.free if each not in held]
@@ -222,6 +226,42 @@ def fit_law(
         unstable=unstable,
         warnings=(*(doubts or growing), *at_bounds, *odd, *open_ends),
     )
+
+
+def _made(search: Search, values: Mapping[str, float]) -> Law:
+    """Return the fitted law; refuse constants that contradict each other."""
+    try:
+        made: Law = search.made(**values)
+    except BadInput as problem:
+        shown = ", ".join(
+            f"{name} = {shown_constant(values[name], search.declared[name])}"
+            for name in search.free
+        )
+        raise BadInput(
+            f"fit of law '{search.law}'",
+            shown,
+            f"constants of a stable solid ({problem.argument} {problem.allowed})",
+            "the law does not describe these data: use a smaller range of stretches, or fit "
+            "another law",
+        ) from problem
+    return made
+
+
+def _refuse_rupture(data: Data) -> None:
+    """Refuse rows after the largest load in which the specimen carries nearly nothing."""
+    load, stretch = np.abs(data.observed), np.abs(data.abscissa - 1.0)
+    last = int(np.argmax(load))
+    later = slice(last + 1, None)
+    if len(load[later]) < FEWEST_AFTER or stretch[later].min() < stretch[last]:
+        return
+    if load[later].max() < BROKEN * load[last]:
+        row = f"row {data.lines[last]}" if data.lines else f"point {last + 1}"
+        raise BadInput(
+            f"{data.measured} after {row}",
+            f"at most {load[later].max() / 1e3:.3g} kPa, after {load[last] / 1e3:.4g} kPa",
+            "that of an intact specimen",
+            f"leave out the rows after {row} if the specimen broke there",
+        )
 
 
 def _refuse_gross_error(

@@ -12,7 +12,15 @@ from stonepass.array_types import Float
 from stonepass.materials.constants import ConstantDeclaration, constants_of
 from stonepass.materials.protocol import Law
 
-__all__ = ["SPAN", "Data", "Objective", "at_an_end", "starting_parameters", "stiffness_guess"]
+__all__ = [
+    "SPAN",
+    "Data",
+    "Objective",
+    "at_an_end",
+    "search_bounds",
+    "starting_parameters",
+    "stiffness_guess",
+]
 
 NUMBER = (1e-6, 1e3)  # widest search range of a positive dimensionless constant
 ANY_SIGN = (-1e2, 1e2)  # widest search range of a dimensionless constant that may be negative
@@ -180,9 +188,9 @@ def starting_parameters(
     declared: Mapping[str, ConstantDeclaration],
     fixed: Mapping[str, float],
     modulus: float,
-    start: float,
+    values: Mapping[str, float],
 ) -> Any:
-    """Return lmfit parameters with first guesses and search bounds.
+    """Return lmfit parameters with starting values and search bounds.
 
     Parameters
     ----------
@@ -194,26 +202,34 @@ def starting_parameters(
         Constants that keep a given value, in SI units.
     modulus : float
         First guess of the shear modulus in Pa; moduli are searched up to 1e6 times it.
-    start : float
-        Factor on the first guess of each dimensionless constant.
+    values : mapping of str to float
+        Starting values of the other constants, in SI units.
     """
     parameters = fitting.Parameters()
     for name, each in declared.items():
         if name in fixed:
             parameters.add(name, fixed[name], vary=False)
-        elif each.unit == "Pa":
-            low = 0.0 if each.low_allowed else modulus / SPAN
-            low = low if each.positive else -SPAN * modulus
-            parameters.add(name, each.guess * modulus, min=low, max=SPAN * modulus)
         else:
-            low, high = NUMBER if each.positive else ANY_SIGN
-            low = each.low if each.low_allowed else max(low, each.low)
-            high = min(high, each.high)
-            # lmfit would move a guess beyond a bound onto the bound, where its gradient vanishes.
-            guess = each.guess * start
-            inside = guess if low < guess < high else (low + high) / 2.0
-            parameters.add(name, inside, min=low, max=high)
+            low, high = search_bounds(each, modulus)
+            parameters.add(name, values[name], min=low, max=high)
     return parameters
+
+
+def search_bounds(declared: ConstantDeclaration, modulus: float) -> tuple[float, float]:
+    """Return the bounds of the search for a constant, in SI units.
+
+    Parameters
+    ----------
+    declared : ConstantDeclaration
+    modulus : float
+        First guess of the shear modulus in Pa.
+    """
+    if declared.unit == "Pa":
+        low = 0.0 if declared.low_allowed else modulus / SPAN
+        return (low if declared.positive else -SPAN * modulus), SPAN * modulus
+    low, high = NUMBER if declared.positive else ANY_SIGN
+    low = declared.low if declared.low_allowed else max(low, declared.low)
+    return low, min(high, declared.high)
 
 
 def at_an_end(parameter: Any, declared: ConstantDeclaration, modulus: float) -> str:

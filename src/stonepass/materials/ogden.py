@@ -67,7 +67,5 @@ class Ogden:
 
     def energy(self, C: CauchyGreen, place: Place, xp: Any) -> Any:
         """Return the strain energy in J/m³, see `Law.energy`."""
-        first, *rest = (
-            mu / alpha * (power_sum(C, alpha / 2.0, xp) - 3.0) for mu, alpha in self.terms
-        )
-        return sum(rest, start=first)
+        terms = [mu / alpha * (power_sum(C, alpha / 2.0, xp) - 3.0) for mu, alpha in self.terms]
+        return sum(terms[1:], start=terms[0]) if terms else 0.0 * C.rr

@@ -4,6 +4,7 @@ The doors are left out: they refuse wrong types themselves with a sentence, whic
 `test_annotations.py` counts the modules.
 """
 
+import functools
 import os
 from pathlib import Path
 
@@ -103,6 +104,25 @@ def cache_of_this_run(tmp_path_factory):
         folder = folder.parent
     with pytest.MonkeyPatch.context() as environment:
         environment.setenv("STONEPASS_CACHE", str(folder / "cache"))
+        yield
+
+
+@pytest.fixture(autouse=True, scope="session")
+def sources_parsed_once():
+    """The source code is parsed once in this process, not once for each folder of a cache."""
+    from stonepass.studies import source_digest
+
+    parse, known = source_digest.code_digest, {}
+
+    @functools.wraps(parse)
+    def code_digest(files):
+        files = tuple(files)
+        if files not in known:
+            known[files] = parse(files)
+        return known[files]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(source_digest, "code_digest", code_digest)
         yield
 
 

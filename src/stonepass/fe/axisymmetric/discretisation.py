@@ -290,7 +290,9 @@ def wall_flaw(d: Discretisation) -> str:
     """
     deformed = strain(d.fields.u, d.fields.w)
     energy = d.tube.energy(deformed.C, PLACE, SYMBOLS)
-    volume_ratio, energies = ng.CF((deformed.J, energy))(_integration_points(d)).T
+    # Compiled, since an expression that occurs twice is otherwise evaluated twice.
+    both = ng.CF((deformed.J, energy)).Compile()
+    volume_ratio, energies = both(_integration_points(d)).T
     if not volume_ratio.min() > 0.0:  # also true for NaN
         return "an element of the wall is inverted in the state that was found"
     if not np.all(np.isfinite(energies)):

@@ -6,6 +6,7 @@ The doors are left out: they refuse wrong types themselves with a sentence, whic
 
 import functools
 import os
+from contextlib import contextmanager
 from pathlib import Path
 
 import first_call
@@ -126,17 +127,10 @@ def sources_parsed_once():
         yield
 
 
-@pytest.fixture
-def shared_solutions(request, monkeypatch, solutions_of_this_run):
-    """A question that the finite elements have answered in this run is not solved again.
-
-    For tests of the doors and of what is made of states, many of which ask for the same state.
-    Tests of the solver and of the solution cache do without, so that they do solve; so does a
-    test with the marker `afresh` in a module that uses this fixture.
-    """
-    if request.node.get_closest_marker("afresh"):
-        return
-    cache, known = solutions_of_this_run
+@contextmanager
+def sharing(solutions):
+    """Within this context no question is solved again that was solved in this run."""
+    cache, known = solutions
     asking_cache = []
 
     def once(name, function):
@@ -156,4 +150,27 @@ def shared_solutions(request, monkeypatch, solutions_of_this_run):
 
         return answered
 
-    wrap_solver(monkeypatch, once)
+    with pytest.MonkeyPatch.context() as patch:
+        wrap_solver(patch, once)
+        yield
+
+
+@pytest.fixture
+def shared_solutions(request, solutions_of_this_run):
+    """A question that the finite elements have answered in this run is not solved again.
+
+    For tests of the doors and of what is made of states, many of which ask for the same state.
+    Tests of the solver and of the solution cache do without, so that they do solve; so does a
+    test with the marker `afresh` in a module that uses this fixture.
+    """
+    if request.node.get_closest_marker("afresh"):
+        yield
+        return
+    with sharing(solutions_of_this_run):
+        yield
+
+
+@pytest.fixture(scope="session")
+def with_shared_solutions(solutions_of_this_run):
+    """The same for what a fixture of a module solves: a context, which ends with its answer."""
+    return lambda: sharing(solutions_of_this_run)

@@ -20,7 +20,6 @@ from stonepass.model.closure import Series, fit_series, linear_closure
 from stonepass.model.energy_balance import opening_pressure
 from stonepass.model.far_field import urine_pressure
 from stonepass.model.opening_curve import OpeningCurve
-from stonepass.model.states.opening import solve_opening_curve
 from stonepass.studies.closures import CLOSURES, closures
 from stonepass.studies.rising import contact_deviation, raise_pressure
 
@@ -76,12 +75,13 @@ def test_the_pressure_that_opens_the_tube_to_the_stone_by_the_far_field():
 
 
 @pytest.fixture(scope="module")
-def compared():
-    return closures(case())
+def compared(with_shared_solutions):
+    with with_shared_solutions():
+        return closures(case())
 
 
 def test_pairs_begin_at_the_seated_state_and_lie_below_the_linear_closure(compared):
-    alpha, radius = solve_opening_curve(case(), case().numerics).arrays
+    alpha, radius = compared.opening_curve.arrays
     assert radius[0] == pytest.approx(1.0, abs=1e-9)
     seated = sp.seat(case(**asking(seating="frictionless", accuracy="fast")))
     assert alpha[0] == pytest.approx(seated.contact_angle, abs=1e-4)

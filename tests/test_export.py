@@ -308,8 +308,9 @@ def fake_results(s, state, path):
 
 
 @pytest.fixture(scope="module")
-def seated():
-    return sp.seat(latex("frictionless"))
+def seated(with_shared_solutions):
+    with with_shared_solutions():
+        return sp.seat(latex("frictionless"))
 
 
 @pytest.fixture

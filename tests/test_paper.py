@@ -96,12 +96,12 @@ def test_each_job_is_run_once_and_told_of():
 
 
 @pytest.fixture(scope="module")
-def written(tmp_path_factory):
+def written(tmp_path_factory, with_shared_solutions):
     """Two parts as they are solved, and again from what was remembered."""
     root = tmp_path_factory.mktemp("paper")
     folders, sections = [root / name for name in ("one", "again")], []
     for folder in folders:
-        with pytest.MonkeyPatch.context() as patch:
+        with pytest.MonkeyPatch.context() as patch, with_shared_solutions():
             if folder != folders[0]:  # the data are compared, and the pictures of one are enough
                 patch.setattr("stonepass.paper.section.save", lambda figure, path: None)
             sections.append(reproduce(PAIR, folder, ASKED, cache_folder=root / "store"))
@@ -109,10 +109,11 @@ def written(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def beams(tmp_path_factory):
+def beams(tmp_path_factory, with_shared_solutions):
     """Fig. 9, in this process, where it is the quick one."""
     folder = tmp_path_factory.mktemp("fig9")
-    return folder, reproduce(["fig9"], folder, ASKED)
+    with with_shared_solutions():
+        return folder, reproduce(["fig9"], folder, ASKED)
 
 
 def test_data_are_the_same_bytes_every_time(written):

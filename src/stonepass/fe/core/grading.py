@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from stonepass.array_types import Float
@@ -31,14 +33,20 @@ def graded(count: int, first: float, total: float) -> Float[np.ndarray, " points
     """
     if first * count >= total:
         return np.linspace(0.0, total, count + 1)
+    log_ratio = _log_ratio(count, first, total)
+    points = np.concatenate([[0.0], np.cumsum(first * np.exp(log_ratio * np.arange(count)))])
+    return points * (total / points[-1])
+
+
+@lru_cache(maxsize=64)  # a mesh that follows the contact has the same intervals, scaled
+def _log_ratio(count: int, first: float, total: float) -> float:
+    """Return the logarithm of the ratio of the intervals."""
 
     def excess(log_ratio: float) -> float:
         return float(first * np.exp(log_ratio * np.arange(count)).sum() - total)
 
     # The last interval is at most `total`, which bounds the ratio.
-    log_ratio = bracketed_root(excess, 0.0, np.log(total / first) / (count - 1), xtol=1e-14)
-    points = np.concatenate([[0.0], np.cumsum(first * np.exp(log_ratio * np.arange(count)))])
-    return points * (total / points[-1])
+    return bracketed_root(excess, 0.0, np.log(total / first) / (count - 1), xtol=1e-14)
 
 
 def intervals(first: float, total: float, growth: float, least: int = 2) -> int:

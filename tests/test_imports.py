@@ -4,6 +4,7 @@ import ast
 import json
 import subprocess
 import sys
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -49,53 +50,81 @@ SERVER = (
 )
 
 
-@pytest.mark.parametrize(
-    ("statement", "absent"),
-    [
+FINITE_ELEMENTS = (*DRAWING, *TABLES, "pint", "scipy.optimize")
+FIRST = (*HEAVY, "numpy", "scipy", "pint", "pydantic", "typer", "autograd")
+# Statements and what must be absent after each of them. Those of one group are executed one after
+# the other in one interpreter; what is absent after a statement is absent after all before it.
+GROUPS = {
+    "refusals": [
+        ("import stonepass", FIRST),
         (refusal("pressure --xi 40 --eta 1.3"), (*HEAVY, "scipy", "pint", "rich", "autograd")),
         (refusal("push --xi 40 --eta 1.3"), (*HEAVY, "scipy")),
         (refusal("closures --xi 40 --eta 1.3"), (*HEAVY, "scipy")),
         (refusal("invitro none.csv --material latex"), (*HEAVY, "scipy")),
         (refusal("assess none.toml"), (*HEAVY, "scipy")),
-        (refusal("sweep none.toml --out none"), (*HEAVY, "pyarrow", "distributed", "xarray")),
-        (refusal("results none"), (*HEAVY, "pyarrow", "xarray")),
-        (refusal("serve --host 192.0.2.7"), (*HEAVY, "typst", "autograd")),
-        (SERVER, (*HEAVY, "typst")),
-        ("import stonepass.web.jobs.worker", (*HEAVY, "scipy.optimize", "fastapi", "uvicorn")),
-        ("import stonepass; stonepass.read_sweep", (*HEAVY, "pyarrow", "distributed")),
-        ("import stonepass", (*HEAVY, "numpy", "scipy", "pint", "pydantic", "typer", "autograd")),
+    ],
+    "help": [
         (door("--help"), (*HEAVY, "numpy", "scipy", "pint", "pydantic", "autograd", "rich")),
         (door("pressure --help"), (*HEAVY, "scipy", "pint", "autograd")),
         (door("material show ureter"), (*HEAVY, "scipy")),
+    ],
+    "sweeps": [
+        ("import stonepass; stonepass.read_sweep", (*HEAVY, "pyarrow", "distributed", "xarray")),
+        (refusal("sweep none.toml --out none"), (*HEAVY, "pyarrow", "distributed", "xarray")),
+        (refusal("results none"), (*HEAVY, "pyarrow", "xarray")),
+    ],
+    "worker": [
+        ("import stonepass.web.jobs.worker", (*HEAVY, "scipy.optimize", "fastapi", "uvicorn")),
+    ],
+    "server": [
+        (refusal("serve --host 192.0.2.7"), (*HEAVY, "typst", "autograd")),
+        (SERVER, (*HEAVY, "typst")),
+    ],
+    "loose stone": [
         (door("pressure --xi 0.9 --eta 1.3 --json"), (*HEAVY, "pint", "scipy", "rich")),
+    ],
+    "beam": [
         (door(f"pressure {BEAM} --json"), (*HEAVY, "pint", "scipy", "jaxtyping", "rich")),
         (door(f"size {BEAM[9:]} --limit 4kPa"), (*HEAVY, "pint", "scipy")),
-        (door(f"pressure {FRICTIONLESS} --json"), (*DRAWING, *TABLES, "pint", "scipy.optimize")),
+    ],
+    "finite elements": [(door(f"pressure {FRICTIONLESS} --json"), FINITE_ELEMENTS)],
+    "Python": [
         ("import stonepass; stonepass.Ureter(wall_ratio=1.3)", (*HEAVY, "scipy")),
         ("import stonepass; stonepass.critical_pressure", (*HEAVY, "scipy")),
         ("import stonepass.model.far_field", (*HEAVY, "scipy")),
         ("import stonepass.model.models.elastic_foundation", (*HEAVY, "scipy")),
+    ],
+    "surrogate": [(SURROGATE, (*HEAVY, "distributed"))],
+    "records": [
         ("import stonepass.records.answer", (*HEAVY, "scipy")),
-        (SURROGATE, (*HEAVY, "distributed")),
         ("from stonepass.records import closures, compare, friction, rising", (*HEAVY, "scipy")),
         (
             "import stonepass.records.reference, stonepass.records.profile",  # all of them
             (*ELEMENTS, *DRAWING, "pandas", "lmfit", "pint", "rich", "typer"),
         ),
     ],
-)
-def test_heavy_libraries_stay_behind_their_door(statement, absent):
-    """What is loaded after the statement, in a fresh interpreter."""
-    probe = f"{statement}\nimport sys; print(); print(*sys.modules)"
+}
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_heavy_libraries_stay_behind_their_door(group):
+    """What is loaded after each statement of a group, in a fresh interpreter."""
+    probe = "\n".join(
+        f"{statement}\nimport sys; print(); print('loaded:', *sys.modules)"
+        for statement, _ in GROUPS[group]
+    )
     done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
-    loaded = set(done.stdout.splitlines()[-1].split())
-    assert "stonepass" in loaded
-    assert loaded.isdisjoint(absent)
+    lines = [line for line in done.stdout.splitlines() if line.startswith("loaded: ")]
+    for (statement, absent), line in zip(GROUPS[group], lines, strict=True):
+        loaded = set(line.split())
+        assert "stonepass" in loaded
+        assert loaded.isdisjoint(absent), statement
 
 
 # --- circles
 
 
+@cache
 def parsed(name):
     return ast.parse(MODULES[name].read_text(encoding="utf-8"))
 

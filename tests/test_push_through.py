@@ -218,7 +218,7 @@ def test_a_stone_that_is_not_stuck_is_refused_and_answered_loose():
 
 
 def test_where_no_state_is_found_the_reason_is_said():
-    lost = push_through(case(mu=2.0), "2 kPa", COARSE)
+    lost = push_through(case(mu=2.0, half_length=4.0), "2 kPa", COARSE)
     assert isinstance(lost, NoPush)
     assert lost.reason
 
@@ -354,7 +354,8 @@ def set_up(question):
 
 def test_a_failed_solve_leaves_no_trace():
     """Asked for more than the tube bears, the next solve gives the same numbers, to the last bit."""
-    failed, fresh = (set_up(case("ureter", 1.3, 1.2, wetted=True)) for _ in range(2))
+    question = case("ureter", 1.3, 1.2, wetted=True, half_length=4.0)
+    failed, fresh = (set_up(question) for _ in range(2))
     first = solve_at_pressure(fresh.workspace, fresh.seated, 0.01, 0.4)
     before = solve_at_pressure(failed.workspace, failed.seated, 0.01, 0.4)
     lost = solve_at_pressure(failed.workspace, before.configuration, 1.0, 0.4)
@@ -368,7 +369,7 @@ def test_a_failed_solve_leaves_no_trace():
 
 
 def test_a_state_is_read_whatever_was_solved_after_it():
-    setup = set_up(case("ureter", 1.3, 1.2))
+    setup = set_up(case("ureter", 1.3, 1.2, half_length=4.0))
     state = solve_at_pressure(setup.workspace, setup.seated, 0.01, 0.4)
     at_once = loaded_wall(setup.workspace, state)
     solve_at_pressure(setup.workspace, state.configuration, 0.02, 0.4)

@@ -172,5 +172,5 @@ def shared_solutions(request, solutions_of_this_run):
 
 @pytest.fixture(scope="session")
 def with_shared_solutions(solutions_of_this_run):
-    """The same for what a fixture of a module solves: a context, which ends with its answer."""
+    """A function that returns a context for the fixtures of modules, like `shared_solutions`."""
     return lambda: sharing(solutions_of_this_run)

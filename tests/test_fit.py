@@ -22,6 +22,7 @@ from stonepass.materials.fung import Fung
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, name_of_law
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
+from stonepass.materials.ogden import Ogden
 from stonepass.materials.yeoh import Yeoh
 from stonepass.model.far_field import inflation, inflation_by_quadrature
 from stonepass.records.fit import FitRecord, fit_record
@@ -925,3 +926,25 @@ def test_diameters_of_the_other_kind_are_recognised_for_stiffening_walls(tmp_pat
             assert f"name the column {kind}_diameter_mm" in told
         else:
             assert record["constants"][0]["value"] == pytest.approx(2e4, rel=1e-3)
+
+
+def test_constants_of_another_solid_that_fit_as_well_are_told(tmp_path, capsys):
+    """At axial stretch 1 the pressure of (μ, α) is that of (−μ, −α)."""
+    ratio = np.linspace(1.0, 1.4, 13)
+    pressure = inflation(ratio, 1.3, Ogden(-1e4, -8.0)) / 1e3
+    rows = list(zip(pressure, 3.5 * ratio, strict=True))
+    path = table(tmp_path, rows, "pressure_kPa,inner_diameter_mm")
+    sizes = ["--law", "ogden", "--inner", "3.5mm", "--outer", "4.55mm"]
+    _, record, _ = fitted_record(capsys, "inflation", path, *sizes)
+    assert abs(record["constants"][0]["value"]) == pytest.approx(1e4, rel=1e-4)
+    (told,) = [each for each in record["warnings"] if each["code"] == "ambiguous_fit"]
+    assert "alpha1 = " in told["sentence"]
+    assert "describe the data as well, but another solid" in told["sentence"]
+    # A second axial stretch tells them apart.
+    both = [(*row, 1.0) for row in rows]
+    stretched = inflation(ratio, 1.3, Ogden(-1e4, -8.0), 1.2) / 1e3
+    both += [(p, d, 1.2) for p, d in zip(stretched, 3.5 * ratio, strict=True)]
+    path = table(tmp_path, both, "pressure_kPa,inner_diameter_mm,axial_stretch")
+    _, record, _ = fitted_record(capsys, "inflation", path, *sizes)
+    assert record["constants"][0]["value"] == pytest.approx(-1e4, rel=1e-4)
+    assert "ambiguous_fit" not in {each["code"] for each in record["warnings"]}

@@ -137,6 +137,10 @@ SENTENCES = {
         "the data do not determine {name}: its confidence interval is open on both sides"
     ),
     "bounded_on_one_side": "the confidence interval of {name} is open on one side",
+    "ambiguous_fit": (
+        "other constants of the law, {constants}, describe the data as well, but another solid: "
+        "use another kind of test to tell them apart"
+    ),
     "interval_by_curvature": (
         "the confidence intervals follow from the curvature at the best fit, since the profile "
         "likelihood could not be computed"

@@ -16,10 +16,13 @@ from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, shown_constant
 from stonepass.materials.known_laws import constants_by_name, known_law
 
-__all__ = ["Search", "best_fit", "proportional_spread", "search_for"]
+__all__ = ["BestFit", "Search", "best_fit", "proportional_spread", "search_for"]
 
 # Smallest proportional error, as a fraction of the error at the largest stress.
 SMALLEST_SHARE = 0.01
+# Two fits are equally good if their sums of squares differ by less than this fraction of the
+# variance of the errors, or by this fraction of the sum of squares of the data.
+AS_GOOD, EXACT = 0.1, 1e-12
 REWEIGHTED = 3  # iterations in which proportional errors are updated from the predictions
 
 
@@ -98,7 +101,28 @@ def search_for(data: Data, law: str, given: Mapping[str, float], free: Sequence[
     return Search(law, declared, fixed, looked_for, stiffness_guess(data))
 
 
-def best_fit(objective: Objective, search: Search, relative: bool) -> tuple[Objective, Any, Any]:
+@dataclass(frozen=True)
+class BestFit:
+    """The best result of a search.
+
+    Attributes
+    ----------
+    objective : Objective
+        The objective with the errors of the last fit.
+    minimizer : lmfit.Minimizer
+    result : lmfit.minimizer.MinimizerResult
+    as_good : list of dict of str to float
+        Constants, in SI units, at which the search ended from other starting points, if they
+        describe the data as well as the result.
+    """
+
+    objective: Objective
+    minimizer: Any
+    result: Any
+    as_good: list[dict[str, float]]
+
+
+def best_fit(objective: Objective, search: Search, relative: bool) -> BestFit:
     """Fit from every starting point and return the best result.
 
     With proportional errors the expected error of a point is proportional to its predicted value,
@@ -112,26 +136,24 @@ def best_fit(objective: Objective, search: Search, relative: bool) -> tuple[Obje
         Constants and starting points.
     relative : bool
         True if the errors are proportional to the predicted values.
-
-    Returns
-    -------
-    objective : Objective
-        The objective with the errors of the last fit.
-    minimizer : lmfit.Minimizer
-    result : lmfit.minimizer.MinimizerResult
     """
     data = objective.data
     if relative:
         objective = replace(objective, spread=proportional_spread(data.observed))
     found = [_minimized(objective, each) for each in search.starts(objective)]
     minimizer, result = min(found, key=lambda each: float(each[1].chisqr))
+    noise = float(result.chisqr) / max(1, len(data.observed) - len(search.free))
+    level = float(np.sum((data.observed / objective.spread) ** 2))
+    limit = float(result.chisqr) + AS_GOOD * noise + EXACT * level
+    others = [each for _, each in found if each is not result and float(each.chisqr) <= limit]
+    as_good = [{k: float(v) for k, v in each.params.valuesdict().items()} for each in others]
     for _ in range(REWEIGHTED if relative else 0):
         predicted = objective.predicted(result.params.valuesdict())
         if not np.all(np.isfinite(predicted)):
             break
         objective = replace(objective, spread=proportional_spread(predicted))
         minimizer, result = _minimized(objective, result.params)
-    return objective, minimizer, result
+    return BestFit(objective, minimizer, result, as_good)
 
 
 def _minimized(objective: Objective, parameters: Any) -> tuple[Any, Any]:

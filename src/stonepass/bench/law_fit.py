@@ -15,6 +15,7 @@ from scipy.stats import spearmanr
 
 from stonepass.array_dataclass import array_dataclass
 from stonepass.array_types import Float
+from stonepass.bench.ambiguity import ambiguous
 from stonepass.bench.confidence_band import confidence_band
 from stonepass.bench.fit_checks import check_enough, check_fit, check_told, r_squared_of
 from stonepass.bench.fit_search import Search, best_fit, proportional_spread, search_for
@@ -197,7 +198,8 @@ def fit_law(
     even = np.full(len(data.observed), float(np.ptp(data.observed)))
     objective = Objective(data, search.made, even)
     check_told(objective, search)
-    objective, minimizer, result = best_fit(objective, search, relative)
+    best = best_fit(objective, search, relative)
+    objective, minimizer, result = best.objective, best.minimizer, best.result
     try:
         at_bounds = check_fit(objective, search, result)
     except BadInput:
@@ -224,7 +226,13 @@ def fit_law(
         r_squared=r_squared_of(off, data.observed),
         correlations=correlations(result, search.free),
         unstable=unstable,
-        warnings=(*(doubts or growing), *at_bounds, *odd, *open_ends),
+        warnings=(
+            *ambiguous(search, material.law, best.as_good),
+            *(doubts or growing),
+            *at_bounds,
+            *odd,
+            *open_ends,
+        ),
     )
 
 
@@ -280,7 +288,7 @@ def _refuse_gross_error(
     except BadInput:
         return
     spread = np.full(len(others.observed), float(np.ptp(others.observed)))
-    _, _, result = best_fit(Objective(others, search.made, spread), search, relative=False)
+    result = best_fit(Objective(others, search.made, spread), search, relative=False).result
     expected = Objective(data, search.made, data.observed).predicted(result.params.valuesdict())
     r_squared = r_squared_of(np.delete(expected - data.observed, worst), others.observed)
     gross = abs(data.observed[worst]) > GROSS * float(np.abs(others.observed).max())

@@ -495,7 +495,7 @@ def test_tubes_that_are_none(tmp_path, capsys, header, rows, sizes, sentence):
     [
         ("strain_percent", "a stretch is 1 + the strain, which is the value in per cent divided by 100"),
         ("strain", "a stretch is 1 + the strain."),
-        ("time_s", "one of stretch, nominal_stress_kPa, force_N, extension_mm, axis."),
+        ("time_s", "extension_mm, axis; leave out columns that the command does not use."),
     ],
 )  # fmt: skip
 def test_other_columns_are_named_without_false_advice(tmp_path, capsys, header, sentence):

@@ -19,6 +19,7 @@ from stonepass.surface.data_bar import find_bar
 from stonepass.surface.decoded import Decoded
 from stonepass.surface.friction import surface_friction
 from stonepass.surface.gaps import known_area
+from stonepass.surface.height_maps import read_height_map
 from stonepass.surface.levelling import fit_plane
 from stonepass.surface.lost_points import lost_points, without_lost_points
 from stonepass.surface.paths import StraightPath, evenly_spaced, profiles_along
@@ -574,3 +575,15 @@ def test_a_scale_bar_inside_a_picture_is_told(tmp_path, capsys, bar, grey):
     patch = np.where(((x - 180) / 30) ** 2 + ((y - 120) / 8) ** 2 < 1.0, grey, surface())
     round_one = replace(plain, values=patch.astype(np.uint8))
     assert "drawn_bar" not in {each.code for each in surface_friction(round_one, "2 um").warnings}
+
+
+def test_heights_in_arbitrary_units_are_named(monkeypatch, tmp_path):
+    """The library refuses such a unit with an error of its own."""
+    import SurfaceTopography.IO
+
+    def refused(*arguments, **options):
+        raise ValueError("Unknown unit 'a.u.'.")
+
+    monkeypatch.setattr(SurfaceTopography.IO, "open_topography", refused)
+    with pytest.raises(BadInput, match=r"map.sur without a unit of length"):
+        read_height_map(tmp_path / "map.sur", None)

@@ -343,8 +343,8 @@ SENTENCES = {
         "{moved} of {paths} profiles were moved to the nearest rows with few enough missing heights"
     ),
     "tilted": (
-        "the surface is tilted by {tilt_deg:.1f}° in the image; with its least-squares plane "
-        "subtracted (--level) the friction coefficient is {levelled:.3f}"
+        "the surface is tilted by {tilt_deg:.2g}° in the image; with its least-squares plane "
+        "subtracted (--level) the friction coefficient is {levelled:.3g}"
     ),
 }
 

@@ -205,7 +205,7 @@ def fit_friction(
     curves, warnings = series_curves(points, setting, solver)
     kept = [k for k, curve in enumerate(curves) if curve is not None]
     require(len(kept) > 1, "number of points for which the model predicts a critical pressure",
-            len(kept), "at least 2")  # fmt: skip
+            len(kept), "at least 2", "; ".join(map(str, warnings)))  # fmt: skip
     known = tuple(curve for curve in curves if curve is not None)
     whole = SeriesModel(known, [points[k] for k in kept], weights[kept], setting)
     parameters = library.Parameters()

@@ -68,7 +68,7 @@ def refuse_column(where: str, name: str, known: Sequence[str], header: Collectio
             raise BadInput(where, name, allowed, f"did you mean '{each}'")
         if not unit:
             raise BadInput(where, name, allowed, f"write '{each}' if its values are in {its}")
-    raise BadInput(where, name, allowed)
+    raise BadInput(where, name, allowed, "leave out columns that the command does not use")
 
 
 def _in_per_cent(name: str) -> bool:

@@ -53,21 +53,30 @@ def read_height_map(path: Path, area: PixelArea | None) -> SurfaceImage:
     ending = path.suffix.lower()
     stream: BytesIO | None = MENDED[ending](path) if ending in MENDED else None
     opened = str(path) if stream is None else stream
-    with reading.open_topography(opened, format=HEIGHT_MAPS[ending]) as reader:
-        channels = list(reader.channels)
-        default = reader.default_channel.index if channels else 0
-        index = _channel_of_heights(path, channels, default)
-        columns, rows = (int(count) for count in channels[index].nb_grid_pts)
-        check_points(short_name(path), rows, columns)
-        topography = reader.topography(channel_index=index)
-        sizes, metre = topography.physical_sizes, _metre(topography.unit)
-        if metre is None:
-            shown = f"{short_name(path)} without a unit of length"
-            raise BadInput("image", shown, "a height map with a unit of length")
-        values = _values(topography.heights(), metre)
+    try:
+        with reading.open_topography(opened, format=HEIGHT_MAPS[ending]) as reader:
+            channels = list(reader.channels)
+            default = reader.default_channel.index if channels else 0
+            index = _channel_of_heights(path, channels, default)
+            columns, rows = (int(count) for count in channels[index].nb_grid_pts)
+            check_points(short_name(path), rows, columns)
+            topography = reader.topography(channel_index=index)
+            sizes, metre = topography.physical_sizes, _metre(topography.unit)
+            if metre is None:
+                raise _without_unit(path)
+            values = _values(topography.heights(), metre)
+    except ValueError as problem:  # of the library, for a unit such as "a.u."
+        if "unknown unit" in str(problem).lower():
+            raise _without_unit(path) from problem
+        raise
     pixel = (float(sizes[0]) * metre / columns, float(sizes[1]) * metre / rows)
     whole = PixelArea(0, 0, columns, rows)
     return SurfaceImage(values, pixel, 0, whole if area is None else area, "height map")
+
+
+def _without_unit(path: Path) -> BadInput:
+    shown = f"{short_name(path)} without a unit of length"
+    return BadInput("image", shown, "a height map with a unit of length")
 
 
 def _channel_of_heights(path: Path, channels: list[Any], default: int) -> int:

@@ -585,5 +585,5 @@ def test_heights_in_arbitrary_units_are_named(monkeypatch, tmp_path):
         raise ValueError("Unknown unit 'a.u.'.")
 
     monkeypatch.setattr(SurfaceTopography.IO, "open_topography", refused)
-    with pytest.raises(BadInput, match="map.al3d without a unit of length"):
+    with pytest.raises(BadInput, match=r"map\.al3d without a unit of length"):
         read_height_map(tmp_path / "map.al3d", None)

@@ -58,7 +58,7 @@ def check_enough(data: Data, free: Sequence[str]) -> None:
             )  # fmt: skip
 
 
-def check_told(objective: Objective, search: Search) -> None:
+def check_told(objective: Objective, search: Search, starts: Sequence[Any]) -> None:
     """Refuse constants that this kind of test cannot identify, whatever their values are.
 
     The constants cannot be identified separately if some combination of relative changes of them
@@ -70,7 +70,9 @@ def check_told(objective: Objective, search: Search) -> None:
     objective : Objective
         Data and law.
     search : Search
-        The constants to be fitted and the starting points.
+        The constants to be fitted.
+    starts : sequence of lmfit.Parameters
+        The starting points, see `Search.starts`.
 
     Raises
     ------
@@ -82,7 +84,7 @@ def check_told(objective: Objective, search: Search) -> None:
     docs/bench.md, "Identifiability".
     """
     told: list[_Blind] = []
-    for start in search.starts(objective):
+    for start in starts:
         found = _blind(objective, start.valuesdict(), search.free)
         if found is None:
             return

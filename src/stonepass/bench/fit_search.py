@@ -122,7 +122,9 @@ class BestFit:
     as_good: list[dict[str, float]]
 
 
-def best_fit(objective: Objective, search: Search, relative: bool) -> BestFit:
+def best_fit(
+    objective: Objective, search: Search, starts: Sequence[Any], relative: bool
+) -> BestFit:
     """Fit from every starting point and return the best result.
 
     With proportional errors the expected error of a point is proportional to its predicted value,
@@ -133,14 +135,16 @@ def best_fit(objective: Objective, search: Search, relative: bool) -> BestFit:
     objective : Objective
         Data, law and the errors to begin with.
     search : Search
-        Constants and starting points.
+        The constants.
+    starts : sequence of lmfit.Parameters
+        Starting points, see `Search.starts`.
     relative : bool
         True if the errors are proportional to the predicted values.
     """
     data = objective.data
     if relative:
         objective = replace(objective, spread=proportional_spread(data.observed))
-    found = [_minimized(objective, each) for each in search.starts(objective)]
+    found = [_minimized(objective, each) for each in starts]
     minimizer, result = min(found, key=lambda each: float(each[1].chisqr))
     noise = float(result.chisqr) / max(1, len(data.observed) - len(search.free))
     level = float(np.sum((data.observed / objective.spread) ** 2))

@@ -197,8 +197,9 @@ def fit_law(
     check_enough(data, search.free)
     even = np.full(len(data.observed), float(np.ptp(data.observed)))
     objective = Objective(data, search.made, even)
-    check_told(objective, search)
-    best = best_fit(objective, search, relative)
+    starts = search.starts(objective)
+    check_told(objective, search, starts)
+    best = best_fit(objective, search, starts, relative)
     objective, minimizer, result = best.objective, best.minimizer, best.result
     try:
         at_bounds = check_fit(objective, search, result)
@@ -288,7 +289,8 @@ def _refuse_gross_error(
     except BadInput:
         return
     spread = np.full(len(others.observed), float(np.ptp(others.observed)))
-    result = best_fit(Objective(others, search.made, spread), search, relative=False).result
+    objective = Objective(others, search.made, spread)
+    result = best_fit(objective, search, search.starts(objective), relative=False).result
     expected = Objective(data, search.made, data.observed).predicted(result.params.valuesdict())
     r_squared = r_squared_of(np.delete(expected - data.observed, worst), others.observed)
     gross = abs(data.observed[worst]) > GROSS * float(np.abs(others.observed).max())

@@ -51,9 +51,9 @@ class ConstantDeclaration:
     low_allowed, high_allowed : bool
         True if the bound itself is an allowed value.
     guess : float
-        First value in a fit. For a modulus it is a factor of the shear modulus that is estimated
-        from the data. A fit is started several times; for a dimensionless constant the first value
-        of each start is `guess` times a factor that differs from start to start.
+        First guess of a fit. For a modulus it is a factor of the shear modulus that is estimated
+        from the data. For a dimensionless constant several multiples of it are tried, negative ones
+        too if the constant may be negative.
     held : bool
         True if a fit keeps the default value unless the user frees the constant.
     default : float or None

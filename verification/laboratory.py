@@ -6,9 +6,7 @@ import os
 import re
 import shutil
 import subprocess
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -102,7 +100,7 @@ conditions between the lumen and 1.75 times the lumen."""
 
 def _fits():
     asked = [(law, noise) for noise in NOISES for law in LAWS]
-    with ProcessPoolExecutor(CORES, mp_context=get_context("spawn")) as pool:
+    with process_pool(CORES) as pool:
         found = dict(zip(asked, pool.map(_coverage, *zip(*asked, strict=True)), strict=True))
     checks, rows = [], []
     for noise in NOISES:

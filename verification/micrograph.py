@@ -8,15 +8,14 @@ import resource
 import subprocess
 import sys
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from itertools import product
-from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
 from page import Check, Section
 
+from stonepass.studies.executor import process_pool
 from stonepass.surface.baseline import fit_baseline
 from stonepass.surface.friction import friction_of_slopes, surface_friction
 from stonepass.surface.paths import StraightPath
@@ -244,7 +243,7 @@ def fuzz() -> Counter:
     """Return how damaged files end, by kind; several processes try them."""
     cores = os.cpu_count() or 1
     shares = [(SEED + k, TRIED // cores + (k < TRIED % cores)) for k in range(cores)]
-    with ProcessPoolExecutor(cores, mp_context=get_context("spawn")) as pool:
+    with process_pool(cores) as pool:
         return sum(pool.map(fuzz_some, shares), Counter())
 
 

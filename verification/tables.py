@@ -6,14 +6,14 @@ import resource
 import sys
 import time
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
-from multiprocessing import get_context
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
 from page import Check, Section
+
+from stonepass.studies.executor import process_pool
 
 ROOT = Path(__file__).parents[1]
 TRIED = 20_000
@@ -100,7 +100,7 @@ def fuzz() -> Ended:
     """Return the results; the damage of file k does not depend on the process that takes it."""
     shares = [range(first, TRIED, PROCESSES) for first in range(PROCESSES)]
     found = Ended()
-    with ProcessPoolExecutor(PROCESSES, mp_context=get_context("spawn")) as pool:
+    with process_pool(PROCESSES) as pool:
         for some in pool.map(fuzz_some, shares):
             found = found.with_other(some)
     return found

@@ -16,7 +16,7 @@ import stonepass as sp
 from stonepass.model.accuracy import ErrorEstimate
 from stonepass.model.states.loaded_state import PushedState, PushReport
 from stonepass.paper.page import write_page
-from stonepass.paper.section import Asked, WrittenSection
+from stonepass.paper.section import Asked, Section
 from stonepass.report.answer_figure import answer_figure
 from stonepass.report.case_line import case_line, length_unit
 from stonepass.report.contact_figure import contact_figure
@@ -344,7 +344,7 @@ def test_a_minus_is_no_hyphen():
 
 
 def test_a_page_of_some_parts_does_not_claim_to_be_of_all(tmp_path):
-    sections, asked = [WrittenSection("Fig. 4", "", (), (), ())], Asked(Pressure(12e3))
+    sections, asked = [Section("Fig. 4", "", (), (), ())], Asked(Pressure(12e3))
     path = tmp_path / "index.html"
     write_page(sections, asked, path, ["fig5", "fig6"])
     page = path.read_text(encoding="utf-8")

@@ -18,8 +18,8 @@ from stonepass.inputs.measured_pressures import Point, read_points
 from stonepass.model.numerics import Numerics
 from stonepass.paper import fig6, fig8, fig9, inputs, seated_figures
 from stonepass.paper.run import PARTS, WITH_CLAIMS, chosen, reproduce
-from stonepass.paper.section import Asked, PublishedClaim
-from stonepass.paper.sensitivity import WallSensitivity, choices
+from stonepass.paper.section import Asked, Claim
+from stonepass.paper.sensitivity import Sensitivity, choices
 from stonepass.studies.executor import process_pool
 from stonepass.studies.jobs import PressureJob, Results, SizeJob, run_jobs
 from stonepass.units import Pressure
@@ -204,10 +204,10 @@ def test_the_page_links_what_is_there_and_shows_every_claim(written, beams):
 
 
 def test_a_claim_is_judged_by_its_tolerance():
-    assert PublishedClaim.number("x", 1.22, 1.225, 0.01, "").holds is True
-    assert PublishedClaim.number("x", 1.22, 1.24, 0.01, "").holds is False
-    assert PublishedClaim.number("x", 1.22, 1.24, 0.01, "").deviation == pytest.approx(0.02)
-    assert PublishedClaim.number("x", 1.22, None, 0.01, "").holds is False
+    assert Claim.number("x", 1.22, 1.225, 0.01, "").holds is True
+    assert Claim.number("x", 1.22, 1.24, 0.01, "").holds is False
+    assert Claim.number("x", 1.22, 1.24, 0.01, "").deviation == pytest.approx(0.02)
+    assert Claim.number("x", 1.22, None, 0.01, "").holds is False
 
 
 def test_measured_points_are_compared(tmp_path, monkeypatch):
@@ -393,7 +393,7 @@ def test_sensitivity_changes_one_thing_at_a_time():
     default = listed[0].case(1.3)
     for each in listed[1:]:
         assert each.case(1.3) != default
-    jobs = WallSensitivity().jobs(ASKED)
+    jobs = Sensitivity().jobs(ASKED)
     assert all(isinstance(job, SizeJob) for job in jobs)
     assert len(jobs) == 2 * (len(listed) - 1)  # the printed constants are refused
     assert not any(job.case.ureter.material.name == "ureter-printed" for job in jobs)

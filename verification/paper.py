@@ -12,7 +12,7 @@ from page import Check, Section
 
 from stonepass.paper.inputs import LIMIT
 from stonepass.paper.run import WITH_CLAIMS, reproduce
-from stonepass.paper.section import Asked, PublishedClaim
+from stonepass.paper.section import Asked, Claim
 from stonepass.studies.executor import process_pool
 
 INTERVAL = 15.0  # seconds between lines of progress
@@ -54,7 +54,7 @@ def section() -> Section:
     )  # fmt: skip
 
 
-def measured(claim: PublishedClaim) -> str:
+def measured(claim: Claim) -> str:
     if claim.tolerance is None or claim.deviation is None:
         return claim.ours
     return f"{claim.ours}; deviation {claim.deviation:+.3g}, tolerance ± {claim.tolerance:.3g}"

@@ -8,14 +8,14 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from stonepass.paper.section import PublishedClaim
+from stonepass.paper.section import Claim
 
 __all__ = ["claims_table"]
 
 _MARKS = {True: "yes", False: "NO", None: "–"}
 
 
-def claims_table(claims: Sequence[PublishedClaim]) -> Table:
+def claims_table(claims: Sequence[Claim]) -> Table:
     """Return a table of claims, with the reason if one is not reproduced or not judged."""
     table = Table(box=box.SIMPLE_HEAD, title="Published claims", title_justify="left")
     for column in ("claim", "published", "ours", "reproduced"):

@@ -15,13 +15,7 @@ from stonepass.model.answer import Answer
 from stonepass.model.case import Case
 from stonepass.model.load import Load
 from stonepass.paper.inputs import LATEX_FRICTION, LATEX_WALLS, WATER, latex_case
-from stonepass.paper.section import (
-    Asked,
-    Illustration,
-    PublishedClaim,
-    WrittenSection,
-    answers_table,
-)
+from stonepass.paper.section import Asked, Claim, Illustration, Section, answers_table
 from stonepass.report.style import (
     COLOURS,
     SERIES,
@@ -58,7 +52,7 @@ class Fig6:
         return [*curves, *(PressureJob(_case(point)) for point in asked.points)]
 
     @in_style
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw both panels, write the curves, and compare them with the points."""
         figure = new_figure(9.2, 4.6)
         add_heading(figure, f"Steel spheres in latex tubes · μ = {LATEX_FRICTION:g} · model: paper")
@@ -89,7 +83,7 @@ class Fig6:
         )
         header = ("wall_ratio", "confining_kPa", "confinement", "size_ratio", "outcome",
                   "critical_pressure_kPa", "critical_pressure_error_kPa")  # fmt: skip
-        return WrittenSection.written(
+        return Section.written(
             "Fig. 6: the in-vitro series",
             "",
             folder,
@@ -138,14 +132,14 @@ def _draw_points(air: Axes, water: Axes, points: Sequence[Point]) -> None:
                 )
 
 
-def _grows(found: Results) -> PublishedClaim:
+def _grows(found: Results) -> Claim:
     steps = []
     for load in LOADS:
         for eta in LATEX_WALLS:
             curve = [found.answer(latex_case(eta, xi, load)).pressure for xi in SIZES]
             known = [pressure for pressure in curve if pressure is not None]
             steps += [after > before for before, after in pairwise(known)]
-    return PublishedClaim(
+    return Claim(
         "in-vitro tubes: P_ucr grows with ξ (Fig. 6)",
         "yes",
         f"in {sum(steps)} of {len(steps)} steps",
@@ -154,22 +148,22 @@ def _grows(found: Results) -> PublishedClaim:
     )
 
 
-def _agreement(found: Results, points: Sequence[Point]) -> PublishedClaim:
+def _agreement(found: Results, points: Sequence[Point]) -> Claim:
     what = "in-vitro tubes: theory agrees with experiment (Fig. 6)"
     if not points:
         reason = "the measured points are not published; give yours as --points FILE.csv"
-        return PublishedClaim(what, "agrees well", "not judged", None, reason)
+        return Claim(what, "agrees well", "not judged", None, reason)
     errors = []
     for point in points:
         pressure = found.answer(_case(point)).pressure
         if pressure is not None and point.pressure > 0.0:
             errors.append(pressure / point.pressure - 1.0)
     if not errors:
-        return PublishedClaim(
+        return Claim(
             what, "agrees well", "no point has an answer", False, "no point can be compared"
         )
     rms, bias = float(np.sqrt(np.mean(np.square(errors)))), float(np.mean(errors))
-    return PublishedClaim(
+    return Claim(
         what,
         "agrees well",
         f"bias {bias:+.1%}, root mean square {rms:.1%} over {len(errors)} points",

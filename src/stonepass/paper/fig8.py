@@ -16,14 +16,7 @@ from stonepass.model.load import Load
 from stonepass.model.size import SizeAnswer
 from stonepass.paper.inputs import CONFINING, FRICTION, LIMIT, PASSING, PUBLISHED, ureter_case
 from stonepass.paper.published import PUBLISHED_MARK, draw_critical_size
-from stonepass.paper.section import (
-    Asked,
-    Illustration,
-    PublishedClaim,
-    Table,
-    WrittenSection,
-    answers_table,
-)
+from stonepass.paper.section import Asked, Claim, Illustration, Section, Table, answers_table
 from stonepass.report.style import (
     COLOURS,
     add_heading,
@@ -72,7 +65,7 @@ class Fig8:
         ]
 
     @in_style
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the panels, write their data, and judge the claims."""
         line = {eta: _size_of(found, eta, asked.limit) for eta in WALLS}
         figure = new_figure(9.6, 8.4)
@@ -89,7 +82,7 @@ class Fig8:
         lines = new_figure(6.8, 5.0)
         add_heading(lines, HEADING)
         _line(lines.add_subplot(), line, asked.limit, found)
-        return WrittenSection.written(
+        return Section.written(
             "Fig. 8: the human ureter",
             "",
             folder,
@@ -291,12 +284,12 @@ def _line(axes: Axes, line: Line, limit: Pressure, found: Results) -> None:
     tidy(axes)
 
 
-def _sizes(found: Results, limit: Pressure) -> list[PublishedClaim]:
+def _sizes(found: Results, limit: Pressure) -> list[Claim]:
     if limit != LIMIT:
         return []
     reason = "the ground matrix, which the paper does not give, was calibrated to meet both sizes"
     return [
-        PublishedClaim.number(
+        Claim.number(
             f"ξ_cr at 12 kPa, η = {eta:.2f} (Fig. 8a)",
             published,
             found.size(ureter_case(eta, 1.1, LOADS[0]), limit).size_ratio,
@@ -307,7 +300,7 @@ def _sizes(found: Results, limit: Pressure) -> list[PublishedClaim]:
     ]
 
 
-def _diameters(found: Results, limit: Pressure) -> list[PublishedClaim]:
+def _diameters(found: Results, limit: Pressure) -> list[Claim]:
     """Return claims for the narrowest ureter (thickest wall) and the widest (thinnest wall)."""
     if limit != LIMIT:
         return []
@@ -315,7 +308,7 @@ def _diameters(found: Results, limit: Pressure) -> list[PublishedClaim]:
     for inner, (eta, published) in PASSING.items():
         size = found.size(ureter_case(eta, 1.1, LOADS[0]), limit).size_ratio
         claims.append(
-            PublishedClaim.number(
+            Claim.number(
                 f"largest passing diameter in mm, lumen {inner * 1e3:g} mm (section 3.2)",
                 published,
                 None if size is None else size * inner * 1e3,
@@ -326,11 +319,11 @@ def _diameters(found: Results, limit: Pressure) -> list[PublishedClaim]:
     return claims
 
 
-def _grows(found: Results) -> PublishedClaim:
+def _grows(found: Results) -> Claim:
     grid = np.array([[_surface_pressure(found, e, x) for x in SIZES] for e in WALLS], float)
     along, across = np.diff(grid, axis=1), np.diff(grid[:, 1:], axis=0)
     along, across = along[np.isfinite(along)], across[np.isfinite(across)]
-    return PublishedClaim(
+    return Claim(
         "P_ucr grows with ξ and with η (Fig. 8a, b)",
         "yes",
         f"with ξ in {int((along > 0).sum())} of {along.size} steps, with η in "
@@ -340,7 +333,7 @@ def _grows(found: Results) -> PublishedClaim:
     )
 
 
-def _added(found: Results) -> list[PublishedClaim]:
+def _added(found: Results) -> list[Claim]:
     claims = []
     for eta, xi in PUBLISHED.items():
         bare = found.answer(ureter_case(eta, xi)).pressure
@@ -350,7 +343,7 @@ def _added(found: Results) -> list[PublishedClaim]:
             if bare is not None and loaded is not None:
                 ratios.append((loaded - bare) / pressure)
         claims.append(
-            PublishedClaim(
+            Claim(
                 f"P_out adds about itself to P_ucr, η = {eta:.2f}, ξ = {xi:.2f} (Fig. 8c)",
                 "nearly equal to P_out",
                 ", ".join(f"{ratio:.3f} P_out" for ratio in ratios),
@@ -378,7 +371,7 @@ def _beyond(found: Results, eta: float, xi: float) -> str:
     )
 
 
-def _falls(fits: dict[float, tuple[float, float] | None], limit: Pressure) -> list[PublishedClaim]:
+def _falls(fits: dict[float, tuple[float, float] | None], limit: Pressure) -> list[Claim]:
     if limit != LIMIT:
         return []
     known = {eta: fit for eta, fit in fits.items() if fit is not None}
@@ -387,16 +380,15 @@ def _falls(fits: dict[float, tuple[float, float] | None], limit: Pressure) -> li
     straight = len(known) == 2 and all(slope < 0.0 and r2 >= 0.98 for slope, r2 in known.values())
     thin, thick = (known.get(eta, (np.nan, np.nan))[0] for eta in (1.30, 3.40))
     return [
-        PublishedClaim("ξ_cr falls linearly with P_out (Fig. 8d)", "yes", shown, straight,
+        Claim("ξ_cr falls linearly with P_out (Fig. 8d)", "yes", shown, straight,
               "linear is read as R² ≥ 0.98"),
-        PublishedClaim("it falls faster for η = 1.30 (Fig. 8d)", "yes",
-              f"{thin:+.4f} against {thick:+.4f}",
+        Claim("it falls faster for η = 1.30 (Fig. 8d)", "yes", f"{thin:+.4f} against {thick:+.4f}",
               bool(thin < thick), "the order of the slopes"),
     ]  # fmt: skip
 
 
-def _clinical() -> PublishedClaim:
-    return PublishedClaim(
+def _clinical() -> Claim:
+    return Claim(
         "ξ_cr(η) agrees with clinical sizes (Fig. 8b)",
         "agrees well",
         "not judged",

@@ -17,7 +17,7 @@ from stonepass.model.models.elastic_foundation import ElasticFoundation
 from stonepass.model.size import SizeAnswer, critical_size
 from stonepass.model.stone import Stone
 from stonepass.paper.inputs import BEAM, BEAM_SIZE, FRICTION, LIMIT, ureter_case
-from stonepass.paper.section import Asked, Illustration, PublishedClaim, Table, WrittenSection
+from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
 from stonepass.report.style import (
     COLOURS,
     add_heading,
@@ -47,7 +47,7 @@ class Fig9:
         return [PressureJob(ureter_case(WALL, xi)) for xi in SIZES]
 
     @in_style
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw both panels, and judge the claims."""
         answers = [
             [found.answer(ureter_case(WALL, xi)) for xi in SIZES],
@@ -96,7 +96,7 @@ class Fig9:
         names = ("finite_elements", "beam", "beam_by_secants")
         columns = [f"{name}_{what}" for name in names for what in ("outcome", "kPa")]
         size = ("outcome", "critical_size_ratio")
-        return WrittenSection.written(
+        return Section.written(
             "Fig. 9: the thin wall as a beam",
             "",
             folder,
@@ -152,12 +152,12 @@ def _outcome(size: SizeAnswer) -> tuple[str, float | None]:
     return size.outcome.name, size.size_ratio
 
 
-def _headline(limit: Pressure) -> list[PublishedClaim]:
+def _headline(limit: Pressure) -> list[Claim]:
     if limit != LIMIT:
         return []
     ours = _size(limit, BEAM, FRICTION).size_ratio
     return [
-        PublishedClaim(
+        Claim(
             "ξ_cr of the beam at 12 kPa, η = 1.30 (section 3.3.1)",
             f"{BEAM_SIZE:g}",
             "none" if ours is None else f"{ours:.4g}",
@@ -170,14 +170,14 @@ def _headline(limit: Pressure) -> list[PublishedClaim]:
     ]
 
 
-def _agree(elements: Float[np.ndarray, " n"], beam: Float[np.ndarray, " n"]) -> PublishedClaim:
+def _agree(elements: Float[np.ndarray, " n"], beam: Float[np.ndarray, " n"]) -> Claim:
     kept = np.isfinite(beam) & np.isfinite(elements) & (elements > 0.0)
     off, relative = (
         (beam - elements)[kept] / elements[kept].max(),
         (beam / np.where(kept, elements, 1)),
     )
     worst, apart = float(off[np.argmax(np.abs(off))]), relative[kept] - 1.0
-    return PublishedClaim(
+    return Claim(
         "the beam agrees with finite elements, η = 1.30, ξ to 1.3 (Fig. 9c)",
         "agrees well",
         f"within {np.abs(off).max():.0%} of the highest pressure; {apart.min():+.0%} to "
@@ -194,7 +194,7 @@ def _trends(
     stiffness: Float[np.ndarray, " factors"],
     friction: Float[np.ndarray, " frictions"],
     limit: Pressure,
-) -> list[PublishedClaim]:
+) -> list[Claim]:
     """Return the claims on the slopes, and on the effect of doubling stiffness and friction."""
     if limit != LIMIT:
         return []
@@ -209,11 +209,10 @@ def _trends(
     rougher = np.interp([FRICTION, 2.0 * FRICTION], FRICTIONS, friction)
     drops = softer[0] - softer[1], rougher[0] - rougher[1]
     return [
-        PublishedClaim("ξ_cr falls with stiffness and with friction, and levels off (Fig. 9d)",
-              "yes",
+        Claim("ξ_cr falls with stiffness and with friction, and levels off (Fig. 9d)", "yes",
               "both fall, with decreasing slopes" if all(falls) else "not throughout",
               all(falls), "every slope is negative, and flatter than the one before"),
-        PublishedClaim("stiffness matters more than friction (Fig. 9d)", "yes",
+        Claim("stiffness matters more than friction (Fig. 9d)", "yes",
               f"doubling them reduces ξ_cr by {drops[0]:.3f} and {drops[1]:.3f}",
               bool(drops[0] > drops[1] > 0.0), "compared at twice the published values"),
     ]  # fmt: skip

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from stonepass.paper.inputs import SLOPES
-from stonepass.paper.section import Asked, PublishedClaim, WrittenSection
+from stonepass.paper.section import Asked, Claim, Section
 from stonepass.studies.jobs import Job, Results
 from stonepass.surface.friction import friction_of_slopes
 
@@ -20,15 +20,13 @@ class Eq18:
         """Return no jobs, since nothing has to be solved."""
         return []
 
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Return a section that has only a claim."""
-        claim = PublishedClaim.number(
+        claim = Claim.number(
             "friction coefficient from slopes 0.38 and 0.12 (Eq. 18)",
             0.5,
             friction_of_slopes(*SLOPES),
             0.03,
             "Eq. 18 gives 0.52, which the paper rounds to 0.5",
         )
-        return WrittenSection.written(
-            "Section 2.3: friction from the surface", "", folder, claims=[claim]
-        )
+        return Section.written("Section 2.3: friction from the surface", "", folder, claims=[claim])

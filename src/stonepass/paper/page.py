@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 
 from stonepass.about import DISCLAIMER, VERSION
-from stonepass.paper.section import Asked, PublishedClaim, WrittenSection
+from stonepass.paper.section import Asked, Claim, Section
 from stonepass.report.html import write_html
 
 __all__ = ["write_page"]
@@ -22,7 +22,7 @@ _MARKS = {True: ("yes", "reproduced"), False: ("no", "differs"), None: ("open", 
 
 
 def write_page(
-    sections: Sequence[WrittenSection], asked: Asked, path: Path, missing: Sequence[str] = ()
+    sections: Sequence[Section], asked: Asked, path: Path, missing: Sequence[str] = ()
 ) -> None:
     """Write one HTML page beside the files it shows; `missing` names parts that it leaves out."""
     claims = [claim for section in sections for claim in section.claims]
@@ -43,14 +43,14 @@ def write_page(
     write_html(path, "The paper, reproduced", _STYLE, "\n".join(body))
 
 
-def _extent(sections: Sequence[WrittenSection], missing: Sequence[str]) -> str:
+def _extent(sections: Sequence[Section], missing: Sequence[str]) -> str:
     if not missing:
         return "Every computed result"
     count = len(sections)
     return f"A part of the computed results ({count} of {count + len(missing)} sections)"
 
 
-def _table(claims: Sequence[PublishedClaim]) -> str:
+def _table(claims: Sequence[Claim]) -> str:
     header = ("claim", "published", "ours", "deviation", "", "reason")
     rows = []
     for claim in claims:
@@ -72,7 +72,7 @@ def _table(claims: Sequence[PublishedClaim]) -> str:
     )
 
 
-def _section(section: WrittenSection) -> list[str]:
+def _section(section: Section) -> list[str]:
     parts = [f"<h2>{escape(section.title)}</h2>"]
     if section.text:
         parts.append(f"<p>{escape(section.text)}</p>")

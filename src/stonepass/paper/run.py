@@ -16,8 +16,8 @@ from stonepass.paper.fig9 import Fig9
 from stonepass.paper.micrograph import Eq18
 from stonepass.paper.page import write_page
 from stonepass.paper.seated_figures import Fig4, Fig5, Fig7
-from stonepass.paper.section import Asked, WrittenSection
-from stonepass.paper.sensitivity import WallSensitivity
+from stonepass.paper.section import Asked, Section
+from stonepass.paper.sensitivity import Sensitivity
 from stonepass.report.table import grouped_warnings
 from stonepass.studies.jobs import Job, Progress, Results
 from stonepass.studies.study import run_studies
@@ -32,7 +32,7 @@ class Part(Protocol):
     def jobs(self, asked: Asked) -> list[Job[Any]]:
         """Return the jobs of the part."""
 
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Write pictures and data into a folder and return the section of the page."""
 
 
@@ -48,7 +48,7 @@ class PartStudy:
         """Return the jobs of the part."""
         return self.part.jobs(self.asked)
 
-    def reduce(self, results: Results) -> WrittenSection:
+    def reduce(self, results: Results) -> Section:
         """Write the part and return its section, with the warnings behind its answers."""
         section = self.part.write(results, self.asked, self.folder)
         return replace(section, warnings=_warnings(results))
@@ -62,7 +62,7 @@ PARTS: dict[str, Part] = {
     "fig8": Fig8(),
     "fig9": Fig9(),
     "friction": Eq18(),
-    "sensitivity": WallSensitivity(),
+    "sensitivity": Sensitivity(),
 }
 WITH_CLAIMS = ("fig6", "fig7", "fig8", "fig9", "friction")
 
@@ -86,7 +86,7 @@ def reproduce(
     executor: Executor | None = None,
     cache_folder: Path | None = None,
     progress: Progress | None = None,
-) -> list[WrittenSection]:
+) -> list[Section]:
     """Solve the jobs of the parts, and write the parts and ``index.html`` into `folder`.
 
     Parameters

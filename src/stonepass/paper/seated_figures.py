@@ -16,7 +16,7 @@ from stonepass.fe.axisymmetric.wall_values import Field
 from stonepass.model.case import Case
 from stonepass.model.states.seated_state import SeatedState
 from stonepass.paper.inputs import FRICTION, LATEX_WALLS, PUBLISHED, latex_case, ureter_case
-from stonepass.paper.section import Asked, Illustration, PublishedClaim, Table, WrittenSection
+from stonepass.paper.section import Asked, Claim, Illustration, Section, Table
 from stonepass.report.revolve import revolved_figure
 from stonepass.report.section import add_colour_bar, draw_section, element_rim, section_height
 from stonepass.report.stone import draw_radii, frame_section, mark_angle
@@ -50,7 +50,7 @@ class Fig4:
         """Return a job for each tube; its state keeps the stress field."""
         return [PressureJob(case, wall=True) for case in _latex()]
 
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the sections, write the profiles, and draw the middle tube in three dimensions."""
         states = [_state(found, case) for case in _latex()]
         return _sections(
@@ -71,7 +71,7 @@ class Fig5:
         return [PressureJob(case, wall=True) for case in _ureters()]
 
     @in_style
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the meshes."""
         states = [_state(found, case) for case in _ureters()]
         figure = new_figure(8.4, 9.0)
@@ -97,7 +97,7 @@ class Fig5:
         ]
         header = ("wall_ratio", "size_ratio", "dofs", "contact_angle_deg",
                   "equator_contact_pressure_kPa")  # fmt: skip
-        return WrittenSection.written(
+        return Section.written(
             "Fig. 5: finite elements of the human ureter",
             "",
             folder,
@@ -117,7 +117,7 @@ class Fig7:
         ]
 
     @in_style
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the sections, write the profiles, and judge their form."""
         states = [_state(found, case) for case in _ureters()]
         section = _sections(
@@ -133,14 +133,14 @@ class Fig7:
             for eta in PUBLISHED
         }
         figure = _by_size(others)
-        extra = WrittenSection.written(
+        extra = Section.written(
             "",
             "",
             folder,
             [Illustration("fig7_sizes", figure, "Contact pressure for several sizes.")],
             [_profiles("fig7_sizes", [state for row in others.values() for state in row])],
         )
-        return WrittenSection(
+        return Section(
             section.title,
             section.text,
             section.pictures + extra.pictures,
@@ -186,7 +186,7 @@ def _state(found: Results, case: Case, *, wall: bool = True) -> SeatedState:
     return state
 
 
-def _single_peak(states: Sequence[SeatedState]) -> PublishedClaim:
+def _single_peak(states: Sequence[SeatedState]) -> Claim:
     """Return the claim that every profile has a single maximum near the equator."""
     humps, aside = [], []
     for state in states:
@@ -196,7 +196,7 @@ def _single_peak(states: Sequence[SeatedState]) -> PublishedClaim:
         humps.append(bool((steps[:peak] > -RIPPLE).all() and (steps[peak:] < RIPPLE).all()))
         highest = theta[np.argmax(state.contact_pressure)]
         aside.append(abs(highest - np.pi / 2) / (np.pi / 2 - state.contact_angle))
-    return PublishedClaim(
+    return Claim(
         "shape of the contact pressure over θ (Fig. 7)",
         "one maximum near the equator",
         f"one maximum in {sum(humps)} of {len(humps)} states, at most {max(aside):.1%} of half the "
@@ -210,7 +210,7 @@ def _single_peak(states: Sequence[SeatedState]) -> PublishedClaim:
 @in_style
 def _sections(
     title: str, name: str, states: Sequence[SeatedState], caption: str, folder: Path
-) -> WrittenSection:
+) -> Section:
     heights = _heights(states)
     figure = new_figure(9.2, SECTION_WIDTH * sum(heights) + 0.75 * len(states))
     first = states[0].case
@@ -244,7 +244,7 @@ def _sections(
         f"The section revolved about its axis, with a quarter cut away (η = "
         f"{middle.case.wall_ratio:g}); the file {name}.vtu has the whole tube with its stresses."
     )
-    return WrittenSection.written(
+    return Section.written(
         title,
         "",
         folder,

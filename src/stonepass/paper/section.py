@@ -16,7 +16,7 @@ from stonepass.records.answer import answer_record
 from stonepass.report.style import save
 from stonepass.units import Pressure
 
-__all__ = ["Asked", "Illustration", "PublishedClaim", "Table", "WrittenSection", "answers_table"]
+__all__ = ["Asked", "Claim", "Illustration", "Section", "Table", "answers_table"]
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class PublishedClaim:
+class Claim:
     """A published statement beside our number.
 
     Attributes
@@ -56,7 +56,7 @@ class PublishedClaim:
     @classmethod
     def number(
         cls, what: str, published: float, ours: float | None, tolerance: float, reason: str
-    ) -> PublishedClaim:
+    ) -> Claim:
         """Return the claim of a number that must agree within a tolerance."""
         if ours is None:
             return cls(what, f"{published:g}", "none", False, reason, None, tolerance)
@@ -107,14 +107,14 @@ class Illustration:
 
 
 @dataclass(frozen=True)
-class WrittenSection:
+class Section:
     """A part that was written: names of files in the order of the page, captions, claims."""
 
     title: str
     text: str
     pictures: tuple[tuple[str, str], ...]
     files: tuple[str, ...]
-    claims: tuple[PublishedClaim, ...]
+    claims: tuple[Claim, ...]
     warnings: tuple[str, ...] = ()
 
     @classmethod
@@ -125,9 +125,9 @@ class WrittenSection:
         folder: Path,
         pictures: Sequence[Illustration] = (),
         tables: Sequence[Table] = (),
-        claims: Sequence[PublishedClaim] = (),
+        claims: Sequence[Claim] = (),
         files: Sequence[str] = (),
-    ) -> WrittenSection:
+    ) -> Section:
         """Write pictures (SVG and PNG) and tables (CSV) into a folder."""
         for picture in pictures:
             save(picture.figure, folder / f"{picture.name}.svg")

@@ -21,12 +21,12 @@ from stonepass.model.stone import Stone
 from stonepass.model.ureter import Ureter
 from stonepass.paper.inputs import FRICTION, PUBLISHED
 from stonepass.paper.published import PUBLISHED_MARK
-from stonepass.paper.section import Asked, Illustration, Table, WrittenSection
+from stonepass.paper.section import Asked, Illustration, Section, Table
 from stonepass.report.style import COLOURS, add_heading, in_style, new_figure, tidy
 from stonepass.studies.jobs import Job, Results, SizeJob
 from stonepass.units import Pressure
 
-__all__ = ["WallSensitivity"]
+__all__ = ["Sensitivity"]
 
 OUTSIDE = Pressure(4e3)
 GROUND = (5e3, 8e3, 14e3)  # Pa, in addition to the default of 12 kPa
@@ -53,7 +53,7 @@ class Choice:
         return Case(stone, ureter, self.load, self.model, self.numerics)
 
 
-class WallSensitivity:
+class Sensitivity:
     """ξ_cr of both walls for each alternative."""
 
     def jobs(self, asked: Asked) -> list[Job[Any]]:
@@ -66,7 +66,7 @@ class WallSensitivity:
         ]
 
     @in_style
-    def write(self, found: Results, asked: Asked, folder: Path) -> WrittenSection:
+    def write(self, found: Results, asked: Asked, folder: Path) -> Section:
         """Draw the figure and return the section."""
         names, rows = [], []
         figure = new_figure(8.0, 6.8)
@@ -119,7 +119,7 @@ class WallSensitivity:
         )
         header = ("about", "choice", "wall_ratio", "outcome", "critical_size_ratio",
                   "critical_size_ratio_error", "change")  # fmt: skip
-        return WrittenSection.written(
+        return Section.written(
             "Sensitivity to the choices that the paper leaves open",
             "",
             folder,

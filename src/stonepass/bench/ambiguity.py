@@ -14,7 +14,6 @@ import numpy as np
 from stonepass.bench.fit_search import Search
 from stonepass.caution import Caution, caution
 from stonepass.errors import BadInput
-from stonepass.materials.constants import shown_constant
 from stonepass.materials.protocol import Law
 from stonepass.strain import INNER_WALL, CauchyGreen
 
@@ -49,11 +48,7 @@ def ambiguous(search: Search, law: Law, as_good: Sequence[Mapping[str, float]]) 
             continue
         apart = np.abs(_energies(other) - energies).max()
         if apart > DIFFERENT * np.abs(energies).max():
-            shown = ", ".join(
-                f"{name} = {shown_constant(values[name], search.declared[name])}"
-                for name in search.free
-            )
-            return [caution("ambiguous_fit", constants=shown)]
+            return [caution("ambiguous_fit", constants=search.shown(values))]
     return []
 
 

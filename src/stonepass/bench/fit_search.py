@@ -55,6 +55,12 @@ class Search:
         """The class of the law."""
         return known_law(self.law)
 
+    def shown(self, values: Mapping[str, float]) -> str:
+        """Return the constants to be fitted as text, from values in SI units."""
+        parts = [f"{name} = {shown_constant(values[name], self.declared[name])}"
+                 for name in self.free]  # fmt: skip
+        return ", ".join(parts)
+
     def starts(self, objective: Objective) -> list[Any]:
         """Return lmfit parameters at the starting points of the search, the best first."""
         return [

@@ -87,6 +87,8 @@ def _best_moduli(
     if np.all(np.isfinite(level)) and level.any():
         factor = float(level @ observed / (level @ level))
         yield _inside({name: factor * value for name, value in guess.items()}, moduli, modulus)
+    if len(moduli) < 2:  # the factor is the best one
+        return
     none = dict.fromkeys(moduli, 0.0)
     rest = objective.predicted(held | none) if any(held.values()) else np.zeros(len(observed))
     rest = np.where(np.isfinite(rest), rest, 0.0) / objective.spread
@@ -95,7 +97,7 @@ def _best_moduli(
         for name, value in guess.items()
     ]
     matrix: Float[np.ndarray, "n moduli"] = np.array(columns).T
-    if len(moduli) > 1 and np.all(np.isfinite(matrix)):
+    if np.all(np.isfinite(matrix)):
         factors = np.linalg.lstsq(matrix, observed - rest, rcond=None)[0]
         best = {name: float(f) * guess[name] for name, f in zip(moduli, factors, strict=True)}
         yield _inside(best, moduli, modulus)

@@ -242,13 +242,9 @@ def _made(search: Search, values: Mapping[str, float]) -> Law:
     try:
         made: Law = search.made(**values)
     except BadInput as problem:
-        shown = ", ".join(
-            f"{name} = {shown_constant(values[name], search.declared[name])}"
-            for name in search.free
-        )
         raise BadInput(
             f"fit of law '{search.law}'",
-            shown,
+            search.shown(values),
             f"constants of a stable solid ({problem.argument} {problem.allowed})",
             "the law does not describe these data: use a smaller range of stretches, or fit "
             "another law",

@@ -3,16 +3,18 @@
 Superpose a simple shear on the deformation F: F(ε) = (1 + ε m⊗n) F with unit vectors m ⊥ n. The
 determinant of F does not change, so the pressure of an incompressible law drops out. The law is
 strongly elliptic at F if d²U/dε² is positive at ε = 0 for all m and n. With a = Fᵀn and b = Fᵀm the
-right Cauchy–Green tensor is C(ε) = C + ε (a⊗b + b⊗a) + ε² a⊗a, hence
+right Cauchy–Green tensor is C(ε) = C + ε (a⊗b + b⊗a) + ε² a⊗a. Let i and j count the six components
+rr, tt, zz, rz, rt, tz, and let v(m, n) = (mᵣnᵣ, mₜnₜ, m_z n_z, mᵣn_z + m_z nᵣ, mᵣnₜ + mₜnᵣ,
+mₜn_z + m_z nₜ). Then Ċᵢ = Σ Gᵢⱼ vⱼ(m, n) with a matrix G that depends on F alone, and half of C̈ is
+a⊗a = ½ Σ Gᵢⱼ vⱼ(n, n). Hence
 
-    d²U/dε² = Σ U,ᵢⱼ ċᵢ ċⱼ + 2 Σ U,ᵢ c̈ᵢ,
-    ċ = (2aᵣbᵣ, 2aₜbₜ, 2a_z b_z, aᵣb_z + bᵣa_z, aᵣbₜ + bᵣaₜ, aₜb_z + bₜa_z),
-    c̈ = (aᵣ², aₜ², a_z², aᵣa_z, aᵣaₜ, aₜa_z),
+    d²U/dε² = v(m, n)ᵀ K v(m, n) + t · v(n, n),   K = Gᵀ U″ G,   t = Gᵀ U′,
 
-where the sums extend over the six components of C in the order rr, tt, zz, rz, rt, tz. All six are
-needed, because a shear out of the r–z plane changes all of them. For a given n this is a quadratic
-form in m, so its smallest value is the smaller eigenvalue of a 2 × 2 matrix. The directions n are
-scanned. See "Stability" in docs/theory.md.
+with the first and second derivatives U′ and U″ of the energy by the six components of C. All six
+are needed, because a shear out of the r–z plane changes all of them. The vector t holds the
+components of the Cauchy stress, without the pressure, and K is the tangent in the deformed wall.
+For a given n this is a quadratic form in m, so its smallest value is the smaller eigenvalue of a
+2 × 2 matrix. The directions n are scanned. See "Stability" in docs/theory.md.
 """
 
 from __future__ import annotations
@@ -26,11 +28,13 @@ from stonepass.materials.derivatives import energy_derivatives, rest_moduli
 from stonepass.materials.protocol import Law
 from stonepass.strain import CauchyGreen, Place
 
-__all__ = ["Weakest", "shear_stiffness", "weakest"]
+__all__ = ["Weakest", "shear_stiffness", "spatial_moduli", "weakest"]
 
 COARSE = 7  # number of directions n per quarter turn in the first scan
 REFINED = 24  # number of deformations, those of least stiffness, for which n is refined
 ZOOMS = 4  # number of refinements of n; each reduces the spacing to a quarter
+# Directions of the components rr, tt, zz, rz, rt, tz, where 0, 1, 2 stand for r, t, z.
+FIRST, SECOND = np.array([(0, 0), (1, 1), (2, 2), (0, 2), (0, 1), (1, 2)]).T
 
 
 @dataclass(frozen=True)
@@ -69,16 +73,16 @@ def weakest(law: Law, F: Float[np.ndarray, "points 5"], place: Place) -> Weakest
     place : Place
         Reference coordinates in inner radii, as arrays (points,) or as numbers for all points.
     """
-    angles, derivatives = _scan(), energy_derivatives(law, _right_cauchy_green(F), place)
-    values, _ = shear_stiffness(F, derivatives, _normals(angles)[None])
+    angles, (stress, tangent) = _scan(), spatial_moduli(law, F, place)
+    values, _ = shear_stiffness(stress, tangent, _normals(angles)[None])
     values = np.where(np.isnan(values), -np.inf, values)
     some = np.argsort(values.min(axis=1))[:REFINED]
-    F, derivatives = F[some], (derivatives[0][some], derivatives[1][some])
+    stress, tangent = stress[some], tangent[some]
     best, spacing = angles[np.argmin(values[some], axis=1)], np.pi / 2.0 / (COARSE - 1)
     for _ in range(ZOOMS):
         spacing /= 4.0
         near = best[:, None, :] + spacing * _neighbourhood()
-        found, directions = shear_stiffness(F, derivatives, _normals(near))
+        found, directions = shear_stiffness(stress, tangent, _normals(near))
         choice = np.argmin(found, axis=1)
         best = np.take_along_axis(near, choice[:, None, None], axis=1)[:, 0]
     least = np.where(np.isnan(found), -np.inf, found).min(axis=1)
@@ -92,19 +96,48 @@ def weakest(law: Law, F: Float[np.ndarray, "points 5"], place: Place) -> Weakest
     )
 
 
+def spatial_moduli(
+    law: Law, F: Float[np.ndarray, "points 5"], place: Place
+) -> tuple[Float[np.ndarray, "points 6"], Float[np.ndarray, "points 6 6"]]:
+    """Return the stress t and the tangent K in the deformed wall (see the module's docstring).
+
+    Parameters
+    ----------
+    law : Law
+    F : array (points, 5)
+        Components F_rr, F_rz, F_zr, F_zz, F_tt of the deformation gradient.
+    place : Place
+        Reference coordinates in inner radii, as arrays (points,) or as numbers for all points.
+
+    Returns
+    -------
+    stress, tangent : array (points, 6), array (points, 6, 6)
+        In Pa, for the components rr, tt, zz, rz, rt, tz.
+    """
+    slope, curvature = energy_derivatives(law, _right_cauchy_green(F), place)
+    gradient = np.zeros((len(F), 3, 3))  # in the directions r, t, z
+    for column, (row, across) in enumerate([(0, 0), (0, 2), (2, 0), (2, 2), (1, 1)]):
+        gradient[:, row, across] = F[:, column]
+    alpha, beta = FIRST[:, None], SECOND[:, None]
+    G = (
+        gradient[:, FIRST, alpha] * gradient[:, SECOND, beta]
+        + gradient[:, SECOND, alpha] * gradient[:, FIRST, beta]
+    )
+    turned = G.transpose(0, 2, 1)
+    return np.matmul(turned, slope[:, :, None])[..., 0], turned @ curvature @ G
+
+
 def shear_stiffness(
-    F: Float[np.ndarray, "points 5"],
-    derivatives: tuple[Float[np.ndarray, "points 6"], Float[np.ndarray, "points 6 6"]],
+    stress: Float[np.ndarray, "points 6"],
+    tangent: Float[np.ndarray, "points 6 6"],
     normals: Float[np.ndarray, "any ways 3"],
 ) -> tuple[Float[np.ndarray, "points ways"], Float[np.ndarray, "points ways 3"]]:
     """Minimise d²U/dε² over m for every deformation and every n.
 
     Parameters
     ----------
-    F : array (points, 5)
-        Components F_rr, F_rz, F_zr, F_zz, F_tt of the deformation gradient.
-    derivatives : array (points, 6), array (points, 6, 6)
-        First and second derivatives of the energy in Pa, see `energy_derivatives`.
+    stress, tangent : array (points, 6), array (points, 6, 6)
+        Stress and tangent in Pa, see `spatial_moduli`.
     normals : array (1 or points, ways, 3)
         Unit vectors n; a first axis of length 1 means the same directions for all points.
 
@@ -115,30 +148,32 @@ def shear_stiffness(
     directions : array (points, ways, 3)
         The unit vectors m for which it is attained.
     """
-    F_rr, F_rz, F_zr, F_zz, F_tt = F.T[:, :, None]
-    slope, curvature = derivatives
-    n_r, n_t, n_z = np.moveaxis(normals, -1, 0)
-    a_r, a_t, a_z = F_rr * n_r + F_zr * n_z, F_tt * n_t, F_rz * n_r + F_zz * n_z  # Fᵀ n
-
-    def rate(m: Float[np.ndarray, "any ways 3"]) -> Float[np.ndarray, "points ways 6"]:
-        """Return ċ for the directions m."""
-        m_r, m_t, m_z = np.moveaxis(m, -1, 0)
-        b_r, b_t, b_z = F_rr * m_r + F_zr * m_z, F_tt * m_t, F_rz * m_r + F_zz * m_z
-        direct = (2.0 * a_r * b_r, 2.0 * a_t * b_t, 2.0 * a_z * b_z)
-        mixed = (a_r * b_z + b_r * a_z, a_r * b_t + b_r * a_t, a_t * b_z + b_t * a_z)
-        return np.stack([*direct, *mixed], axis=-1)
-
-    direct = (a_r * a_r, a_t * a_t, a_z * a_z)
-    second = np.stack([*direct, a_r * a_z, a_r * a_t, a_t * a_z], axis=-1)
-    constant = 2.0 * np.matmul(second, slope[:, :, None])[..., 0]
     e, f = _tangents(normals)
-    along_e, along_f = rate(e), rate(f)
-    bent_e, bent_f = np.matmul(along_e, curvature), np.matmul(along_f, curvature)
-    A, B, D = (bent_e * along_e).sum(-1), (bent_e * along_f).sum(-1), (bent_f * along_f).sum(-1)
+    flat = tangent.reshape(len(tangent), 36, 1)
+
+    def form(
+        first: Float[np.ndarray, "any ways 6"], second: Float[np.ndarray, "any ways 6"]
+    ) -> Float[np.ndarray, "points ways"]:
+        """Return firstᵀ K second. The points enter one matrix product for all directions."""
+        outer = first[..., :, None] * second[..., None, :]
+        return np.matmul(outer.reshape(*first.shape[:-1], 36), flat)[..., 0]
+
+    along_e, along_f = _sheared(e, normals), _sheared(f, normals)
+    A, B, D = form(along_e, along_e), form(along_e, along_f), form(along_f, along_f)
+    constant = np.matmul(_sheared(normals, normals), stress[:, :, None])[..., 0]
     smallest = (A + D) / 2.0 - np.sqrt(((A - D) / 2.0) ** 2 + B**2)
     turn = 0.5 * np.arctan2(2.0 * B, A - D) + np.pi / 2.0  # angle of the smaller eigenvector
     m = np.cos(turn)[..., None] * e + np.sin(turn)[..., None] * f
     return smallest + constant, m
+
+
+def _sheared(
+    m: Float[np.ndarray, "any ways 3"], n: Float[np.ndarray, "any ways 3"]
+) -> Float[np.ndarray, "any ways 6"]:
+    """Return the vectors v(m, n) of the module's docstring."""
+    sheared: Float[np.ndarray, "any ways 6"] = m[..., FIRST] * n[..., SECOND]
+    sheared[..., 3:] += m[..., SECOND[3:]] * n[..., FIRST[3:]]
+    return sheared
 
 
 def _right_cauchy_green(F: Float[np.ndarray, "points 5"]) -> CauchyGreen:

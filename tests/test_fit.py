@@ -1,6 +1,7 @@
 """Constants from bench data: laws recovered, intervals that cover, and what data cannot tell."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from strips import nominal_stress
 
 import stonepass as sp
 from stonepass.bench.law_fit import fit_law
+from stonepass.bench.least_squares import profile_level
 from stonepass.bench.test_data import AXES, Inflation, Tension
 from stonepass.bench.test_files import read_inflation, read_tension
 from stonepass.cli import run
@@ -948,3 +950,56 @@ def test_constants_of_another_solid_that_fit_as_well_are_told(tmp_path, capsys):
     _, record, _ = fitted_record(capsys, "inflation", path, *sizes)
     assert record["constants"][0]["value"] == pytest.approx(-1e4, rel=1e-4)
     assert "ambiguous_fit" not in {each["code"] for each in record["warnings"]}
+
+
+def test_the_best_of_many_starting_points_is_found_for_two_terms():
+    """Two minima are close: the data of (1.5, 6) are described by (1.7, −12.5) nearly as well."""
+    stretch = np.linspace(1.03, 2.5, 30)
+    blank = Tension(stretch, np.ones(30), ("axial",) * 30)
+    exact = blank.predicted(Ogden(1e5, 1.5, 2e3, 6.0))
+    noise = np.random.default_rng(7).normal(size=30)
+    data = replace(blank, stress=exact + 0.003 * exact.max() * noise)
+    fitted = fit_law(data, "ogden", free=("mu2", "alpha2"))
+    powers = sorted(each.value for each in fitted.constants if each.name in ("alpha1", "alpha2"))
+    assert powers == pytest.approx([1.5, 6.0], rel=0.15)
+    for each in fitted.constants:
+        if each.name in ("alpha1", "alpha2"):
+            true = 1.5 if abs(each.value - 1.5) < 2.0 else 6.0
+            assert each.low < true < each.high
+
+
+def test_a_search_along_a_valley_without_an_end_is_refused():
+    """In the limit C → ∞, C a = constant, a Fung law is quadratic in the strains."""
+    law = Fung(C=4e9, a1111=7e-5, a2222=9e-5, a1122=2e-5, G=1.2e4)
+    stretch = np.linspace(1.03, 1.5, 15)
+    axis = tuple(each for each in AXES for _ in stretch)
+    blank = Tension(np.tile(stretch, 2), np.ones(30), axis)
+    exact = blank.predicted(law)
+    data = replace(
+        blank, stress=exact + 0.01 * exact.max() * np.random.default_rng(1).normal(size=30)
+    )
+    with pytest.raises(BadInput, match="C and a1111 and a2222") as refused:
+        fit_law(data, "fung", {"G": 1.2e4})
+    assert "--fix" in str(refused.value)
+
+
+def test_intervals_beyond_the_parabola_are_those_of_the_profile():
+    """At each end χ², minimised over the other constant, exceeds its least value by F/(n − 2)."""
+    stretch = np.linspace(1.03, 1.4, 12)
+    blank = Tension(stretch, np.ones(12), ("axial",) * 12)
+    exact = blank.predicted(Demiray(1e5, 5.0))
+    noise = np.random.default_rng(4).normal(size=12)
+    data = replace(blank, stress=exact + 0.06 * exact.max() * noise)
+    fitted = fit_law(data, "demiray")
+    b = next(each for each in fitted.constants if each.name == "b")
+    assert b.low is not None
+    assert b.high is not None
+    assert b.high - b.value > 1.1 * (b.value - b.low)
+    least = float(np.sum(fitted.residuals**2))
+
+    def profiled(value):
+        found = fit_law(data, "demiray", {"b": value})
+        return float(np.sum(found.residuals**2))
+
+    for end in (b.low, b.high):
+        assert profiled(end) / least == pytest.approx(profile_level(10), rel=2e-3)

@@ -141,13 +141,6 @@ SENTENCES = {
         "other constants of the law, {constants}, describe the data as well, but another solid: "
         "use another kind of test to tell them apart"
     ),
-    "interval_by_curvature": (
-        "the confidence intervals follow from the curvature at the best fit, since the profile "
-        "likelihood could not be computed"
-    ),
-    "no_interval": (
-        "no confidence interval could be computed, since the sum of squares is flat at the best fit"
-    ),
     "residuals_grow": (
         "the residuals grow with the stress, so the confidence intervals are too narrow: fit with "
         "relative errors (--relative)"

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from stonepass.array_types import Float
-from stonepass.bench.fit_search import Search
+from stonepass.bench.fit_search import EVALUATIONS, Search
 from stonepass.bench.least_squares import LEVEL
 from stonepass.bench.objective import Data, Objective, at_an_end
 from stonepass.caution import Caution, caution
@@ -146,8 +146,8 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
     ------
     BadInput
         The law predicts no stress for some of the data, R² is negative, a constant lies at a bound
-        of the search, the F test shows no improvement over a law without stress, or the data do not
-        identify some constants separately.
+        of the search, the F test shows no improvement over a law without stress, the data do not
+        identify some constants separately, or the search has not ended.
 
     References
     ----------
@@ -193,7 +193,24 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
     blind = _blind(objective, values, inside)
     if blind is not None:
         _refuse_blind(blind)
+    if result.aborted:
+        _refuse_endless(objective, search, values, inside)
     return told
+
+
+def _refuse_endless(
+    objective: Objective, search: Search, values: Mapping[str, float], free: Sequence[str]
+) -> None:
+    """Refuse a search that has not ended, by the constants that the data determine least."""
+    _, _, directions = np.linalg.svd(objective.sensitivities(values, free), full_matrices=False)
+    names = [name for name, part in zip(free, directions[-1], strict=True) if abs(part) > SHARE]
+    raise BadInput(
+        f"search for the constants of law '{search.law}'",
+        f"without an end after {EVALUATIONS} evaluations",
+        "at a least sum of squares",
+        f"the data hardly determine {' and '.join(names)} separately: fix one of them, e.g. "
+        f"--fix {names[-1]}=VALUE, or use another kind of test",
+    )
 
 
 def _refuse_blind(blind: _Blind) -> None:

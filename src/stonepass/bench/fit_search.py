@@ -9,20 +9,27 @@ from typing import Any
 import numpy as np
 
 from stonepass.array_types import Float
+from stonepass.bench.bounded_search import improved
 from stonepass.bench.fit_starts import starting_values
 from stonepass.bench.least_squares import lmfit
 from stonepass.bench.objective import Data, Objective, starting_parameters, stiffness_guess
+from stonepass.bench.short_search import most_promising
 from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, shown_constant
 from stonepass.materials.known_laws import constants_by_name, known_law
 
-__all__ = ["BestFit", "Search", "best_fit", "proportional_spread", "search_for"]
+__all__ = ["EVALUATIONS", "BestFit", "Search", "best_fit", "proportional_spread", "search_for"]
 
 # Smallest proportional error, as a fraction of the error at the largest stress.
 SMALLEST_SHARE = 0.01
 # Two fits are equally good if their sums of squares differ by less than this fraction of the
 # variance of the errors, or by this fraction of the sum of squares of the data.
 AS_GOOD, EXACT = 0.1, 1e-12
+COUNT = 3  # number of starting points from which the search goes on
+ITERATIONS = 200  # iterations with the logarithms of positive constants, before the fit
+# Largest number of evaluations of the fit after these iterations. A fit that needs more follows a
+# valley of the sum of squares that does not end.
+EVALUATIONS = 1000
 REWEIGHTED = 3  # iterations in which proportional errors are updated from the predictions
 
 
@@ -150,13 +157,15 @@ def best_fit(
     data = objective.data
     if relative:
         objective = replace(objective, spread=proportional_spread(data.observed))
-    found = [_minimized(objective, each) for each in starts]
-    minimizer, result = min(found, key=lambda each: float(each[1].chisqr))
+    chosen = most_promising(objective, starts, COUNT)
+    ended = [improved(objective.residuals, each, ITERATIONS) for each in chosen]
+    ended.sort(key=objective.misfit)
+    minimizer, result = _minimized(objective, ended[0])
     noise = float(result.chisqr) / max(1, len(data.observed) - len(search.free))
     level = float(np.sum((data.observed / objective.spread) ** 2))
     limit = float(result.chisqr) + AS_GOOD * noise + EXACT * level
-    others = [each for _, each in found if each is not result and float(each.chisqr) <= limit]
-    as_good = [{k: float(v) for k, v in each.params.valuesdict().items()} for each in others]
+    others = [each for each in ended[1:] if objective.misfit(each) <= limit]
+    as_good = [{k: float(v) for k, v in each.valuesdict().items()} for each in others]
     for _ in range(REWEIGHTED if relative else 0):
         predicted = objective.predicted(result.params.valuesdict())
         if not np.all(np.isfinite(predicted)):
@@ -167,9 +176,9 @@ def best_fit(
 
 
 def _minimized(objective: Objective, parameters: Any) -> tuple[Any, Any]:
-    minimizer = lmfit().Minimizer(objective.residuals, parameters)
+    minimizer = lmfit().Minimizer(objective.residuals, parameters, max_nfev=EVALUATIONS)
     with np.errstate(all="ignore"):
-        return minimizer, minimizer.minimize(method="least_squares")
+        return minimizer, minimizer.minimize(method="least_squares", x_scale="jac")
 
 
 def proportional_spread(

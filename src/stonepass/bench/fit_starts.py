@@ -20,7 +20,7 @@ __all__ = ["starting_values"]
 
 # Factors on the first guess of a dimensionless constant that is positive, or of any sign.
 POSITIVE, ANY_SIGN = (0.1, 1.0, 5.0), (-5.0, -2.0, -0.5, 0.5, 2.0, 5.0)
-STARTS = 3  # number of starting points
+STARTS = 40  # largest number of starting points
 LEAST = 1e-3  # smallest starting modulus as a fraction of the first guess of the shear modulus
 
 Values = dict[str, float]
@@ -48,7 +48,7 @@ def starting_values(
     Returns
     -------
     list of dict of str to float
-        Up to three sets of the constants that are not fixed, in SI units, with different
+        Up to 40 sets of the constants that are not fixed, in SI units, with different
         dimensionless constants. All constants are inside the bounds of the search.
     """
     free = {name: each for name, each in declared.items() if name not in fixed}

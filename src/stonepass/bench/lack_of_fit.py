@@ -26,7 +26,7 @@ from stonepass.bench.branches import Branches, branches
 from stonepass.bench.objective import Data
 from stonepass.caution import Caution, caution
 
-__all__ = ["lack_of_fit"]
+__all__ = ["NEGLIGIBLE", "lack_of_fit"]
 
 # Probability of at least one caution if the law and the assumptions about the errors are right.
 FALSE_ALARM = 0.02

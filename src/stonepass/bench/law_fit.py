@@ -19,7 +19,7 @@ from stonepass.bench.ambiguity import ambiguous
 from stonepass.bench.confidence_band import confidence_band
 from stonepass.bench.fit_checks import check_enough, check_fit, check_told, r_squared_of
 from stonepass.bench.fit_search import Search, best_fit, proportional_spread, search_for
-from stonepass.bench.lack_of_fit import lack_of_fit
+from stonepass.bench.lack_of_fit import NEGLIGIBLE, lack_of_fit
 from stonepass.bench.least_squares import correlations, intervals
 from stonepass.bench.objective import Data, Objective
 from stonepass.caution import Caution, caution
@@ -47,7 +47,7 @@ BROKEN, FEWEST_AFTER = 0.2, 2
 # of the scale Shore A, 95, has 44 MPa (Gent 1958, IRI Trans. 34, 46-57); beyond it lie plastics.
 STIFFEST_WALL = 5e7
 # Codes of the cautions after which the 95 % intervals are only approximate.
-UNSURE = ("residuals_grow", "residuals_correlated", "interval_by_curvature", "lack_of_fit",
+UNSURE = ("residuals_grow", "residuals_correlated", "lack_of_fit",
           "zero_offset", "rest_size", "slack", "axial_rest_length", "hysteresis", "runs_differ",
           "outlier")  # fmt: skip
 
@@ -215,7 +215,7 @@ def fit_law(
     doubts = _doubts(objective, material.law, values, search.free, proportional=bool(growing))
     held = {dict(one.values)["name"] for one in at_bounds}
     inside = [each for each in search.free if each not in held]
-    bounds, open_ends = intervals(minimizer, result, inside, search.declared)
+    bounds, open_ends = intervals(minimizer, result, inside)
     unstable, odd = _unstable(material, data)
     return FittedLaw(
         material=material,
@@ -279,6 +279,8 @@ def _refuse_gross_error(
     """
     worst = int(np.argmax(np.abs(data.observed)))
     others = data.without(worst)
+    if not abs(data.observed[worst]) > GROSS * float(np.abs(others.observed).max()):
+        return
     try:
         search = search_for(others, law, given, free)
         check_enough(others, search.free)
@@ -289,8 +291,7 @@ def _refuse_gross_error(
     result = best_fit(objective, search, search.starts(objective), relative=False).result
     expected = Objective(data, search.made, data.observed).predicted(result.params.valuesdict())
     r_squared = r_squared_of(np.delete(expected - data.observed, worst), others.observed)
-    gross = abs(data.observed[worst]) > GROSS * float(np.abs(others.observed).max())
-    if r_squared > WELL and gross and np.isfinite(expected[worst]):
+    if r_squared > WELL and np.isfinite(expected[worst]):
         point = f"row {data.lines[worst]}" if data.lines else f"point {worst + 1}"
         raise BadInput(f"{data.measured} of {point}", f"{data.observed[worst] / 1e3:.6g} kPa",
                        f"near the {expected[worst] / 1e3:.3g} kPa that the fit to all other points "
@@ -374,9 +375,12 @@ def _growing(
     off: Float[np.ndarray, " n"], observed: Float[np.ndarray, " n"], relative: bool
 ) -> list[Caution]:
     """Return a caution if the residuals grow with the observed values (Spearman's rank test)."""
-    if relative or len(off) < FEWEST_OF_A_TREND or np.ptp(np.abs(off)) == 0.0:
+    size = np.abs(off)
+    if relative or len(off) < FEWEST_OF_A_TREND or np.ptp(size) == 0.0:
         return []
-    trend = spearmanr(np.abs(off), np.abs(observed))
+    if size.max() <= NEGLIGIBLE * np.abs(observed).max():
+        return []
+    trend = spearmanr(size, np.abs(observed))
     if not (trend.statistic > 0.0 and trend.pvalue < UNLIKELY):
         return []
     return [caution("residuals_grow")]

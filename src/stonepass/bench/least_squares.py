@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from typing import Any
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from scipy.optimize import brentq
 from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
+from stonepass.bench.bounded_search import improved
 from stonepass.caution import Caution, caution
 
 __all__ = [
@@ -26,8 +26,12 @@ __all__ = [
 ]
 
 LEVEL = 0.95  # confidence level of all intervals
-FARTHER = 1.5  # ratio of successive steps outwards along a profile
-STEPS = 60  # largest number of these steps
+FARTHER = 2.0  # ratio of successive steps outwards along a profile
+STEPS = 40  # largest number of these steps
+ITERATIONS = 60  # largest number of iterations for a point of a profile
+# Precision of the ends of an interval as a fraction of their distance from the best value, for a
+# profile in closed form and for one that takes a search at each point.
+CLOSED, SEARCHED = 1e-10, 1e-4
 SMALLEST = 1e-9  # smallest first step, relative to the best value
 # Largest error of the parabola at an end of an interval, as a fraction of the increase of χ².
 PARABOLIC = 0.02
@@ -46,14 +50,12 @@ def intervals(
     minimizer: Any,
     result: Any,
     free: Sequence[str],
-    declared: Mapping[str, Any] | None = None,
 ) -> tuple[dict[str, Interval], list[Caution]]:
     """Compute 95 % confidence intervals of fitted parameters.
 
     The residuals provide the variance of the errors. If χ² is a parabola out to the ends of the
     intervals, Student's t intervals are returned; they are exact for Gaussian errors and a model
-    that is linear in its parameters. Otherwise the profile likelihood is used. If a profile cannot
-    be computed, the interval follows from the curvature at the best fit, and a caution says so.
+    that is linear in its parameters. Otherwise the profile likelihood is used.
 
     Parameters
     ----------
@@ -64,8 +66,6 @@ def intervals(
     free : sequence of str
         Names of the parameters for which intervals are wanted. Fitted parameters that lie at a
         bound are left out.
-    declared : mapping, optional
-        Declarations of the parameters by name.
 
     Returns
     -------
@@ -73,20 +73,17 @@ def intervals(
         Lower and upper end by name, in the unit of the parameter. An end that reaches the search
         bound of its parameter is None.
     told : list of Caution
-        Cautions about open and approximate intervals.
+        Cautions about open intervals.
 
     References
     ----------
     docs/bench.md, "The fit".
     """
-    told: list[Caution] = []
     bounds = _by_parabola(minimizer, result, free)
-    if bounds is None and len(free) == 1 and result.nvarys == 1:
-        bounds = {free[0]: _profile_of_one(minimizer, result, free[0])}
     if bounds is None:
-        bounds, told = _profiled(minimizer, result, free)
+        bounds = {name: _by_profile(minimizer, result, name) for name in free}
     within = {name: _within(each, result.params[name]) for name, each in bounds.items()}
-    return within, [*told, *open_ended(within)]
+    return within, open_ended(within)
 
 
 def _within(interval: Interval, parameter: Any) -> Interval:
@@ -96,23 +93,6 @@ def _within(interval: Interval, parameter: Any) -> Interval:
         None if low is None or low <= parameter.min else low,
         None if high is None or high >= parameter.max else high,
     )
-
-
-def _profiled(
-    minimizer: Any, result: Any, free: Sequence[str]
-) -> tuple[dict[str, Interval], list[Caution]]:
-    fitting = lmfit()
-    try:
-        with np.errstate(all="ignore"), catch_warnings():
-            simplefilter("error", UserWarning)  # lmfit warns if a profile is incomplete
-            profiles = fitting.conf_interval(
-                minimizer, result, p_names=list(free), sigmas=[LEVEL], maxiter=40,
-                min_rel_change=1e-3,
-            )  # fmt: skip
-    except (fitting.minimizer.MinimizerException, ValueError, RuntimeError, UserWarning):
-        found, told = _by_curvature(result, free)
-        return found, [*told, caution("interval_by_curvature")]
-    return {name: (_end(rows[0][1]), _end(rows[-1][1])) for name, rows in profiles.items()}, []
 
 
 def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, Interval] | None:
@@ -127,8 +107,7 @@ def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, 
         return None
     names, covariance = list(result.var_names), np.array(result.covar)
     factor = float(t_distribution.ppf(0.5 + LEVEL / 2.0, result.nfree))
-    least = float(np.sum(np.square(minimizer.userfcn(result.params))))
-    level = profile_level(result.nfree)
+    least, level = _chi_square(minimizer, result.params), profile_level(result.nfree)
     found: dict[str, Interval] = {}
     for name in free:
         k = names.index(name)
@@ -143,7 +122,7 @@ def _by_parabola(minimizer: Any, result: Any, free: Sequence[str]) -> dict[str, 
                 value = float(result.params[other].value) + by
                 moved[other].set(value=value, min=-np.inf, max=np.inf)
             with np.errstate(all="ignore"):  # a χ² of NaN is not that of a parabola either
-                reached = float(np.sum(np.square(minimizer.userfcn(moved)))) / max(least, TINY)
+                reached = _chi_square(minimizer, moved) / max(least, TINY)
             if not abs(reached - level) < PARABOLIC * (level - 1.0):
                 return None
         found[name] = (centre - factor * error, centre + factor * error)
@@ -174,10 +153,6 @@ def correlations(result: Any, free: Sequence[str]) -> dict[tuple[str, str], floa
     return found
 
 
-def _end(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
-
-
 def open_ended(
     bounds: dict[str, Interval], both: str = "not_bounded", one: str = "bounded_on_one_side"
 ) -> list[Caution]:
@@ -199,19 +174,35 @@ def open_ended(
     return told
 
 
-def _profile_of_one(minimizer: Any, result: Any, name: str) -> Interval:
-    """Return the values on both sides of the best fit at which χ² reaches `profile_level`."""
+def _by_profile(minimizer: Any, result: Any, name: str) -> Interval:
+    """Return the values on both sides of the best fit at which χ² reaches `profile_level`.
+
+    At each value of the parameter χ² is minimised over the other parameters, beginning at the
+    nearest value for which this has been done.
+    """
     best, parameter = float(result.params[name].value), result.params[name]
-    least = float(np.sum(np.square(minimizer.userfcn(result.params))))
-    moved = result.params.copy()
-    level = least * profile_level(result.nfree)
+    others = [each for each in result.var_names if each != name]
+    held = result.params.copy()
+    held[name].set(vary=False)
+    solved = {best: (held, _chi_square(minimizer, held))}
+    level = solved[best][1] * profile_level(result.nfree)
 
     def excess(value: float) -> float:
-        moved[name].set(value=value)
-        return float(np.sum(np.square(minimizer.userfcn(moved)))) - level
+        if value not in solved:
+            moved = solved[min(solved, key=lambda each: abs(each - value))][0].copy()
+            moved[name].set(value=value)
+            moved = improved(minimizer.userfcn, moved, ITERATIONS)
+            solved[value] = moved, _chi_square(minimizer, moved)
+        return solved[value][1] - level
 
     spread = parameter.stderr if parameter.stderr else abs(best)
-    return ends_of_profile(excess, best, 0.5 * spread, (parameter.min, parameter.max))
+    precision = SEARCHED if others else CLOSED
+    bounds = (parameter.min, parameter.max)
+    return ends_of_profile(excess, best, 0.5 * spread, bounds, precision)
+
+
+def _chi_square(minimizer: Any, parameters: Any) -> float:
+    return float(np.sum(np.square(minimizer.userfcn(parameters))))
 
 
 def profile_level(free: int) -> float:
@@ -224,7 +215,11 @@ def profile_level(free: int) -> float:
 
 
 def ends_of_profile(
-    excess: Callable[[float], float], best: float, first: float, bounds: tuple[float, float]
+    excess: Callable[[float], float],
+    best: float,
+    first: float,
+    bounds: tuple[float, float],
+    precision: float = CLOSED,
 ) -> Interval:
     """Find the zeros of a profile on both sides of the best value.
 
@@ -235,9 +230,11 @@ def ends_of_profile(
     best : float
         Best value of the parameter, within the bounds.
     first : float
-        First step outwards; every further step is 1.5 times as large.
+        First step outwards; every further step is twice as large.
     bounds : (float, float)
         Smallest and largest value of the parameter.
+    precision : float
+        Largest error of the zeros as a fraction of their distance from the best value.
 
     Returns
     -------
@@ -252,22 +249,11 @@ def ends_of_profile(
             beyond = sign * (outer - bound) >= 0.0
             outer = bound if beyond else outer
             if excess(outer) >= 0.0:
-                end = best if inner == outer else float(brentq(excess, inner, outer, rtol=1e-10))
+                error = precision * abs(outer - best)
+                end = best if error == 0.0 else float(brentq(excess, inner, outer, xtol=error))
                 break
             if beyond:
                 break
             inner, step = outer, step * FARTHER
         ends.append(end)
     return ends[0], ends[1]
-
-
-def _by_curvature(result: Any, free: Sequence[str]) -> tuple[dict[str, Interval], list[Caution]]:
-    """Return symmetric 95 % intervals of the t distribution about the best fit."""
-    if any(result.params[name].stderr is None for name in free):
-        return {}, [caution("no_interval")]
-    factor = float(t_distribution.ppf(0.5 + LEVEL / 2.0, result.nfree))
-    found: dict[str, Interval] = {}
-    for name in free:
-        centre, half = result.params[name].value, factor * result.params[name].stderr
-        found[name] = (float(centre - half), float(centre + half))
-    return found, []

@@ -104,18 +104,22 @@ class Objective:
     law: type[Any]
     spread: Float[np.ndarray, " n"]
 
+    def law_of(self, values: Mapping[str, float]) -> Law:
+        """Return the law with all its constants by name, in SI units, which are not checked."""
+        law: Law = object.__new__(self.law)  # the constructor would check the constants
+        for name, value in values.items():
+            object.__setattr__(law, name, value)
+        return law
+
     def predicted(self, values: Mapping[str, float]) -> Float[np.ndarray, " n"]:
         """Return the prediction (n) of the law in Pa for constants by name, in SI units.
 
         The constants may lie outside the bounds of the law, since the prediction is a smooth
         function there too. The stability of the fitted law is checked after the fit.
         """
-        law = object.__new__(self.law)  # the constructor would check the constants
-        for name, value in values.items():
-            object.__setattr__(law, name, value)
         try:
             with np.errstate(all="ignore"):
-                return self.data.predicted(law)
+                return self.data.predicted(self.law_of(values))
         except (OverflowError, ZeroDivisionError):
             return np.full(len(self.spread), np.nan)
 
@@ -130,6 +134,10 @@ class Objective:
     def residuals(self, parameters: Any) -> Float[np.ndarray, " n"]:
         """Return the residuals `off` for lmfit parameters."""
         return self.off(parameters.valuesdict())
+
+    def misfit(self, parameters: Any) -> float:
+        """Return the sum of the squared residuals for lmfit parameters."""
+        return float(np.sum(self.residuals(parameters) ** 2))
 
     def sensitivities(
         self, values: Mapping[str, float], free: Sequence[str]

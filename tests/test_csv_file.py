@@ -208,6 +208,8 @@ def test_a_comma_of_two_meanings_is_refused(tmp_path, text):
         'Date: 2021-05-04\n"stretch"\t"stress_kPa"\n(mm/mm)\t(kPa)\n1\t0\n1.5\t2.5\n',
         "stretch,stress_kPa\n[-],[kPa]\n1,0\n1.5,2.5\n",
         "sep=;\nreport\nstress_kPa;stretch\nkPa;\n0;1\n2.5;1.5\n",
+        "stretch;stress_kPa\nspeed;fast\n\nstretch;stress_kPa\n;kPa\n1,0;0\n1,5;2,5\n",
+        "columns\nstretch,stress_kPa\nbelow\nstretch,stress_kPa\n1,0\n1.5,2.5\n",
     ],
 )
 def test_lines_before_the_table_and_a_row_of_units(tmp_path, text):

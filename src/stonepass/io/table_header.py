@@ -29,9 +29,11 @@ Row = tuple[int, list[str]]  # number of the line, and its cells
 def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int]:
     """Return the separator of the cells, and the number of lines before the header.
 
-    The header is the first line with all required names. If there is none, it is the line of names
-    above the first row of numbers, so that an error can name its unknown columns, or else the first
-    line. Empty lines and lines that begin with ``#`` are ignored.
+    The header is the first line with all required names, if possible one with a number below a
+    required name, since such a name may also occur in the lines before the table. If there is no
+    line with all required names, it is the line of names above the first row of numbers, so that an
+    error can name its unknown columns, or else the first line. Empty lines and lines that begin
+    with ``#`` are ignored.
 
     Parameters
     ----------
@@ -47,10 +49,17 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
         for number, line in enumerate(lines[:LONGEST_PREAMBLE])
         if line.strip() and not _is_comment(line) and (number or not declared)
     ]
-    for number, line in shown if required else ():
-        for delimiter in candidates:
-            if set(required) <= set(cells_of(line, delimiter)):
-                return delimiter, number
+    named = [
+        (delimiter, k)
+        for k, (_, line) in enumerate(shown if required else ())
+        for delimiter in candidates
+        if set(required) <= set(cells_of(line, delimiter))
+    ]
+    if named:
+        lines_shown = [line for _, line in shown]
+        with_rows = (each for each in named if _has_rows(lines_shown, *each, required))
+        delimiter, k = next(with_rows, named[0])
+        return delimiter, shown[k][0]
     for k, (_, line) in enumerate(shown):
         for delimiter in candidates:
             header = _header_above(shown[:k], delimiter) if _all_numbers(line, delimiter) else None
@@ -58,6 +67,18 @@ def layout_of(lines: Sequence[str], required: Collection[str]) -> tuple[str, int
                 return delimiter, header
     number, line = shown[0] if shown else (0, "")
     return next((each for each in candidates if each in line), candidates[0]), number
+
+
+def _has_rows(lines: Sequence[str], delimiter: str, k: int, required: Collection[str]) -> bool:
+    """Return whether the row below line k, or below its row of units, has a number in its place."""
+    names = cells_of(lines[k], delimiter)
+    for line in lines[k + 1 : k + 3]:
+        cells = cells_of(line if delimiter == "," else line.replace(",", "."), delimiter)
+        if _are_units(cells):
+            continue
+        pairs = zip(names, cells, strict=False)
+        return any(name in required and bool(NUMBER.fullmatch(cell)) for name, cell in pairs)
+    return False
 
 
 def _header_above(above: Sequence[tuple[int, str]], delimiter: str) -> int | None:

@@ -227,11 +227,19 @@ def test_a_law_is_composed_in_a_few_levels_only(tmp_path):
     law = NeoHookean(5e3)
     for _ in range(5):
         law = Composed(NeoHookean(1e3), law)
-    assert written_and_read(law, tmp_path / "law.toml").law == law
+    path = tmp_path / "law.toml"
+    assert written_and_read(law, path).law == law
+    with pytest.raises(BadInput, match="composed in 5 levels at most"):
+        written_and_read(Composed(NeoHookean(1e3), law), tmp_path / "deep.toml")
+    assert not (tmp_path / "deep.toml").exists()
+    part = 'law = "neo-hookean"\nC10 = "5 kPa"\n'
+    table = ".".join(["matrix"] * 5)
+    deeper = f'law = "composed"\n[{table}.fibres]\n{part}[{table}.matrix]\n{part}'
+    path.write_text(path.read_text().replace(part, deeper))
     with pytest.raises(
         BadInput, match=r"'matrix.matrix.matrix.matrix.matrix.fibres' is given, but"
     ):
-        written_and_read(Composed(NeoHookean(1e3), law), tmp_path / "law.toml")
+        load_material(str(path))
 
 
 def test_a_composed_law_is_shown_with_its_parts(tmp_path, capsys):

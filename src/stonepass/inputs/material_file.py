@@ -296,10 +296,16 @@ def material_table(material: Material) -> dict[str, Any]:
     }
 
 
-def _law_table(law: Law, material: str) -> dict[str, Any]:
-    """Return the table of a law; `material` is the name of its material for the message."""
+def _law_table(law: Law, material: str, depth: int = 0) -> dict[str, Any]:
+    """Return the table of a law; `material` is the name of its material for the message.
+
+    The table stands `depth` levels inside that of a composed law.
+    """
+    if depth > DEEPEST:
+        raise BadInput("law of the material", material,
+                       f"composed in {DEEPEST} levels at most to be written")  # fmt: skip
     if isinstance(law, Composed):
-        parts = {name: _law_table(getattr(law, name), material) for name in _PARTS}
+        parts = {name: _law_table(getattr(law, name), material, depth + 1) for name in _PARTS}
         return {"law": COMPOSED, **parts}
     name_of = name_of_law(law)
     if not name_of:

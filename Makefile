@@ -20,7 +20,7 @@ run: $(VENV)/.run ## compute the paper's headline: table here, figure in headlin
 test: $(VENV)/.dev ## run the fast tests: every command, contract and identity, in about five minutes on two cores
 	$(BIN)/pytest -n auto --dist worksteal -m "not slow"
 
-test-slow: $(VENV)/.dev ## run the tests that `make test` leaves out: fuzzing, other programs
+test-slow: $(VENV)/.dev ## run the tests that `make test` leaves out: other programs, browser, fuzzing
 	$(BIN)/pytest -n auto --dist worksteal -m slow
 
 test-all: test test-slow ## run all tests

@@ -61,6 +61,13 @@ first_call.install()
 install_import_hook([m for m in numerical_modules() if m not in DOORS], "first_call.checked")
 
 
+def pytest_collection_modifyitems(items):
+    """A browser is another program, so its tests are run by `make test-all`."""
+    for each in items:
+        if "browser" in each.fixturenames:
+            each.add_marker("slow")
+
+
 def wrap_solver(monkeypatch, wrapper):
     """Replace each function of the uncached state solver by ``wrapper(name, function)``."""
     from stonepass.model.states.uncached import UNCACHED

@@ -53,7 +53,6 @@ def test_assessment_is_cancelled(page):
     panel.get_by_text("The work was cancelled.").wait_for()
 
 
-@pytest.mark.slow
 def test_assessment_of_a_patient(page):
     panel = opened(page, "Patient")
     panel.get_by_role("button", name="Assess").click()
@@ -94,7 +93,6 @@ def test_fitted_wall_is_taken_over(page):
     assert page.locator(".reading .big").count() == 2
 
 
-@pytest.mark.slow
 def test_wall_with_constants_of_its_own_is_solved_and_linked(page):
     panel = opened(page, "Laboratory")
     panel.get_by_label("Drop a CSV file").set_input_files(EXAMPLES / "ureter_tensile.csv")

@@ -195,7 +195,8 @@ def _by_profile(minimizer: Any, result: Any, name: str) -> Interval:
             solved[value] = moved, _chi_square(minimizer, moved)
         return solved[value][1] - level
 
-    spread = parameter.stderr if parameter.stderr else abs(best)
+    error = parameter.stderr or 0.0
+    spread = error if 0.0 < error < np.inf else abs(best)
     precision = SEARCHED if others else CLOSED
     bounds = (parameter.min, parameter.max)
     return ends_of_profile(excess, best, 0.5 * spread, bounds, precision)

@@ -16,11 +16,15 @@ from stonepass.array_types import Float
 
 __all__ = ["improved"]
 
+PRECISION = 1e-8
 INSIDE = 1e-9  # smallest relative distance of a starting point from the bounds of the search
 
 
 def improved(
-    residuals: Callable[[Any], Float[np.ndarray, " n"]], start: Any, iterations: int
+    residuals: Callable[[Any], Float[np.ndarray, " n"]],
+    start: Any,
+    iterations: int,
+    precision: float = PRECISION,
 ) -> Any:
     """Return lmfit parameters after a number of iterations from a starting point.
 
@@ -33,6 +37,8 @@ def improved(
     iterations : int
         Largest number of iterations; each takes one evaluation, and one more for every parameter
         that is not held.
+    precision : float
+        The search ends if an iteration lowers the sum of squares by less than this fraction.
     """
     free = [each for each in start.values() if each.vary]
     if not free:
@@ -58,6 +64,6 @@ def improved(
     with np.errstate(all="ignore"):  # trial constants may have no finite prediction
         found = least_squares(
             lambda x: residuals(moved_to(x)), at, bounds=(lowest, highest), x_scale="jac",
-            max_nfev=iterations,
+            max_nfev=iterations, ftol=precision,
         )  # fmt: skip
     return moved_to(found.x)

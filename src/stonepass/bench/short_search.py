@@ -18,8 +18,9 @@ from stonepass.bench.same_solid import energies, same_solid
 
 __all__ = ["most_promising"]
 
-# Each round improves so many of the best points by so many iterations.
-ROUNDS = ((40, 12), (10, 60))
+# Each round improves so many of the best points by so many iterations, or until an iteration lowers
+# the sum of squares by less than this fraction.
+ROUNDS = ((40, 12, 1e-2), (10, 60, 1e-3))
 
 
 def most_promising(objective: Objective, starts: Sequence[Any], count: int) -> list[Any]:
@@ -36,10 +37,12 @@ def most_promising(objective: Objective, starts: Sequence[Any], count: int) -> l
         Largest number of points that are returned. They are different solids.
     """
     points = list(starts)
-    for tried, iterations in ROUNDS:
+    for tried, iterations, precision in ROUNDS:
         if len(points) <= count:
             return points
-        found = [improved(objective.residuals, each, iterations) for each in points[:tried]]
+        found = [
+            improved(objective.residuals, each, iterations, precision) for each in points[:tried]
+        ]
         found.sort(key=objective.misfit)
         points = _different(objective, found)
     return points[:count]

@@ -11,7 +11,7 @@ from scipy.stats import t as student
 from strips import nominal_stress
 
 import stonepass as sp
-from stonepass.bench.law_fit import fit_law
+from stonepass.bench.law_fit import fit_law, refuse_gross_error
 from stonepass.bench.least_squares import profile_level
 from stonepass.bench.test_data import AXES, Inflation, Tension
 from stonepass.bench.test_files import read_inflation, read_tension
@@ -1002,3 +1002,30 @@ def test_intervals_beyond_the_parabola_are_those_of_the_profile():
 
     for end in (b.low, b.high):
         assert profiled(end) / least == pytest.approx(profile_level(10), rel=2e-3)
+
+
+@pytest.mark.slow
+def test_an_interval_extends_to_values_that_another_minimum_allows():
+    """χ² has two minima here, with a1122 above and below zero; the profiles pass through both."""
+    law = Fung(C=0.4e6, a1111=0.7, a2222=0.9, a1122=0.2, G=12e3)
+    stretch = np.linspace(1.02, 1.4, 15)
+    clean = tension(law, stretch, AXES)
+    noise = np.random.default_rng(2).normal(size=30)
+    data = replace(clean, stress=clean.stress + 0.01 * np.abs(clean.stress).max() * noise)
+    fitted = fit_law(data, "fung", {"G": 12e3})
+    allowed = profile_level(30 - 4) * float(np.sum(fitted.residuals**2))
+    known = {each.name: each for each in fitted.constants}
+    for name, value in (("a1111", 0.9), ("a2222", 1.1), ("a1122", -0.5)):
+        held = fit_law(data, "fung", {"G": 12e3, name: value})
+        assert float(np.sum(held.residuals**2)) < allowed
+        assert known[name].low < value < known[name].high
+
+
+def test_a_last_point_that_the_law_predicts_is_no_gross_error():
+    """An exponential law exceeds all other loads tenfold at the last point."""
+    data = tension(Demiray(2e4, 1.0), np.array([1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 3.2]))
+    assert data.stress[-1] > 10.0 * data.stress[-2]
+    refuse_gross_error(data, "demiray", {}, ())
+    wrong = replace(data, stress=np.append(data.stress[:-1], 3.0 * data.stress[-1]))
+    with pytest.raises(BadInput, match=r"of point 7 is .* but must be near"):
+        refuse_gross_error(wrong, "demiray", {}, ())

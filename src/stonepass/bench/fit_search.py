@@ -127,12 +127,15 @@ class BestFit:
     as_good : list of dict of str to float
         Constants, in SI units, at which the search ended from other starting points, if they
         describe the data as well as the result.
+    others : list of lmfit.Parameters
+        The points at which the search ended from the other starting points.
     """
 
     objective: Objective
     minimizer: Any
     result: Any
     as_good: list[dict[str, float]]
+    others: list[Any]
 
 
 def best_fit(
@@ -164,15 +167,15 @@ def best_fit(
     noise = float(result.chisqr) / max(1, len(data.observed) - len(search.free))
     level = float(np.sum((data.observed / objective.spread) ** 2))
     limit = float(result.chisqr) + AS_GOOD * noise + EXACT * level
-    others = [each for each in ended[1:] if objective.misfit(each) <= limit]
-    as_good = [{k: float(v) for k, v in each.valuesdict().items()} for each in others]
+    equal = [each for each in ended[1:] if objective.misfit(each) <= limit]
+    as_good = [{k: float(v) for k, v in each.valuesdict().items()} for each in equal]
     for _ in range(REWEIGHTED if relative else 0):
         predicted = objective.predicted(result.params.valuesdict())
         if not np.all(np.isfinite(predicted)):
             break
         objective = replace(objective, spread=proportional_spread(predicted))
         minimizer, result = _minimized(objective, result.params)
-    return BestFit(objective, minimizer, result, as_good)
+    return BestFit(objective, minimizer, result, as_good, ended[1:])
 
 
 def _minimized(objective: Objective, parameters: Any) -> tuple[Any, Any]:

@@ -30,16 +30,17 @@ from stonepass.materials.protocol import Law, Material
 from stonepass.materials.stability import SOFTEST_WALL, check
 from stonepass.result import Result
 
-__all__ = ["Constant", "Data", "FittedLaw", "fit_law"]
+__all__ = ["Constant", "Data", "FittedLaw", "fit_law", "refuse_gross_error"]
 
 FEWEST_OF_A_TREND = 8  # smallest number of points for the test of a trend
 # Smallest error of a point, as a fraction of the largest, in the test for lack of fit if residuals
 # grow with the values. Without it the points at rest, whose noise does not vanish, would decide.
 SHARE_OF_REST = 0.05
 UNLIKELY = 0.01  # significance level of the test of a trend
-# A load is a gross error if it exceeds the largest of the others this many times, and if the law
-# describes the others with at least this R².
-GROSS, WELL = 10.0, 0.9
+# A load is a gross error if it exceeds the largest of the others this many times, if the law
+# describes the others with at least this R², and if it differs from the prediction by at least this
+# fraction.
+GROSS, WELL, FAR = 10.0, 0.9, 0.5
 # A specimen is broken where it carries less than this fraction of the largest load, in at least so
 # many rows at its end.
 BROKEN, FEWEST_AFTER = 0.2, 2
@@ -204,7 +205,7 @@ def fit_law(
     try:
         at_bounds = check_fit(objective, search, result)
     except BadInput:
-        _refuse_gross_error(data, law, fixed, free)
+        refuse_gross_error(data, law, fixed, free)
         _refuse_rupture(data)
         raise
     values = {each: float(value) for each, value in result.params.valuesdict().items()}
@@ -215,7 +216,7 @@ def fit_law(
     doubts = _doubts(objective, material.law, values, search.free, proportional=bool(growing))
     held = {dict(one.values)["name"] for one in at_bounds}
     inside = [each for each in search.free if each not in held]
-    bounds, open_ends = intervals(minimizer, result, inside)
+    bounds, open_ends = intervals(minimizer, result, inside, best.others)
     unstable, odd = _unstable(material, data)
     return FittedLaw(
         material=material,
@@ -269,13 +270,23 @@ def _refuse_rupture(data: Data) -> None:
         )
 
 
-def _refuse_gross_error(
+def refuse_gross_error(
     data: Data, law: str, given: Mapping[str, float], free: Sequence[str]
 ) -> None:
     """Refuse data without a fit by the name of a single point, if the others have one.
 
-    The point with the largest load is left out. It is named if the law describes the others well
-    and its load exceeds 10 times the largest load of the others.
+    The point with the largest load is left out. It is named if the law describes the others well,
+    its load exceeds 10 times the largest load of the others, and the law does not predict it.
+
+    Parameters
+    ----------
+    data, law, given, free
+        See `fit_law`.
+
+    Raises
+    ------
+    BadInput
+        There is such a point.
     """
     worst = int(np.argmax(np.abs(data.observed)))
     others = data.without(worst)
@@ -291,7 +302,8 @@ def _refuse_gross_error(
     result = best_fit(objective, search, search.starts(objective), relative=False).result
     expected = Objective(data, search.made, data.observed).predicted(result.params.valuesdict())
     r_squared = r_squared_of(np.delete(expected - data.observed, worst), others.observed)
-    if r_squared > WELL and np.isfinite(expected[worst]):
+    apart = abs(expected[worst] - data.observed[worst]) > FAR * abs(data.observed[worst])
+    if r_squared > WELL and np.isfinite(expected[worst]) and apart:
         point = f"row {data.lines[worst]}" if data.lines else f"point {worst + 1}"
         raise BadInput(f"{data.measured} of {point}", f"{data.observed[worst] / 1e3:.6g} kPa",
                        f"near the {expected[worst] / 1e3:.3g} kPa that the fit to all other points "

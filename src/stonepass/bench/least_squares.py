@@ -28,6 +28,9 @@ __all__ = [
 LEVEL = 0.95  # confidence level of all intervals
 FARTHER = 2.0  # ratio of successive steps outwards along a profile
 STEPS = 40  # largest number of these steps
+LONGEST_PART = (
+    0.25  # longest step along a profile as a fraction of the distance from the best value
+)
 ITERATIONS = 60  # largest number of iterations for a point of a profile
 # Precision of the ends of an interval as a fraction of their distance from the best value, for a
 # profile in closed form and for one that takes a search at each point.
@@ -50,6 +53,7 @@ def intervals(
     minimizer: Any,
     result: Any,
     free: Sequence[str],
+    also: Sequence[Any] = (),
 ) -> tuple[dict[str, Interval], list[Caution]]:
     """Compute 95 % confidence intervals of fitted parameters.
 
@@ -66,6 +70,8 @@ def intervals(
     free : sequence of str
         Names of the parameters for which intervals are wanted. Fitted parameters that lie at a
         bound are left out.
+    also : sequence of lmfit.Parameters
+        Other minima of χ². A profile that begins at the best fit may have to pass through them.
 
     Returns
     -------
@@ -81,7 +87,7 @@ def intervals(
     """
     bounds = _by_parabola(minimizer, result, free)
     if bounds is None:
-        bounds = {name: _by_profile(minimizer, result, name) for name in free}
+        bounds = _by_profiles(minimizer, result, free, also)
     within = {name: _within(each, result.params[name]) for name, each in bounds.items()}
     return within, open_ended(within)
 
@@ -174,32 +180,69 @@ def open_ended(
     return told
 
 
-def _by_profile(minimizer: Any, result: Any, name: str) -> Interval:
+def _by_profiles(
+    minimizer: Any, result: Any, free: Sequence[str], also: Sequence[Any]
+) -> dict[str, Interval]:
+    """Return the intervals of several parameters from their profiles.
+
+    The profile of one parameter may pass through a minimum that the search for another one has not
+    met. An interval is therefore searched again if a profile of another parameter has a point
+    inside the confidence region and outside this interval.
+    """
+    found = {name: _by_profile(minimizer, result, name, also) for name in free}
+    inside = [each for _, points in found.values() for each in points]
+    bounds = {}
+    for name, ((low, high), _) in found.items():
+        values = [float(each[name].value) for each in inside]
+        first, last = int(np.argmin(values)), int(np.argmax(values))
+        beyond = [inside[first]] if low is not None and values[first] < low else []
+        beyond += [inside[last]] if high is not None and values[last] > high else []
+        bounds[name] = low, high
+        if beyond:
+            bounds[name], _ = _by_profile(minimizer, result, name, [*also, *beyond])
+    return bounds
+
+
+def _by_profile(
+    minimizer: Any, result: Any, name: str, also: Sequence[Any]
+) -> tuple[Interval, list[Any]]:
     """Return the values on both sides of the best fit at which χ² reaches `profile_level`.
 
     At each value of the parameter χ² is minimised over the other parameters, beginning at the
-    nearest value for which this has been done.
+    nearest point inside the interval, and if this ends outside it, at the points `also`. The points
+    inside the interval are returned, too.
     """
     best, parameter = float(result.params[name].value), result.params[name]
     others = [each for each in result.var_names if each != name]
-    held = result.params.copy()
-    held[name].set(vary=False)
-    solved = {best: (held, _chi_square(minimizer, held))}
-    level = solved[best][1] * profile_level(result.nfree)
+
+    def at(start: Any, value: float) -> tuple[float, Any]:
+        """Return the smallest χ² at a value, and its parameters."""
+        moved = start.copy()
+        for each in result.var_names:
+            moved[each].set(vary=each != name)
+        moved[name].set(value=value)
+        moved = improved(minimizer.userfcn, moved, ITERATIONS)
+        return _chi_square(minimizer, moved), moved
+
+    known = {best: (_chi_square(minimizer, result.params), result.params)}
+    level = known[best][0] * profile_level(result.nfree)
 
     def excess(value: float) -> float:
-        if value not in solved:
-            moved = solved[min(solved, key=lambda each: abs(each - value))][0].copy()
-            moved[name].set(value=value)
-            moved = improved(minimizer.userfcn, moved, ITERATIONS)
-            solved[value] = moved, _chi_square(minimizer, moved)
-        return solved[value][1] - level
+        if value not in known:
+            inside = [each for each, (reached, _) in known.items() if reached <= level]
+            nearest = min(inside, key=lambda each: abs(each - value))
+            known[value] = at(known[nearest][1], value)
+            if known[value][0] > level and others:
+                tried = [known[value], *(at(each, value) for each in also)]
+                known[value] = min(tried, key=lambda each: each[0])
+        return known[value][0] - level
 
     error = parameter.stderr or 0.0
     spread = error if 0.0 < error < np.inf else abs(best)
     precision = SEARCHED if others else CLOSED
     bounds = (parameter.min, parameter.max)
-    return ends_of_profile(excess, best, 0.5 * spread, bounds, precision)
+    ends = ends_of_profile(excess, best, 0.5 * spread, bounds, precision)
+    return ends, [each for reached, each in known.values() if reached <= level]
 
 
 def _chi_square(minimizer: Any, parameters: Any) -> float:

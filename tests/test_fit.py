@@ -21,6 +21,7 @@ from stonepass.inputs.material_file import load_material, write_law
 from stonepass.materials.catalogue import material
 from stonepass.materials.demiray import Demiray
 from stonepass.materials.fung import Fung
+from stonepass.materials.holzapfel import HolzapfelGasserOgden
 from stonepass.materials.known_laws import KNOWN_LAWS, constants_by_name, name_of_law
 from stonepass.materials.mooney_rivlin import MooneyRivlin
 from stonepass.materials.neo_hookean import NeoHookean
@@ -1029,3 +1030,11 @@ def test_a_last_point_that_the_law_predicts_is_no_gross_error():
     wrong = replace(data, stress=np.append(data.stress[:-1], 3.0 * data.stress[-1]))
     with pytest.raises(BadInput, match=r"of point 7 is .* but must be near"):
         refuse_gross_error(wrong, "demiray", {}, ())
+
+
+def test_a_fibre_stiffness_of_zero_lies_at_the_bound_of_the_law_whatever_the_scale():
+    stretch = np.linspace(1.02, 1.4, 15)
+    for scale in (1.0, 1e3):
+        data = tension(HolzapfelGasserOgden(1e4 * scale, 0.0, 3.0, 0.7), stretch, AXES)
+        fitted = fit_law(data, "holzapfel-gasser-ogden", {"k2": 3.0, "angle": 0.7})
+        assert "constant_at_bound" in {each.code for each in fitted.warnings}

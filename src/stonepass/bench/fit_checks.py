@@ -173,7 +173,8 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
         shown = shown_constant(values[name], each)
         limit = each.low if end == "lower" else each.high
         own = each.low_allowed if end == "lower" else each.high_allowed
-        if own and each.positive and abs(limit - values[name]) < 1e-2 * max(abs(limit), 1.0):
+        bound = result.params[name].min if end == "lower" else result.params[name].max
+        if own and each.positive and bound == limit:
             told.append(caution("constant_at_bound", name=name, value=shown))
             continue
         raise BadInput(f"constant {name} of the {law_of}", f"{shown}, the {end} bound of the "

@@ -28,9 +28,6 @@ __all__ = [
 LEVEL = 0.95  # confidence level of all intervals
 FARTHER = 2.0  # ratio of successive steps outwards along a profile
 STEPS = 40  # largest number of these steps
-LONGEST_PART = (
-    0.25  # longest step along a profile as a fraction of the distance from the best value
-)
 ITERATIONS = 60  # largest number of iterations for a point of a profile
 # Precision of the ends of an interval as a fraction of their distance from the best value, for a
 # profile in closed form and for one that takes a search at each point.

@@ -65,10 +65,10 @@ def strip_stress(
         for _ in range(STEPS):
             here, there = _slope(law, log_a, log_b + near, around, lateral=True)
             stiffness = (there - here) / NEARBY
-            step = np.clip(-here / stiffness, -LARGEST_STEP, LARGEST_STEP)
+            step = np.minimum(np.maximum(-here / stiffness, -LARGEST_STEP), LARGEST_STEP)
             step = np.where(here == 0.0, 0.0, step)
             log_b = log_b + step
-            if np.all(~(np.abs(step) > TOLERANCE)):
+            if not (np.abs(step) > TOLERANCE).any():
                 break
         log_b = np.where(np.abs(step) <= TOLERANCE, log_b, np.nan)
         return _slope(law, log_a, log_b, around, lateral=False) / stretch, stiffness
@@ -83,9 +83,13 @@ def _slope(
     lateral: bool,
 ) -> Float[np.ndarray, "... n"]:
     """Compute ∂w/∂ln b (`lateral`) or ∂w/∂ln λ in Pa."""
-    a = log_a + (0.0 if lateral else 1j * IMAGINARY)
-    b = log_b + (1j * IMAGINARY if lateral else 0.0)
-    C_aa, C_bb, C_rr = np.exp(2.0 * a), np.exp(2.0 * b), np.exp(-2.0 * (a + b))
+    C_aa, C_bb = np.exp(2.0 * log_a), np.exp(2.0 * log_b)
+    # exp(x + i ε) = exp(x) (1 + i ε) to rounding, without a complex exponential.
+    C_rr = (1.0 / (C_aa * C_bb)) * (1.0 - 2j * IMAGINARY)
+    if lateral:
+        C_bb = C_bb * (1.0 + 2j * IMAGINARY)
+    else:
+        C_aa = C_aa * (1.0 + 2j * IMAGINARY)
     C_tt, C_zz = np.where(around, C_aa, C_bb), np.where(around, C_bb, C_aa)
     energy = law.energy(CauchyGreen(C_rr, C_tt, C_zz, 0.0 * C_rr), INNER_WALL, np)
     return np.imag(energy) / IMAGINARY

@@ -62,10 +62,14 @@ install_import_hook([m for m in numerical_modules() if m not in DOORS], "first_c
 
 
 def pytest_collection_modifyitems(items):
-    """A browser is another program, so its tests are run by `make test-all`."""
+    """A browser is another program, so its tests are run by `make test-all`.
+
+    The longest tests begin first, so that the other processes do not wait for them at the end.
+    """
     for each in items:
         if "browser" in each.fixturenames:
             each.add_marker("slow")
+    items.sort(key=lambda each: each.get_closest_marker("longest") is None)
 
 
 def wrap_solver(monkeypatch, wrapper):

@@ -160,6 +160,7 @@ def test_files_and_rows_hold_everything(shipped, tmp_path, capsys):
 
 
 @pytest.mark.slow
+@pytest.mark.longest
 @pytest.mark.parametrize(("load", "effort"), [("0 kPa", 0.15), ("4 kPa", 0.08)])
 def test_a_surrogate_of_your_own_is_built_and_checked(load, effort):
     box = Box(size_ratio=1.3, wall_ratio=(1.4, 2.0), friction=(0.1, 0.6))

@@ -383,6 +383,7 @@ def test_damaged_files_and_changed_materials_are_refused(shipped, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.longest
 def test_a_surrogate_of_your_own_is_built_and_checked(tmp_path):
     """A small box of a soft rubber; the measured error is within the claim."""
     case = sp.Case(

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 
 from stonepass.array_types import Float
-from stonepass.bench.fit_search import EVALUATIONS, Search
+from stonepass.bench.fit_search import Search
 from stonepass.bench.least_squares import LEVEL
 from stonepass.bench.objective import Data, Objective, at_an_end
 from stonepass.caution import Caution, caution
@@ -24,6 +24,9 @@ INDISTINCT = 1e-6
 # A constant is named if its component in an unidentified direction (a unit vector) exceeds this, or
 # if its effect on the predictions along that direction exceeds this fraction of the largest effect.
 SHARE = 0.3
+VAGUE = (
+    30.0  # largest relative standard error of a combination of constants; the fit is refused above
+)
 SAME = 1e-3  # relative difference of two coefficients that are equal
 
 
@@ -147,7 +150,7 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
     BadInput
         The law predicts no stress for some of the data, R² is negative, a constant lies at a bound
         of the search, the F test shows no improvement over a law without stress, the data do not
-        identify some constants separately, or the search has not ended.
+        identify some constants separately, or hardly so.
 
     References
     ----------
@@ -194,23 +197,34 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
     blind = _blind(objective, values, inside)
     if blind is not None:
         _refuse_blind(blind)
-    if result.aborted:
-        _refuse_endless(objective, search, values, inside)
+    _refuse_vague(objective, search, values, inside, endless=result.aborted)
     return told
 
 
-def _refuse_endless(
-    objective: Objective, search: Search, values: Mapping[str, float], free: Sequence[str]
+def _refuse_vague(
+    objective: Objective,
+    search: Search,
+    values: Mapping[str, float],
+    free: Sequence[str],
+    *,
+    endless: bool,
 ) -> None:
-    """Refuse a search that has not ended, by the constants that the data determine least."""
-    _, _, directions = np.linalg.svd(objective.sensitivities(values, free), full_matrices=False)
+    """Refuse constants of which the data determine hardly more than a combination.
+
+    In some direction of relative changes, the standard error exceeds `VAGUE`, or the search has no
+    end.
+    """
+    slopes, off = objective.sensitivities(values, free), objective.off(values)
+    _, sizes, directions = np.linalg.svd(slopes, full_matrices=False)
+    noise = float(np.sqrt(off @ off / (len(off) - len(free))))
+    if noise <= VAGUE * sizes[-1] and not endless:
+        return
     names = [name for name, part in zip(free, directions[-1], strict=True) if abs(part) > SHARE]
     raise BadInput(
-        f"search for the constants of law '{search.law}'",
-        f"without an end after {EVALUATIONS} evaluations",
-        "at a least sum of squares",
-        f"the data hardly determine {' and '.join(names)} separately: fix one of them, e.g. "
-        f"--fix {names[-1]}=VALUE, or use another kind of test",
+        f"effect of {' and '.join(names)} on the predictions",
+        "hardly separable",
+        "distinct for each fitted constant",
+        f"fix one of them, e.g. --fix {names[-1]}=VALUE, or use another kind of test",
     )
 
 

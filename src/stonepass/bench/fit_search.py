@@ -18,7 +18,7 @@ from stonepass.errors import BadInput, refuse_unknown, require
 from stonepass.materials.constants import ConstantDeclaration, shown_constant
 from stonepass.materials.known_laws import constants_by_name, known_law
 
-__all__ = ["EVALUATIONS", "BestFit", "Search", "best_fit", "proportional_spread", "search_for"]
+__all__ = ["BestFit", "Search", "best_fit", "proportional_spread", "search_for"]
 
 # Smallest proportional error, as a fraction of the error at the largest stress.
 SMALLEST_SHARE = 0.01

@@ -28,6 +28,9 @@ __all__ = [
 LEVEL = 0.95  # confidence level of all intervals
 FARTHER = 2.0  # ratio of successive steps outwards along a profile
 STEPS = 40  # largest number of these steps
+# A point of a profile is tried again from other minima if its distance from the nearest point
+# inside the interval exceeds this fraction of its distance from the best value.
+APART = 0.1
 ITERATIONS = 60  # largest number of iterations for a point of a profile
 # Precision of the ends of an interval as a fraction of their distance from the best value, for a
 # profile in closed form and for one that takes a search at each point.
@@ -229,7 +232,8 @@ def _by_profile(
             inside = [each for each, (reached, _) in known.items() if reached <= level]
             nearest = min(inside, key=lambda each: abs(each - value))
             known[value] = at(known[nearest][1], value)
-            if known[value][0] > level and others:
+            apart = abs(value - nearest) > APART * abs(value - best)
+            if known[value][0] > level and others and apart:
                 tried = [known[value], *(at(each, value) for each in also)]
                 known[value] = min(tried, key=lambda each: each[0])
         return known[value][0] - level

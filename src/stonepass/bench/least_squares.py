@@ -31,7 +31,7 @@ STEPS = 40  # largest number of these steps
 # A point of a profile is tried again from other minima if its distance from the nearest point
 # inside the interval exceeds this fraction of its distance from the best value.
 APART = 0.1
-ITERATIONS = 60  # largest number of iterations for a point of a profile
+ITERATIONS = 20  # largest number of iterations for a point of a profile
 # Precision of the ends of an interval as a fraction of their distance from the best value, for a
 # profile in closed form and for one that takes a search at each point.
 CLOSED, SEARCHED = 1e-10, 1e-4

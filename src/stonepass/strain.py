@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-__all__ = ["INNER_WALL", "CauchyGreen", "Place"]
+__all__ = ["COMPONENTS", "INNER_WALL", "CauchyGreen", "Place"]
+
+# Directions of the components rr, tt, zz, rz, rt, tz, where 0, 1, 2 stand for r, t, z.
+COMPONENTS = ((0, 0), (1, 1), (2, 2), (0, 2), (0, 1), (1, 2))
 
 
 class CauchyGreen(NamedTuple):

@@ -24,9 +24,9 @@ INDISTINCT = 1e-6
 # A constant is named if its component in an unidentified direction (a unit vector) exceeds this, or
 # if its effect on the predictions along that direction exceeds this fraction of the largest effect.
 SHARE = 0.3
-VAGUE = (
-    30.0  # largest relative standard error of a combination of constants; the fit is refused above
-)
+# Largest standard error of a combination of relative changes of the constants; a fit with a larger
+# one is refused.
+VAGUE = 30.0
 SAME = 1e-3  # relative difference of two coefficients that are equal
 
 
@@ -88,7 +88,9 @@ def check_told(objective: Objective, search: Search, starts: Sequence[Any]) -> N
     """
     told: list[_Blind] = []
     for start in starts:
-        found = _blind(objective, start.valuesdict(), search.free)
+        values = start.valuesdict()
+        slopes = objective.sensitivities(values, search.free)
+        found = _blind(objective, slopes, values, search.free)
         if found is None:
             return
         told.append(found)
@@ -104,9 +106,13 @@ class _Blind:
     determined: str
 
 
-def _blind(objective: Objective, values: Mapping[str, float], free: Sequence[str]) -> _Blind | None:
+def _blind(
+    objective: Objective,
+    slopes: Float[np.ndarray, "n free"],
+    values: Mapping[str, float],
+    free: Sequence[str],
+) -> _Blind | None:
     """Return the constants whose changes can leave every prediction unchanged; None without one."""
-    slopes = objective.sensitivities(values, free)
     _, sizes, directions = np.linalg.svd(slopes, full_matrices=False)
     blind = np.abs(directions[sizes <= INDISTINCT * sizes[0]])
     if not len(blind):
@@ -194,17 +200,17 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
                        remedy)  # fmt: skip
     named = {dict(each.values)["name"] for each in told}
     inside = [each for each in search.free if each not in named]
-    blind = _blind(objective, values, inside)
+    slopes = objective.sensitivities(values, inside)
+    blind = _blind(objective, slopes, values, inside)
     if blind is not None:
         _refuse_blind(blind)
-    _refuse_vague(objective, search, values, inside, endless=result.aborted)
+    _refuse_vague(slopes, off, inside, endless=result.aborted)
     return told
 
 
 def _refuse_vague(
-    objective: Objective,
-    search: Search,
-    values: Mapping[str, float],
+    slopes: Float[np.ndarray, "n free"],
+    off: Float[np.ndarray, " n"],
     free: Sequence[str],
     *,
     endless: bool,
@@ -214,7 +220,6 @@ def _refuse_vague(
     In some direction of relative changes, the standard error exceeds `VAGUE`, or the search has no
     end.
     """
-    slopes, off = objective.sensitivities(values, free), objective.off(values)
     _, sizes, directions = np.linalg.svd(slopes, full_matrices=False)
     noise = float(np.sqrt(off @ off / (len(off) - len(free))))
     if noise <= VAGUE * sizes[-1] and not endless:

@@ -26,15 +26,14 @@ import numpy as np
 from stonepass.array_types import Float
 from stonepass.materials.derivatives import energy_derivatives, rest_moduli
 from stonepass.materials.protocol import Law
-from stonepass.strain import CauchyGreen, Place
+from stonepass.strain import COMPONENTS, CauchyGreen, Place
 
 __all__ = ["Weakest", "shear_stiffness", "spatial_moduli", "weakest"]
 
 COARSE = 7  # number of directions n per quarter turn in the first scan
 REFINED = 24  # number of deformations, those of least stiffness, for which n is refined
 ZOOMS = 4  # number of refinements of n; each reduces the spacing to a quarter
-# Directions of the components rr, tt, zz, rz, rt, tz, where 0, 1, 2 stand for r, t, z.
-FIRST, SECOND = np.array([(0, 0), (1, 1), (2, 2), (0, 2), (0, 1), (1, 2)]).T
+FIRST, SECOND = np.array(COMPONENTS).T  # the two directions of each component
 
 
 @dataclass(frozen=True)

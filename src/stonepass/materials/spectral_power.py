@@ -19,11 +19,10 @@ from autograd.extend import defvjp, primitive
 
 from stonepass.array_types import Float
 from stonepass.materials.binomial_series import NEAR, TERMS, binomials
-from stonepass.strain import CauchyGreen
+from stonepass.strain import COMPONENTS, CauchyGreen
 
 __all__ = ["trace_of_power"]
 
-_ROWS = ((0, 0), (1, 1), (2, 2), (0, 2), (0, 1), (1, 2))  # rr, tt, zz, rz, rt, tz
 # A derivative with respect to C_rz counts both C_rz and C_zr; the same holds for C_rt and C_tz.
 _TWICE = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
 
@@ -90,14 +89,16 @@ def _eigen(
 
 def _matrix(C: Float[np.ndarray, "6 ..."]) -> Float[np.ndarray, "... 3 3"]:
     full = np.empty((*C.shape[1:], 3, 3))
-    for component, (i, j) in zip(C, _ROWS, strict=True):
+    for component, (i, j) in zip(C, COMPONENTS, strict=True):
         full[..., i, j] = full[..., j, i] = component
     return full
 
 
 def _components(full: Float[np.ndarray, "... 3 3"]) -> Float[np.ndarray, "6 ..."]:
     """Convert a derivative with respect to the matrix C to derivatives for its six components."""
-    return np.stack([twice * full[..., i, j] for twice, (i, j) in zip(_TWICE, _ROWS, strict=True)])
+    return np.stack(
+        [twice * full[..., i, j] for twice, (i, j) in zip(_TWICE, COMPONENTS, strict=True)]
+    )
 
 
 def _transposed(full: Float[np.ndarray, "... 3 3"]) -> Float[np.ndarray, "... 3 3"]:

@@ -1038,3 +1038,11 @@ def test_a_fibre_stiffness_of_zero_lies_at_the_bound_of_the_law_whatever_the_sca
         data = tension(HolzapfelGasserOgden(1e4 * scale, 0.0, 3.0, 0.7), stretch, AXES)
         fitted = fit_law(data, "holzapfel-gasser-ogden", {"k2": 3.0, "angle": 0.7})
         assert "constant_at_bound" in {each.code for each in fitted.warnings}
+
+
+def test_the_only_fitted_constant_may_lie_at_the_bound_of_its_law():
+    data = tension(HolzapfelGasserOgden(1e4, 0.0, 3.0, 0.7), axes=AXES)
+    given = {"mu": 1.02e4, "k2": 3.0, "angle": 0.7}
+    fitted = fit_law(data, "holzapfel-gasser-ogden", given)
+    assert "constant_at_bound" in {each.code for each in fitted.warnings}
+    assert (fitted.band == 0.0).all()

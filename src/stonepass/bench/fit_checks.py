@@ -200,6 +200,8 @@ def check_fit(objective: Objective, search: Search, result: Any) -> list[Caution
                        remedy)  # fmt: skip
     named = {dict(each.values)["name"] for each in told}
     inside = [each for each in search.free if each not in named]
+    if not inside:
+        return told
     slopes = objective.sensitivities(values, inside)
     blind = _blind(objective, slopes, values, inside)
     if blind is not None:
